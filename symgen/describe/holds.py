@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.mechanism import AnyBody, Hold, Joint, Mechanism, SpatialBody
+from symgen.describe.remembered import remembered
 from symgen.vocabulary.expressions import Number
 from symgen.vocabulary.measures import GROUND, Angle
 
@@ -110,6 +111,17 @@ def joint_names(mechanism: Mechanism) -> dict[str, str]:
     return canonical
 
 
+@remembered
+def _names(mechanism: Mechanism) -> tuple[dict[str, str], dict[str, str], dict[str, str]]:
+    """Return the names that a start may hold, in full; those of bodies alone; joint coordinates that bodies have."""
+    bodies = {f"{b.name}.{n}": f"{b.name}.{n}" for b in mechanism.bodies for n in (*b.coordinates, *b.speeds)}
+    joints, same = dict[str, str](), dict[str, str]()
+    for joint in mechanism.joints:
+        joints |= _of_joint(joint)
+        same |= _as_body(joint)
+    return bodies | joints | {x.name: x.name for x in mechanism.states}, bodies, same
+
+
 def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
     """Return all quantities that a start keeps, each under one name.
 
@@ -127,12 +139,7 @@ def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, fl
     InputError
         If a name is unknown (the message names the nearest one), or two names mean one quantity.
     """
-    bodies = {f"{b.name}.{n}": f"{b.name}.{n}" for b in mechanism.bodies for n in (*b.coordinates, *b.speeds)}
-    joints, same = dict[str, str](), dict[str, str]()
-    for joint in mechanism.joints:
-        joints |= _of_joint(joint)
-        same |= _as_body(joint)
-    coordinates = bodies | joints | {x.name: x.name for x in mechanism.states}
+    coordinates, bodies, same = _names(mechanism)
 
     def gathered(pairs: Iterable[tuple[str, Hold]]) -> dict[str, Hold]:
         unique: dict[str, tuple[str, Hold]] = {}

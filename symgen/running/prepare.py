@@ -13,21 +13,25 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.memory import uncollected
+from symgen.base.settings import about
 from symgen.describe.holds import holds_of
+from symgen.layout.start_records import Instant
 from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
 from symgen.running.starts import DescribedStart, begun
-from symgen.running.tree import TreeRun, begin_on_tree, carried_of, on_tree_of, tree_taken_up, upright
+from symgen.running.tree import TreeRun, begin_on_tree, carried_of, on_tree_of, over_of, tree_taken_up
 from symgen.runs.run import integrate
 from symgen.runs.simulation import Simulation
+from symgen.starts.kept import KeptTree
+from symgen.starts.start_words import turned_over
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from symgen.base.settings import Settings
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import Hold, Mechanism
     from symgen.layout.compiled import CompiledModel
     from symgen.loops.run_spec import RunSpec
     from symgen.runs.outcome import Outcome
@@ -247,7 +251,7 @@ def _noted(plan: Plan, assembled: Assembled) -> Assembled:
 
 
 class Restarts:
-    """A run that begins again and again from other values: plan, code and steps stay.
+    """A run that begins again and again from other values: plan, code, memory and steps stay.
 
     Parameters
     ----------
@@ -257,9 +261,10 @@ class Restarts:
 
     def __init__(self, run: Prepared) -> None:
         self._run = run
+        self._kept: KeptTree | None = None
 
-    def at(self, start: Mapping[str, float]) -> Prepared | None:
-        """Return the run from another start, None where this code does not serve there.
+    def state(self, start: Mapping[str, float]) -> Instant | None:
+        """Return state and scratch of the run from another start, None where this code does not serve there.
 
         Parameters
         ----------
@@ -271,21 +276,39 @@ class Restarts:
         InputError, AssemblyError
             As `prepare`.
         """
+        if not self._serves:
+            return None
+        closed, light = self._described.state(self._holds(start))
+        if light or (tree := self._run.tree) is None:
+            return None if light else closed
+        if self._kept is None:
+            self._kept = KeptTree(self._carried, closed, tree.start.p)
+        y, w, alike = self._kept.settle(closed.y, closed.w)
+        y[tree.compiled.info.work :] = closed.y[tree.bodies.info.work :]
+        if (over := over_of(alike)) >= 0:
+            raise turned_over(tree.bodies.info, over)
+        return Instant(y, tree.start.p, w)
+
+    def at(self, start: Mapping[str, float]) -> Prepared:
+        """Return the run from another start, where `state` has one, with its notes and changes."""
         plan, tree = self._run.plan, self._run.tree
-        compiled, _ = self._run.assembled.of_bodies
-        if plan.last is not None or compiled.law.options.get("solver") != plan.choice.options.get("solver"):
-            return None
-        settings = replace(plan.settings, start=start)
-        plan = replace(plan, settings=settings, holds=holds_of(plan.mechanism, "start", settings.start))
-        closed = self._described.start(plan.holds, again=True)
-        if closed.light:
-            return None
+        plan = replace(plan, settings=replace(plan.settings, start=start), holds=self._holds(start))
+        compiled, closed = self._run.assembled.of_bodies[0], self._described.start(plan.holds)
         assembled = Assembled(compiled, closed)
         if tree is not None:
             parts = tree.whole, tree.mechanism, self._carried, closed, plan.method_parameters, plan.events
-            tree = upright(begin_on_tree(*parts))
+            tree = begin_on_tree(*parts)
             assembled = Assembled(tree.compiled, tree.start, tree)
         return replace(self._run, plan=plan, assembled=_noted(plan, assembled))
+
+    def _holds(self, start: Mapping[str, float]) -> tuple[Hold, ...]:
+        return holds_of(self._run.plan.mechanism, "start", about("start").check("start", start))
+
+    @cached_property
+    def _serves(self) -> bool:
+        """Whether the code is the plan's own and begins at time 0."""
+        plan, (compiled, _) = self._run.plan, self._run.assembled.of_bodies
+        return plan.last is None and compiled.law.options.get("solver") == plan.choice.options.get("solver")
 
     @cached_property
     def _described(self) -> DescribedStart:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
-from typing import TYPE_CHECKING
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,11 @@ from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start, moved
+from symgen.layout import ensemble_abi as e
 from symgen.layout.model_arrays import velocity_of
+from symgen.layout.start_records import Instant
 from symgen.starts.assembler import Assembly
-from symgen.starts.assembly import Start, closed_start
+from symgen.starts.assembly import Start, closed_start, closed_state
 from symgen.starts.held import Held
 from symgen.starts.kept import KeptStart
 from symgen.starts.start_words import half_turn, opposite
@@ -94,14 +96,13 @@ class DescribedStart:
         values = parameter_values(mechanism, parameters)
         self.mechanism, self.compiled, self._numbers = mechanism, compiled, scalars(values)
         self._strict, self._ask_light = strict, ask_light
-        self._q, self._v = described_start(mechanism, self._numbers)
+        q, self._v = described_start(mechanism, self._numbers)
+        self._q, self._velocities = np.array(q), np.array([np.nan if x is None else x for x in self._v])
         self._p = compiled.parameter_array(values, method_parameters or {})
         self._datum = datum_of(mechanism, self._numbers)
         self._kept = dict[tuple[tuple[int, ...], ...], KeptStart]()
 
-    def start(
-        self, holds: Held | Sequence[Hold], near: NDArray[np.float64] | None = None, again: bool = False
-    ) -> Start:
+    def start(self, holds: Held | Sequence[Hold], near: NDArray[np.float64] | None = None) -> Start:
         """Return a consistent start.
 
         Parameters
@@ -110,8 +111,6 @@ class DescribedStart:
             Quantities that are held while all others move.
         near : array, optional
             Coordinates that the mechanism is closed from; those that are described by default.
-        again : bool
-            Whether more starts that hold the same quantities will be wanted: then code and memory are kept.
 
         Raises
         ------
@@ -122,17 +121,39 @@ class DescribedStart:
         states = states_at_start(mechanism, numbers, () if isinstance(holds, Held) else holds)
         q = np.array(self._q if near is None else near, dtype=np.float64)
         held = holds if isinstance(holds, Held) else held_of(compiled.info, holds, numbers, self._v)
-        assembly = Assembly(compiled, held, self._strict, self._ask_light, datum=self._datum)
-        p, close = self._p.copy(), assembly.close
-        if again:
-            if held.pattern not in self._kept:
-                self._kept[held.pattern] = KeptStart(assembly, p)
-            kept = self._kept[held.pattern]
-            assembly, close = kept.assembly, partial(kept.close, held)
-        start = closed_start(assembly, held, close, q, self._v, p, partial(moved, mechanism, numbers))
-        start = _sided(mechanism, compiled.info, start)
+        assembly, reported = self._assembly(held), partial(moved, mechanism, numbers)
+        start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
+        if lines := _opposite_sides(mechanism, compiled.info, start.y):
+            start = replace(start, warnings=(*start.warnings, *lines))
         start.y[compiled.info.own_states] = states
         return start
+
+    def state(self, holds: Sequence[Hold]) -> tuple[Instant, bool]:
+        """Return a start without reports, with the bits of `start`, and whether bodies are too light for the solver.
+
+        Code and memory are kept for more starts that hold the same quantities.
+
+        Raises
+        ------
+        AssemblyError, InputError
+            As `start_of`.
+        """
+        mechanism, compiled = self.mechanism, self.compiled
+        held, p = held_of(compiled.info, holds, self._numbers, self._v, self._indices), self._p.copy()
+        if (kept := self._kept.get(held.pattern)) is None:
+            kept = self._kept[held.pattern] = KeptStart(self._assembly(held), p)
+        y, w, summary = closed_state(compiled, held, partial(kept.close, held), self._q, self._velocities.copy(), p)
+        _opposite_sides(mechanism, compiled.info, y)
+        if mechanism.states:
+            y[compiled.info.own_states] = states_at_start(mechanism, self._numbers, holds)
+        return Instant(y, p, w), bool(summary[e.LIGHT])
+
+    @cached_property
+    def _indices(self) -> Indices:
+        return indices_of(self.compiled.info)
+
+    def _assembly(self, held: Held) -> Assembly:
+        return Assembly(self.compiled, held, self._strict, self._ask_light, datum=self._datum)
 
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
@@ -142,17 +163,40 @@ def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold
     return [numbers.value(start, f"{mechanism.name}: states.{name}.start") for name, start in starts]
 
 
-def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:
-    """Return a start with warnings where axes point opposite ways; refuse one that holds a body the wrong way round."""
+def _opposite_sides(mechanism: Mechanism, info: ModelInfo, y: NDArray[np.float64]) -> list[str]:
+    """Return warnings where axes point opposite ways; refuse a start that holds a body the wrong way round."""
     lines = list[str]()
-    for joint, held in wrong_sides(mechanism, start.y.tolist()):
+    for joint, held in wrong_sides(mechanism, y.tolist()):
         if held:
-            raise half_turn(info, joint).stopped_at(start.y.tolist())
+            raise half_turn(info, joint).stopped_at(y.tolist())
         lines.append(opposite(joint))
-    return replace(start, warnings=(*start.warnings, *lines)) if lines else start
+    return lines
 
 
-def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequence[float | None]) -> Held:
+class Indices(NamedTuple):
+    """Indices of what a start may hold, by name; the velocity of an orientation is its first one."""
+
+    coordinates: dict[str, int]
+    velocities: dict[str, int]
+    joints: dict[str, int]
+    spins: dict[str, int]
+
+
+def indices_of(info: ModelInfo) -> Indices:
+    """Return the indices of what starts of a model may hold."""
+    kinds = info.coordinates, info.velocities, info.joint_coordinates
+    coordinates, velocities, joints = ({quantity.name: i for i, quantity in enumerate(kind)} for kind in kinds)
+    spins = {f"{info.coordinates[first].name.rpartition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
+    return Indices(coordinates, velocities, joints, spins)
+
+
+def held_of(
+    info: ModelInfo,
+    holds: Sequence[Hold],
+    numbers: Scalars,
+    v: Sequence[float | None],
+    indices: Indices | None = None,
+) -> Held:
     """Return the held quantities by index.
 
     Parameters
@@ -165,11 +209,10 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
         Values of the names in formulas.
     v : sequence of float or None
         Given velocities.
+    indices : Indices, optional
+        Those of the model, for many calls.
     """
-    coordinates = {quantity.name: i for i, quantity in enumerate(info.coordinates)}
-    velocities = {quantity.name: j for j, quantity in enumerate(info.velocities)}
-    joints = {quantity.name: k for k, quantity in enumerate(info.joint_coordinates)}
-    spins = {f"{info.coordinates[first].name.rpartition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
+    coordinates, velocities, joints, spins = indices or indices_of(info)
     values, speeds, places, rates = dict[int, float](), dict[int, float](), dict[int, float](), dict[int, float]()
     fixed = list[int]()
     for hold in holds:

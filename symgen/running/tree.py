@@ -22,6 +22,7 @@ from symgen.describe.mechanism import Topology
 from symgen.describe.topology import state_measures
 from symgen.layout import abi
 from symgen.layout.probe import Ready
+from symgen.layout.start_records import Instant
 from symgen.lower.windings import winding_order
 from symgen.running.continuation import choice_after, taken_up
 from symgen.running.starts import compiled_for
@@ -369,13 +370,31 @@ def begin_on_tree(
     names = (x.name for x in bodies.info.parameters)
     p = compiled.parameter_array(dict(zip(names, start.p, strict=False)), method_parameters)
     y, w = np.zeros(compiled.info.ny), compiled.scratch()
-    alike = carried.settle(one_row(start.y, start.p, start.w), one_row(y, p, w), *ALONE)[0]
-    over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
-    y[compiled.info.work :] = start.y[bodies.info.work :]
+    over = settled(carried, Instant(start.y, start.p, start.w), Instant(y, p, w))
     notes = start.notes, start.changes, start.light, start.warnings
     own = Start(y, p, w, compiled.rank(w), compiled.redundant(w), *notes, t=start.t, work=start.work)
-    first = int(over[0]) if len(over) else -1
-    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, effects, first)
+    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, effects, over)
+
+
+def settled(carried: Carried, of_bodies: Instant, now: Instant) -> int:
+    """Map a start of bodies to a tree, in place; return the body in space that would start turned over, -1 for none.
+
+    Parameters
+    ----------
+    carried : Carried
+        From `carried_of`.
+    of_bodies, now : Instant
+        The start of bodies, and the tree's, whose parameters are not yet prepared.
+    """
+    alike = carried.settle(one_row(*of_bodies), one_row(*now), *ALONE)[0]
+    now.y[carried.assembly.compiled.info.work :] = of_bodies.y[carried.bodies.info.work :]
+    return over_of(alike)
+
+
+def over_of(alike: Array) -> int:
+    """Return the first body in space that would start turned over, -1 for none, from products of Euler parameters."""
+    over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
+    return int(over[0]) if len(over) else -1
 
 
 def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:

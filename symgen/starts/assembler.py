@@ -195,7 +195,7 @@ class Assembly:
                 done = int(close())
             except (ArithmeticError, ValueError):  # of one row, where nothing is compiled
                 conditions.summary[:, e.START] = e.UNDEFINED
-        self._judge(now.w, conditions.summary)
+        self.judge(now.w, conditions.summary)
         return done
 
     def prepare(self, now: Instant, selected: Integers, m: int) -> tuple[Instant, tuple[Any, ...], Form]:
@@ -229,7 +229,7 @@ class Assembly:
         plain = zip(map(plain_form, self.own), kinds, strict=True)
         return flat, tuple(f if kind is None else Ready(f, kind) for f, kind in plain), plain_form
 
-    def _judge(self, ws: Array, summaries: Array) -> None:
+    def judge(self, ws: Array, summaries: Array) -> None:
         """Record the joint with the largest gap; refuse changed starts if `strict`."""
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):

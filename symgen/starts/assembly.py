@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 #: Reported coordinates, from described and closed ones: names, differences, and units.
 Moved = Callable[[Array, Array], Iterable[tuple[str, float, str]]]
+#: `Assembly.close`, or the same with memory that is kept.
+Closing = Callable[[Array, Array, Array], tuple[Array, Array]]
 
 
 @dataclass(frozen=True, repr=False)
@@ -159,7 +161,7 @@ def assemble(
 def closed_start(
     assembly: Assembly,
     held: Held,
-    close: Callable[[Array, Array, Array], tuple[Array, Array]],
+    close: Closing,
     q: Array,
     v: Sequence[float | None],
     p: Array,
@@ -173,8 +175,8 @@ def closed_start(
         The start.
     held : Held
         Quantities held: those of `assembly` with their present values.
-    close : callable
-        `Assembly.close`, or the same with memory that is kept.
+    close : Closing
+        Closes a state in place.
     q, v, p, moved
         As for `assemble`.
 
@@ -184,13 +186,8 @@ def closed_start(
         As `assemble`.
     """
     compiled = assembly.compiled
-    info, y = compiled.info, _described(compiled.info, q)
-    velocities = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
-    w, summary = close(y, velocities, p)
-    if summary[e.START] != e.ASSEMBLED:
-        error = without_derivative(compiled, q, p) or refusal(summary, info, held)
-        reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
-        raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
+    info, velocities = compiled.info, np.array([np.nan if x is None else x for x in v], dtype=np.float64)
+    y, w, summary = closed_state(compiled, held, close, q, velocities, p)
     velocities[list(held.velocities)] = list(held.velocities.values())
     changes = changes_of(info, np.concatenate([q, velocities]), y, state_scales(compiled, w, math.inf))
     return Start(
@@ -202,6 +199,34 @@ def closed_start(
         t=assembly.t,
         datum=tuple(assembly.datum),
     )
+
+
+def closed_state(
+    compiled: CompiledModel, held: Held, close: Closing, q: Array, velocities: Array, p: Array
+) -> tuple[Array, Array, Array]:
+    """Close a start without reports; return its state, scratch and summary.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    held, close, q, p
+        As for `closed_start`.
+    velocities : Array, shape (nv,)
+        Specified velocities, nan for the others.
+
+    Raises
+    ------
+    AssemblyError, InputError
+        As `assemble`.
+    """
+    info, y = compiled.info, _described(compiled.info, q)
+    w, summary = close(y, velocities, p)
+    if summary[e.START] != e.ASSEMBLED:
+        error = without_derivative(compiled, q, p) or refusal(summary, info, held)
+        reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
+        raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
+    return y, w, summary
 
 
 def moved_far(

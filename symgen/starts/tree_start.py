@@ -158,12 +158,21 @@ class Carried:
         """
         assembly, alike = self.assembly, np.zeros((len(now.y), len(self.carrying.spins)))
         flat, functions, form = assembly.prepare(now, selected, assembly.layout.m)
-        ends = self.bodies.model.observe, assembly.compiled.model.bodies
+        ends = self.ends
         if form is plain_form:
             ends = Ready(ends[0], abi.OBSERVE), Ready(ends[1], abi.OBSERVE)
         tree = (assembly.layout, *functions[:-1]), *ends, self.carrying
-        room = np.zeros(of_bodies.y.shape[1] + self.carrying.outs + of_bodies.w.shape[1])
+        room = self.room(Instant(*(array[0] for array in of_bodies)))
         starts = Instant(*(array.ravel() for array in of_bodies)), flat
         with np.errstate(all="ignore"):
             form(settle_rows)(tree, *starts, assembly.memory()[1], room, alike.reshape(-1), selected, control)
         return alike
+
+    @property
+    def ends(self) -> tuple[Any, Any]:
+        """The emitted ``observe`` of bodies, and the tree's function that maps its motion to bodies."""
+        return self.bodies.model.observe, self.assembly.compiled.model.bodies
+
+    def room(self, of_bodies: Instant) -> Array:
+        """Return working memory for a start of bodies."""
+        return np.zeros(len(of_bodies.y) + self.carrying.outs + len(of_bodies.w))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symgen.layout import abi
+from symgen.running.prepare import Restarts
 from symgen.runs.events import EventRecord, record_of
 from symgen.stepping.advance import Advance
 from symgen.stepping.history import History
@@ -37,7 +38,8 @@ class Readings:
 
     def __init__(self, prepared: Prepared, free: bool, hidden: set[str]) -> None:
         info = prepared.compiled.info
-        self._prepared, self._compiled, self._tree = prepared, prepared.compiled, prepared.tree
+        self._origin: Mapping[str, float] | Prepared = prepared
+        self._compiled, self._tree, self._restarts = prepared.compiled, prepared.tree, Restarts(prepared)
         self._free, self._hidden, self._version = free, hidden, 0
         self._loop = prepared.simulation()
         state = self._loop.state
@@ -109,6 +111,14 @@ class Readings:
             If there is no such column.
         """
         return float(self._now[name][0])
+
+    @property
+    def _prepared(self) -> Prepared:
+        """The run from where it began last, prepared when something of it is read."""
+        if isinstance(self._origin, Mapping):
+            self._origin = self._restarts.at(self._origin)
+        self._loop.start, self._tree = self._origin.start, self._origin.tree
+        return self._origin
 
     @property
     def _now(self) -> Result:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
 from symgen.layout import abi
-from symgen.running.prepare import Restarts
 from symgen.runs.changes import begin_with_step
 from symgen.runs.events import EventRecord
 from symgen.stepping.advance import Clock, Controller
@@ -26,6 +25,8 @@ from symgen.stepping.readings import Readings
 from symgen.stepping.saved_state import Saved
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from symgen.loops.run_spec import RunSpec
     from symgen.result.result import Result
     from symgen.running.prepare import Prepared
@@ -75,7 +76,8 @@ class SteppedRun(Readings):
         places = {q.name: i for i, q in enumerate(self._compiled.info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
         self.warnings, self.notes = (*plan.all_warnings, *prepared.start.warnings), prepared.start.notes
-        self._first, self._restarts = self.save(), Restarts(prepared)
+        self._first = self.save()
+        self._first_origin, self._first_spec, self._first_jumps = self._origin, self._loop.spec, self._jumps
         if not self._free:
             self._advance.begin()
         self._history.note()
@@ -267,9 +269,16 @@ class SteppedRun(Readings):
         """
         arguments.of_kind("restore", saved, Saved, "what `save` returned")
         self._ready("restore")
+        saved.check(self._owner, self._loop.save(), tuple(c.interval for c in self._clocks))
+        self._take_up(saved, saved.arrays, self._divided(parameter_values(self._mechanism, saved.parameters)))
+        for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
+            clock.start, clock.beat = start, beat
+        self._history.forget_after(saved.t)
+
+    def _take_up(self, saved: Saved, arrays: Mapping[str, NDArray[Any]], spec: RunSpec) -> None:
+        """Restore all but the controllers, with other arrays and a specification for the parameters there."""
         loop = self._loop
-        saved.check(self._owner, loop.save(), tuple(c.interval for c in self._clocks))
-        loop.restore(saved.arrays, self._divided(parameter_values(self._mechanism, saved.parameters)))
+        loop.restore(arrays, spec)
         loop.set_limits()
         loop.state.control[[abi.STOP, abi.OUTPUTS]] = 0
         if self._free:
@@ -279,10 +288,7 @@ class SteppedRun(Readings):
         if loop.events is not None:
             loop.events.happened = list(saved.happened)
         self._changed = dict(saved.parameters)
-        for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
-            clock.start, clock.beat = start, beat
         self._version += 1
-        self._history.forget_after(saved.t)
 
     def reset(self, start: Mapping[str, float] | Result | None = None) -> None:
         """Begin anew, with the parameters and inputs that the run began with; controllers begin at their first beats.
@@ -301,34 +307,32 @@ class SteppedRun(Readings):
         """
         self._ready("reset")
         first = self._first
-        if start is not None:
-            if self._prepare is None:
-                raise InputError("reset", "no start, for a run without its model", arguments.shown(start))
-            prepared = self._restarts.at(start) if isinstance(start, Mapping) else None
-            arrays = {**first.arrays} if prepared is not None else {}
-            if prepared is None:
-                prepared = self._prepare(start)
-                if prepared.compiled.law.key != self._compiled.law.key:  # bodies that are light there alone
-                    got = f"one that is run with {prepared.compiled.law.key}"
-                    raise InputError("reset", f"a start that is run with {self._compiled.law.key}", got)
-                arrays = prepared.simulation().save()
-            else:  # beside these, the first state depends on no start
-                begun = prepared.start
-                arrays |= {"y": np.append(begun.y, arrays["y"][len(begun.y) :]), "w": begun.w}
-            first, self._prepared, self._loop.start, self._tree = (
-                replace(first, arrays=arrays),
-                prepared,
-                prepared.start,
-                prepared.tree,
-            )
-        clocks = [Clock(clock.controller, first.t, clock.interval) for clock in self._clocks]
-        self._clocks.clear()
-        self.restore(first)
-        self._clocks.extend(clocks)
+        arrays, origin = (first.arrays, self._first_origin) if start is None else self._arrays_at(start)
+        self._take_up(first, arrays, self._first_spec)
+        self._jumps, self._origin = self._first_jumps, origin
+        for clock in self._clocks:
+            clock.start, clock.beat = first.t, 0
         self._history.clear()
         if not self._free:
             self._advance.begin()
         self._history.note()
+
+    def _arrays_at(
+        self, start: Mapping[str, float] | Result
+    ) -> tuple[dict[str, NDArray[Any]], Mapping[str, float] | Prepared]:
+        """Return the arrays of the first state from another start, and that start, or the run prepared there."""
+        if self._prepare is None:
+            raise InputError("reset", "no start, for a run without its model", arguments.shown(start))
+        if isinstance(start, Mapping) and (now := self._restarts.state(start)) is not None:
+            arrays = self._first.arrays  # beside these, the first state depends on no start
+            y = arrays["y"].copy()
+            y[: len(now.y)] = now.y
+            return {**arrays, "y": y, "w": now.w}, dict(start)
+        prepared = self._prepare(start)
+        if prepared.compiled.law.key != self._compiled.law.key:  # bodies that are light there alone
+            got = f"one that is run with {prepared.compiled.law.key}"
+            raise InputError("reset", f"a start that is run with {self._compiled.law.key}", got)
+        return prepared.simulation().save(), prepared
 
     # -- inside --------------------------------------------------------------------------------------------------------
 

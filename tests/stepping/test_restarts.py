@@ -7,6 +7,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import AssemblyError, InputError
 from symgen.running import prepare
+from symgen.starts import kept
 
 #: A pendulum with a state of its own and an input.
 LAGGING = {
@@ -47,6 +48,27 @@ def test_another_start_is_that_of_a_fresh_run(name, monkeypatch):
             assert sim.bodies == other.bodies and result.notes == expected.notes and result.start == expected.start
     sim.reset()
     assert sim.t == 0.0 and sim.bodies == model.start(**settings).bodies
+
+
+def test_starts_from_optimised_code_have_the_same_bits(monkeypatch):
+    monkeypatch.setattr(kept, "MANY", 2)
+    sim = symgen.load("four-bar").start(**CONSTANT)
+    states = []
+    for _ in range(3):
+        sim.reset({"crank.theta": 1.2})
+        states.append(sim.save().arrays)
+    for other in states[1:]:
+        for name, array in states[0].items():
+            np.testing.assert_array_equal(other[name], array, err_msg=name)
+
+
+def test_a_reset_to_the_run_s_own_start_has_its_notes():
+    sim = symgen.load("four-bar").start(**CONSTANT)
+    own = sim.result().notes
+    sim.reset({"crank.theta": 1.2})
+    assert "the start holds crank.theta = 1.2 rad" in "; ".join(sim.result().notes)
+    sim.reset()
+    assert sim.result().notes == own
 
 
 def test_a_start_that_is_refused_changes_nothing():
