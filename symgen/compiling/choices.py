@@ -244,6 +244,7 @@ def operations(mechanism: Mechanism) -> int:
     """Return the operations of the right-hand side of `lagrange`, after sharing."""
     from symgen.formulate.formulate import formulate
     from symgen.lower.law import part_outputs
+    from symgen.lower.plans import cheapest_plan
     from symgen.lower.record import record_law
     from symgen.lower.scalar import ScalarNodes
     from symgen.methods import METHODS
@@ -251,7 +252,8 @@ def operations(mechanism: Mechanism) -> int:
     method = METHODS.get("lagrange", "")
     equations = formulate(mechanism)
     record = record_law(method, method.complete_options({}), equations.driving is not None)
-    scalars = ScalarNodes(equations, record.operations, [p.name for p in method.parameters])
-    scalars.run(range(len(record.operations)))
+    names = [p.name for p in method.parameters]
+    scalars = ScalarNodes(equations, record.operations, names, plan=cheapest_plan(equations))
+    scalars.compute(record.ends)
     nodes = [node for part in record.parts if part.role == "acceleration" for _, node in part_outputs(scalars, part)]
     return scalars.graph.operations(nodes)

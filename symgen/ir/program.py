@@ -7,7 +7,7 @@ A block is a named piece of computation with declared outputs. Symbolic targets 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Generic, TypeVar
 
@@ -229,6 +229,38 @@ class JacobianEntry:
 
 
 @dataclass(frozen=True)
+class FixedVelocities:
+    """Velocities that rows of D fix by the others: they are eliminated together, without a decision on rank."""
+
+    columns: tuple[int, ...]
+    rows: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class EliminationPlan:
+    """How M v' + D^T lambda = f, D v' = gamma is solved.
+
+    Parameters
+    ----------
+    fixed : tuple of FixedVelocities
+        Velocities eliminated with their rows, before all others, in order.
+    schur : bool
+        Whether S = D M^-1 D^T is formed from all rows, which takes no velocities with their rows.
+    normal : bool
+        Whether entries are brought to normal form before a division.
+    """
+
+    fixed: tuple[FixedVelocities, ...] = ()
+    schur: bool = True
+    normal: bool = False
+
+    @cached_property
+    def rows(self) -> frozenset[int]:
+        """Rows that fix velocities."""
+        return frozenset(r for each in self.fixed for r in each.rows)
+
+
+@dataclass(frozen=True)
 class ModelProgram:
     """Program that every method of a model shares: module ``model`` of the emitted folder."""
 
@@ -241,6 +273,7 @@ class ModelProgram:
     order: tuple[int, ...]  # elimination order of the rows
     fill: int  # entries of L that are zero in D D^T
     tables: tuple[Interpolation, ...] = ()
+    plan: EliminationPlan = field(default_factory=EliminationPlan)
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,9 @@ from dataclasses import dataclass
 from symgen.ir.graph import Graph
 
 
-def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...], list[set[int]]]:
+def minimum_degree(
+    neighbours: Sequence[frozenset[int]], first: frozenset[int] = frozenset()
+) -> tuple[tuple[int, ...], list[set[int]]]:
     """Return an elimination order of low fill for a symmetric pattern, and each pivot's rows below it.
 
     It takes time linear in the fill.
@@ -27,16 +29,18 @@ def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...
     ----------
     neighbours : sequence of frozenset
         For each row, the other rows with an entry in its column.
+    first : frozenset
+        Rows that are eliminated before all others.
     """
     graph = [set(n) for n in neighbours]
     level = [0] * len(graph)
-    queue = [(len(near), 0, i) for i, near in enumerate(graph)]
+    queue = [(i not in first, len(near), 0, i) for i, near in enumerate(graph)]
     heapq.heapify(queue)
     order: list[int] = []
     below: list[set[int]] = []
     done = [False] * len(graph)
     while queue:
-        degree, waiting, pivot = heapq.heappop(queue)
+        _, degree, waiting, pivot = heapq.heappop(queue)
         if done[pivot] or degree != len(graph[pivot]) or waiting != level[pivot]:
             continue  # the entry is out of date
         done[pivot] = True
@@ -49,7 +53,7 @@ def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...
             near.discard(i)
             near.discard(pivot)
             level[i] = max(level[i], level[pivot] + 1)
-            heapq.heappush(queue, (len(near), level[i], i))
+            heapq.heappush(queue, (i not in first, len(near), level[i], i))
     return tuple(order), below
 
 

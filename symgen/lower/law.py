@@ -53,8 +53,8 @@ def lower_law(
     if any(row.held is not None for row in equations.rows):
         _refuse_switching(method, options, implicit)
     record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
-    scalars = ScalarNodes(equations, record.operations, names)
-    scalars.run(range(len(record.operations)))
+    scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
+    scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     for part in record.parts:
         if part.role == "acceleration":

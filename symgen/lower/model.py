@@ -7,6 +7,7 @@ from symgen.ir.program import MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout
 from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
+from symgen.lower.plans import cheapest_plan
 from symgen.lower.record import record_model
 from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
@@ -23,8 +24,9 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         Digest of the canonical description, for the emitted header.
     """
     m, record = equations.m, record_model()
-    scalars = ScalarNodes(equations, record.operations)
-    scalars.run(range(len(record.operations)))
+    plan = cheapest_plan(equations)
+    scalars = ScalarNodes(equations, record.operations, plan=plan)
+    scalars.compute(record.ends)
     geometry, spread = record.parts
     factor = scalars.values[geometry.outputs[1][1]]
     sections: dict[str, tuple[int, int]] = {}
@@ -66,6 +68,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         order=scalars.order,
         fill=sum(len(c) for c in factor.lower.values()) - sum(i > j for i, j in scalars.gram(scalars.rows)),
         tables=equations.tables,
+        plan=plan,
     )
 
 

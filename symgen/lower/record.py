@@ -75,6 +75,25 @@ class RecordedLaw:
     sections: tuple[tuple[str, tuple[str, ...]], ...] = ()
     form: str = ""
 
+    @property
+    def ends(self) -> list[int]:
+        """Operations whose values the functions return."""
+        return [
+            index for part in self.parts for index in (*(i for _, i in part.outputs), part.flag) if index is not None
+        ]
+
+    def by_schur(self) -> RecordedLaw:
+        """Return the same with the operations of S in the place of those that may be solved otherwise."""
+        same = {i: o.operands[0] for i, o in enumerate(self.operations) if o.kind == "constrained"}
+        operations = tuple(
+            replace(o, operands=tuple(same.get(i, i) for i in o.operands)) if o.kind != "constrained" else o
+            for o in self.operations
+        )
+        parts = tuple(
+            replace(part, outputs=tuple((place, same.get(i, i)) for place, i in part.outputs)) for part in self.parts
+        )
+        return replace(self, operations=operations, parts=parts)
+
 
 def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> RecordedLaw:
     """Record a method: its acceleration law, and its correction where it differs from the model's.

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 
+from symgen.formulate.equations import Equations
+from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
-from symgen.ir.program import STATUS, Target
+from symgen.ir.program import STATUS, EliminationPlan, Target
+from symgen.lower.blocks import SaddleMatrix
 from symgen.lower.factor import FactorNodes, factorise, minimum_degree
 from symgen.lower.replay import Nodes
 from symgen.lower.scalar_mass import OfMass
 from symgen.lower.scalar_values import Outputs, Rows, to_status
-from symgen.methods._formula import FormulaStep
+from symgen.methods._formula import FormulaStep, needed
 
 
 class ScalarNodes(OfMass):
@@ -21,6 +24,82 @@ class ScalarNodes(OfMass):
     the decision on rank.
     """
 
+    def __init__(
+        self,
+        equations: Equations,
+        operations: tuple[FormulaStep, ...] = (),
+        parameters: Sequence[str] = (),
+        places: Mapping[str, tuple[str, int]] | None = None,
+        plan: EliminationPlan | None = None,
+    ) -> None:
+        super().__init__(equations, operations, parameters, places)
+        self.plan = EliminationPlan() if plan is None else plan
+
+    def compute(self, ends: Iterable[int]) -> None:
+        """Evaluate the operations that some depend on."""
+        self.run(needed(ends, self._operands))
+
+    def _operands(self, index: int) -> tuple[int, ...]:
+        operation = self.operations[index]
+        if operation.kind == "constrained":
+            return operation.operands[:1] if self.plan.schur else operation.operands[1:]
+        return operation.operands
+
+    def _on_constrained(self, operation: FormulaStep, by_schur: Nodes | None, f: Nodes, gamma: Nodes) -> Nodes:
+        if by_schur is not None:
+            return by_schur
+        accelerations, multipliers = self.saddle.solve(f, gamma)
+        return accelerations if operation.payload == ("accelerations",) else multipliers
+
+    @cached_property
+    def saddle(self) -> SaddleMatrix:
+        """The eliminated matrix of M and D; masked rows get a reciprocal pivot of 0, small pivots a flag."""
+        g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
+        matrix = SaddleMatrix(g, self.equations.nv, self.mass_matrix, self.rows)
+        for block in self.plan.fixed:
+            matrix.fix(block)
+        for row, entries in enumerate(self.rows):
+            if row not in self.plan.rows and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
+                rest = self._square(row, sorted(matrix.entries[matrix.nv + row].items()))
+                least = g.mul(g.constant(SUSPICIOUS), self._square(row, entries))
+                self.flags.append(g.call("lt", g.add(rest, self.mask[row]), self.in_force(row, least)))
+
+        def reciprocal(row: int, pivot: int, first: int) -> int:
+            masked = g.add(pivot, self.mask[row])  # the mask is 0, or infinite for a row to be left out
+            usual, mass = first, self._pinned_mass(row) if fixed & {j for j, _ in self.rows[row]} else None
+            if mass is not None:
+                usual = g.div(g.one, mass) if pivot == first else g.call("max", first, g.div(g.one, mass))
+            if pivot != usual:
+                least = self.in_force(row, g.mul(g.constant(SUSPICIOUS), usual))
+                self.flags.append(g.call("lt", masked, least))
+            return self._masked_reciprocal(self._held(row), masked)
+
+        matrix.eliminate_rest(reciprocal)
+        return matrix
+
+    def _square(self, row: int, entries: Iterable[tuple[int, int]]) -> int:
+        """Return the square of a row of the scale that decides rank."""
+        g = self.graph
+        return g.total(g.mul(g.mul(n, next(iter(self.gauge[j].values()))), n) for j, n in entries)
+
+    def _pinned_mass(self, row: int) -> int | None:
+        """Return the largest constant mass that a row holds by an entry of +-1, None without one.
+
+        The inverse is a scale of the pivot of a row from which fixed velocities have been eliminated: what is left of
+        the row may have cancelled, so that the row itself is no measure. Other bodies may be light.
+        """
+        g, heaviest = self.graph, None
+        for j, entry in self.rows[row]:
+            mass = self.mass_matrix[j, j]
+            if g.value(entry) in (1.0, -1.0) and not g.depends[mass] & ~PARAMETER and mass != g.zero:
+                if heaviest is None:
+                    heaviest = mass
+                elif (a := g.value(heaviest)) is not None and (b := g.value(mass)) is not None:
+                    heaviest = mass if b > a else heaviest
+                else:
+                    heaviest = g.call("max", heaviest, mass)
+        return heaviest
+
     def _on_weighted_body(self, operation: FormulaStep, rank: FactorNodes) -> FactorNodes:
         """Return the factor of D W^-1 D^T in the function that decides rank."""
         return self._weighted_beside(rank, self.body.mass_gram(self.rows))
@@ -28,7 +107,7 @@ class ScalarNodes(OfMass):
     @cached_property
     def order(self) -> tuple[int, ...]:
         """Elimination order of the rows; one for S and D D^T, whose pattern is contained in S's."""
-        return minimum_degree(self.neighbours(self.rows, self.coupled))[0]
+        return minimum_degree(self.neighbours(self.rows, self.coupled), self.plan.rows)[0]
 
     def _on_schur(self, operation: FormulaStep) -> FactorNodes:
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
@@ -100,9 +179,9 @@ class ScalarNodes(OfMass):
         return self.in_force(row, kept)
 
     def _certain(self, row: int, pivot: int, diagonal: int) -> bool:
-        """Whether a row is kept in every position: it is eliminated alone, and cannot vanish."""
+        """Whether a row is kept in every position: it fixes a velocity, or is eliminated alone and cannot vanish."""
         constraint = self.equations.rows[row]
-        return pivot == diagonal and constraint.size is None and constraint.held is None
+        return row in self.plan.rows or (pivot == diagonal and constraint.size is None and constraint.held is None)
 
     def _usual(self, row: int, diagonal: int) -> int:
         """Return the scale of the pivot of a row in D G D^T: the row's square, or the pivot before."""

@@ -34,7 +34,7 @@ class OfMass(NodeValues):
         """
         other = self._with_mass(_replaced(self.equations.mass, self.mass_entries, self.graph, "mass_entry"))
         other.values, other.stored, other.flags = {}, {}, []
-        other.run(range(len(other.operations)))
+        other.run(sorted(self.values))
         return other
 
     @cached_property
@@ -45,7 +45,8 @@ class OfMass(NodeValues):
     def _with_mass(self, mass: tuple[MassBlock, ...]) -> Self:
         """Return the same tape with another matrix in the place of M, nothing evaluated yet."""
         other = copy(self)
-        for name in ("mass_entries", "mass_matrix", "mass_factor", "row_halves", "coupled", "inverse_mass", "gauge"):
+        held = "mass_entries", "mass_matrix", "mass_factor", "row_halves", "coupled", "inverse_mass", "gauge", "saddle"
+        for name in held:
             other.__dict__.pop(name, None)
         other.equations = replace(self.equations, mass=mass)
         return other

@@ -307,13 +307,8 @@ def _version(kind: type[Method]) -> tuple[str, ...]:
 
 
 def multiplier_law(system: System, gamma: Vector) -> Acceleration:
-    """Solve ``M v' + D^T lambda = f``, ``D v' = gamma`` by eliminating v'.
-
-    ``S lambda = D M^-1 f - gamma`` with ``S = D M^-1 D^T``, then ``v' = M^-1 (f - D^T lambda)``.
-    """
-    free = system.minv(system.f)
-    multipliers = system.solve_schur(system.D @ free - gamma)
-    return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
+    """Solve ``M v' + D^T lambda = f``, ``D v' = gamma`` by eliminating v'."""
+    return Acceleration(*system.constrained(system.f, gamma))
 
 
 def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector) -> Iteration:

@@ -272,6 +272,21 @@ class System:
         """
         return self.solve(self.tape.named(Factor, "schur"), right)
 
+    def constrained(self, f: Vector, gamma: Vector) -> tuple[Vector, Vector]:
+        """Return v' and lambda with ``M v' + D^T lambda = f``, ``D v' = gamma``.
+
+        ``S lambda = D M^-1 f - gamma``, then ``v' = M^-1 (f - D^T lambda)``; code for one mechanism may eliminate in
+        another order, where that takes fewer operations.
+        """
+        multipliers = self.solve_schur(self.D @ self.minv(f) - gamma)
+        accelerations = self.minv(f - self.D.transposed(multipliers))
+
+        def result(name: str, x: Vector) -> Vector:
+            step = FormulaStep("constrained", (x.index, f.index, gamma.index), (name,), x.size)
+            return Vector(self.tape, self.tape.add(step))
+
+        return result("accelerations", accelerations), result("multipliers", multipliers)
+
     def compliant_factor(self, compliance: Scalar) -> Factor:
         """Return the factor of ``S + e``, e the compliance of each row, infinite for rows that the runtime leaves out.
 

@@ -1,0 +1,298 @@
+"""Elimination of M v' + D^T lambda = f, D v' = gamma on a static pattern, velocities first that rows fix.
+
+A row with an entry of +-1 that no elimination has changed fixes this velocity by the others: v' = +-(gamma - n v'). The
+velocity and its row leave the equations together. The other entries of M become N^T M N, those of D lose a column; that
+takes no division, cannot fail and decides nothing on rank, since such rows are independent of each other. Accelerations
+of fixed velocities then follow from their rows, and multipliers of the rows from the equations of the velocities, both
+as they were before.
+
+What is left over is eliminated one by one: velocities, then rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from symgen.formulate.equations import Equations
+from symgen.ir.graph import Graph
+from symgen.ir.program import FixedVelocities
+from symgen.lower.factor import minimum_degree
+from symgen.lower.replay import Nodes
+from symgen.lower.scalar_values import Rows
+
+
+@dataclass(frozen=True)
+class _Fixed:
+    """Fixed velocities that have been eliminated: B^-1, entries of M among them, of others with them, and B^-1 D."""
+
+    columns: tuple[int, ...]
+    rows: tuple[int, ...]
+    inverse: list[list[int]]
+    mass: list[list[int]]
+    beside: dict[int, list[int]]
+    motion: dict[int, list[int]]
+
+
+@dataclass(frozen=True)
+class _Single:
+    """An unknown eliminated alone: the sign of its pivot, the reciprocal of its size, and its factors by unknowns."""
+
+    unknown: int
+    sign: int
+    reciprocal: int
+    factors: dict[int, int]
+
+
+class SaddleMatrix:
+    """The matrix [M D^T; D 0] while unknowns are eliminated: velocities are numbered from 0, rows from `nv` on.
+
+    Parameters
+    ----------
+    graph : Graph
+        Graph of the nodes.
+    nv : int
+        Number of velocities.
+    mass : mapping of (row, column) to node
+        M, both triangles.
+    rows : Rows
+        D.
+    simpler : callable, optional
+        Returns a cheaper node of the same value, for every entry and right-hand side that changes.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        nv: int,
+        mass: Mapping[tuple[int, int], int],
+        rows: Rows,
+        simpler: Callable[[int], int] = lambda node: node,
+    ) -> None:
+        self.graph, self.nv, self.simpler = graph, nv, simpler
+        self.entries: list[dict[int, int]] = [{} for _ in range(nv + len(rows))]
+        for (i, j), node in mass.items():
+            self._set(i, j, node)
+        for r, row in enumerate(rows, nv):
+            for c, node in row:
+                self._set(r, c, node)
+        self.before = [dict(x) for x in self.entries]
+        self.left = set(range(len(self.entries)))
+        self.changed: set[tuple[int, int]] = set()
+        self.fixed: list[_Fixed] = []
+        self.singles: list[_Single] = []
+        self.solutions: dict[tuple[Nodes, Nodes], tuple[Nodes, Nodes]] = {}
+
+    def _set(self, i: int, j: int, node: int) -> None:
+        for a, b in ((i, j), (j, i)):
+            if node == self.graph.zero:
+                self.entries[a].pop(b, None)
+            else:
+                self.entries[a][b] = node
+
+    def is_unit(self, i: int, j: int) -> bool:
+        """Whether an entry is +-1."""
+        return self.graph.value(self.entries[i].get(j, self.graph.zero)) in (1.0, -1.0)
+
+    def _take(self, unknowns: Sequence[int]) -> dict[int, list[int]]:
+        """Return the entries of some unknowns with those left over, by the latter."""
+        zero, of = self.graph.zero, [self.entries[x] for x in unknowns]
+        return {i: [x.get(i, zero) for x in of] for i in sorted({i for x in of for i in x} & self.left)}
+
+    def fix(self, block: FixedVelocities) -> list[int]:
+        """Eliminate velocities with the rows that fix them; return the unknowns whose entries change."""
+        g, k = self.graph, self.entries
+        columns, rows = block.columns, tuple(self.nv + r for r in block.rows)
+        inverse = self._inverse([[k[r].get(c, g.zero) for c in columns] for r in rows])
+        mass = [[k[c].get(d, g.zero) for d in columns] for c in columns]
+        self.left -= {*columns, *rows}
+        beside, with_rows = self._take(columns), self._take(rows)
+        for i in {*beside, *with_rows}:
+            for x in (*columns, *rows):
+                k[i].pop(x, None)
+        motion = {i: [g.dot(line, x) for line in inverse] for i, x in with_rows.items()}
+        weighed = {i: [g.dot(line, x) for line in mass] for i, x in motion.items()}
+        touched = sorted({*beside, *motion})
+        for a, i in enumerate(touched):
+            for j in touched[a:]:
+                if i not in motion and j not in motion:
+                    continue
+                node = before = k[i].get(j, g.zero)
+                if i in motion and j in motion:
+                    node = g.add(node, g.dot(weighed[i], motion[j]))
+                if i in beside and j in motion:
+                    node = g.sub(node, g.dot(beside[i], motion[j]))
+                if j in beside and i in motion:
+                    node = g.sub(node, g.dot(motion[i], beside[j]))
+                self.changed |= {(i, j), (j, i)}
+                if node != before:
+                    self._set(i, j, self.simpler(node))
+        self.fixed.append(_Fixed(columns, rows, inverse, mass, beside, motion))
+        return touched
+
+    def _inverse(self, matrix: list[list[int]]) -> list[list[int]]:
+        g = self.graph
+        if len(matrix) == 1:
+            return [[g.div(g.one, matrix[0][0])]]
+        (a, b), (c, d) = matrix
+        reciprocal = g.div(g.one, g.sub(g.mul(a, d), g.mul(b, c)))
+        inverse = ((d, g.neg(b)), (g.neg(c), a))
+        return [[g.mul(reciprocal, x) for x in line] for line in inverse]
+
+    def eliminate_rest(self, reciprocal: Callable[[int, int, int], int]) -> None:
+        """Eliminate the unknowns left over: velocities, then rows, each in an order of low fill.
+
+        Parameters
+        ----------
+        reciprocal : callable
+            ``reciprocal(row, pivot, first)`` returns the node used for 1 / pivot of a row, `first` being its pivot
+            before the other rows are eliminated; 0 for a row to be skipped.
+        """
+        g, k = self.graph, self.entries
+        places = sorted(self.left)
+        number = {x: i for i, x in enumerate(places)}
+        near = [frozenset(number[j] for j in k[i] if j != i) for i in places]
+        order, _ = minimum_degree(near, frozenset(number[x] for x in places if x < self.nv))
+        first: dict[int, int] = {}
+        for x in (places[i] for i in order):
+            if x >= self.nv and not first:
+                first = {i: g.neg(k[i].get(i, g.zero)) for i in self.left}
+            sign, pivot = (1, k[x].get(x, g.zero)) if x < self.nv else (-1, g.neg(k[x].get(x, g.zero)))
+            inverse = g.div(g.one, pivot) if x < self.nv else reciprocal(x - self.nv, pivot, first[x])
+            self.left.discard(x)
+            others = {i: node for (i, (node,)) in self._take((x,)).items()}
+            factors = {i: g.mul(node, inverse) for i, node in others.items()}
+            join = g.sub if sign > 0 else g.add
+            for a, i in enumerate(others):
+                for j in list(others)[a:]:
+                    self._set(i, j, join(k[i].get(j, g.zero), g.mul(factors[i], others[j])))
+            self.singles.append(_Single(x, sign, inverse, factors))
+
+    def solve(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda."""
+        if (f, gamma) not in self.solutions:
+            self.solutions[f, gamma] = self._solve(f, gamma)
+        return self.solutions[f, gamma]
+
+    def _solve(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        g, given, b = self.graph, (*f, *gamma), [*f, *gamma]
+        for step in self.fixed:
+            known = [g.dot(line, [b[r] for r in step.rows]) for line in step.inverse]
+            force = [g.sub(b[c], g.dot(line, known)) for c, line in zip(step.columns, step.mass, strict=True)]
+            for i, entries in step.beside.items():
+                b[i] = self.simpler(g.sub(b[i], g.dot(entries, known)))
+            for i, entries in step.motion.items():
+                b[i] = self.simpler(g.sub(b[i], g.dot(entries, force)))
+        for single in self.singles:
+            for i, factor in single.factors.items():
+                b[i] = (g.sub if single.sign > 0 else g.add)(b[i], g.mul(factor, b[single.unknown]))
+        x: dict[int, int] = {}
+        for single in reversed(self.singles):
+            value = g.mul(b[single.unknown], single.reciprocal)
+            value = value if single.sign > 0 else g.neg(value)
+            for i, factor in single.factors.items():
+                value = (g.sub if single.sign > 0 else g.add)(value, g.mul(factor, x[i]))
+            x[single.unknown] = value
+        accelerations = [(s.rows, s.columns, s.inverse) for s in self.fixed]
+        multipliers = [(s.columns, s.rows, [list(line) for line in zip(*s.inverse, strict=True)]) for s in self.fixed]
+        self._from_equations(accelerations, given, x)
+        self._from_equations(multipliers, given, x)
+        return tuple(x[i] for i in range(self.nv)), tuple(x[i] for i in range(self.nv, len(b)))
+
+    def _from_equations(
+        self,
+        waiting: list[tuple[tuple[int, ...], tuple[int, ...], list[list[int]]]],
+        right: Nodes,
+        x: dict[int, int],
+    ) -> None:
+        """Add unknowns from equations as they were before: each as soon as all others in them are there."""
+        g = self.graph
+        while waiting:
+            later = []
+            for equations, unknowns, inverse in waiting:
+                others = [sorted(self.before[i].keys() - set(unknowns)) for i in equations]
+                if any(j not in x for each in others for j in each):
+                    later.append((equations, unknowns, inverse))
+                    continue
+                rest = [
+                    g.sub(right[i], g.total(g.mul(self.before[i][j], x[j]) for j in each))
+                    for i, each in zip(equations, others, strict=True)
+                ]
+                x |= {unknown: g.dot(line, rest) for unknown, line in zip(unknowns, inverse, strict=True)}
+            assert len(later) < len(waiting), "fixed velocities form no chain"
+            waiting = later
+
+
+def fixed_velocities(equations: Equations) -> tuple[FixedVelocities, ...]:
+    """Return the velocities that rows in force at all times fix, in an order that fills in few entries."""
+    mass = {
+        (i, j): node
+        for block in equations.mass
+        for i, line in zip(block.columns, block.entries, strict=True)
+        for j, node in zip(block.columns, line, strict=True)
+    }
+    nv, rows = equations.nv, tuple(row.entries for row in equations.rows)
+    matrix = SaddleMatrix(equations.graph.copy(), nv, mass, rows)
+    candidates = list(_candidates(matrix, equations))
+    costs = {block: _cost(matrix, block) for block in candidates}
+    by_unknown: dict[int, list[FixedVelocities]] = {}
+    for block in candidates:
+        for x in (*block.columns, *(nv + r for r in block.rows)):
+            by_unknown.setdefault(x, []).append(block)
+    taken: dict[int, FixedVelocities] = {}
+    while costs:
+        block = min(costs, key=lambda block: (costs[block], block.rows, block.columns))
+        if _closes_a_cycle(matrix, taken, block):
+            del costs[block]
+            continue
+        taken |= dict.fromkeys(block.columns, block)
+        touched = matrix.fix(block)
+        for x in (*touched, *block.columns, *(nv + r for r in block.rows)):
+            for other in by_unknown.get(x, ()):
+                if other in costs:
+                    costs[other] = _cost(matrix, other)
+                    if not _is_open(matrix, other):
+                        del costs[other]
+    return tuple(dict.fromkeys(taken.values()))
+
+
+def _closes_a_cycle(matrix: SaddleMatrix, taken: Mapping[int, FixedVelocities], block: FixedVelocities) -> bool:
+    """Whether the velocities of a block would follow from each other, by the rows of those `taken` by column.
+
+    Entries may cancel, so that elimination alone does not show it.
+    """
+    waiting, seen = [block], {block}
+    while waiting:
+        for r in waiting.pop().rows:
+            for c in matrix.before[matrix.nv + r]:
+                other = taken.get(c)
+                if other is not None and other not in seen:
+                    if any(d in matrix.before[matrix.nv + r] for r in other.rows for d in block.columns):
+                        return True
+                    seen.add(other)
+                    waiting.append(other)
+    return False
+
+
+def _candidates(matrix: SaddleMatrix, equations: Equations) -> Iterator[FixedVelocities]:
+    for r, row in enumerate(equations.rows):
+        for c, _ in row.entries if row.held is None else ():
+            if matrix.is_unit(matrix.nv + r, c):
+                yield FixedVelocities((c,), (r,))
+
+
+def _is_open(matrix: SaddleMatrix, block: FixedVelocities) -> bool:
+    """Whether velocities and rows are left over, and their common entries as they were."""
+    rows = [matrix.nv + r for r in block.rows]
+    if not matrix.left.issuperset((*block.columns, *rows)):
+        return False
+    return not any((r, c) in matrix.changed for r in rows for c in block.columns)
+
+
+def _cost(matrix: SaddleMatrix, block: FixedVelocities) -> int:
+    """Return about the number of products that the elimination takes."""
+    k, rows = matrix.entries, [matrix.nv + r for r in block.rows]
+    beside = {i for c in block.columns for i in k[c]} - {*block.columns, *rows}
+    motion = {i for r in rows for i in k[r]} - set(block.columns)
+    scaled = sum(not all(matrix.is_unit(i, r) for r in rows) for i in motion)
+    return len(rows) * (len(motion) * (len(motion) + 1) // 2 + scaled + len(motion) * len(beside))

@@ -1,0 +1,48 @@
+"""The order of elimination with the fewest operations, counted for each mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from symgen.formulate.equations import Equations
+from symgen.ir.graph import PARAMETER
+from symgen.ir.program import EliminationPlan
+from symgen.lower.blocks import fixed_velocities
+from symgen.lower.scalar import ScalarNodes
+from symgen.methods._base import multiplier_law
+from symgen.methods._formula import System
+
+
+def cheapest_plan(equations: Equations) -> EliminationPlan:
+    """Return the plan with the fewest operations of accelerations, multipliers and flags of suspicious pivots.
+
+    Equal numbers are decided by the longest chain of operations.
+    """
+    return min(_plans(equations), key=lambda plan: _cost(equations, plan)) if equations.m else EliminationPlan()
+
+
+def _plans(equations: Equations) -> Iterator[EliminationPlan]:
+    yield EliminationPlan()
+    fixed = fixed_velocities(equations)
+    if fixed:
+        yield EliminationPlan(fixed, schur=False)
+
+
+def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
+    system = System()
+    law = multiplier_law(system, system.gamma)
+    ends = [law.acceleration.index, law.multipliers.index, system.flag().index]
+    scalars = ScalarNodes(equations, tuple(system.tape.operations), plan=plan)
+    scalars.compute(ends)
+    accelerations, multipliers, flag = (scalars.values[i] for i in ends)
+    g, nodes = scalars.graph, [*accelerations, *multipliers, *(() if flag is None else (flag,))]
+    depth: dict[int, int] = {}
+    counted = 0
+    for node in g.needed(nodes, lambda node: g.depends[node] == PARAMETER):
+        op, args, _ = g.nodes[node]
+        if op in ("const", "input") or g.depends[node] == PARAMETER:
+            depth[node] = 0
+        else:
+            counted += 1
+            depth[node] = 1 + max(depth[a] for a in args)
+    return counted, max(depth.values())
