@@ -153,8 +153,12 @@ class FunctionPrinter(ValuePrinter):
             for name, x in f.tables.items()
         ]
         copied = " alwaysinline" * (f.inlined and bool(self.linkage))
-        begin = f"define {self.linkage}{head(f, self.symbol(f))}{copied} {{"
+        begin = f"define {self.linkage}{self.head()}{copied} {{"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
+
+    def head(self) -> str:
+        """Return result, name and parameters."""
+        return head(self.function, self.symbol(self.function))
 
     def take_arguments(self) -> None:
         """Name the arguments."""
@@ -175,11 +179,9 @@ class FunctionPrinter(ValuePrinter):
             for angles in self.before.get(id(statement), ()):
                 self.take_sines(angles)
             if isinstance(statement, lang.Assign):
-                self.assign(statement.name, self.value(statement.value))
+                self.set_variable(statement)
             elif isinstance(statement, lang.Store):
-                value = self.value(statement.value)
-                place = self.place(statement.array, statement.index)
-                self.lines.append(f"  store {TYPES[statement.value.type]} {value}, ptr {place}")
+                self.store(statement)
             elif isinstance(statement, lang.Evaluate):
                 self.value(statement.call)
             elif isinstance(statement, lang.If):
@@ -202,10 +204,23 @@ class FunctionPrinter(ValuePrinter):
                 return False
             else:
                 assert isinstance(statement, lang.Return), "all kinds of statements are known"
-                value = self.value(statement.value)
-                self.lines.append(f"  ret {TYPES[statement.value.type]} {value}")
+                self.end(statement.value)
                 return False
         return True
+
+    def set_variable(self, statement: lang.Assign) -> None:
+        """Print an assignment to a variable."""
+        self.assign(statement.name, self.value(statement.value))
+
+    def store(self, statement: lang.Store) -> None:
+        """Print an assignment to an element of an array."""
+        value = self.value(statement.value)
+        place = self.place(statement.array, statement.index)
+        self.lines.append(f"  store {TYPES[statement.value.type]} {value}, ptr {place}")
+
+    def end(self, value: lang.Expression) -> None:
+        """Print the end of the function."""
+        self.lines.append(f"  ret {TYPES[value.type]} {self.value(value)}")
 
     def view(self, statement: lang.ArrayView) -> None:
         """Name a part of an array."""
@@ -234,7 +249,7 @@ class FunctionPrinter(ValuePrinter):
         self.views[statement.name] = data, (self.put(f"select i1 {test}, i64 {m[0]}, i64 {n[0]}"),)
 
     def assign(self, name: str, value: str) -> None:
-        """Print an assignment to a variable."""
+        """Set a variable to a printed value."""
         if name in self.function.fixed:
             self.values[name] = value
         else:

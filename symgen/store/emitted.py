@@ -10,14 +10,14 @@ from __future__ import annotations
 import ast
 import builtins
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from symgen.native import types
 from symgen.native.compiler import compiler, interpreted
 from symgen.native.read_tables import Written
-from symgen.store.identity import content, source_stamp
+from symgen.store.identity import content, source_stamp, sources_digest
 from symgen.store.jit import Arguments, CacheEntry, MachineFunction, arguments_of, kinds_of, syntax_tree
 
 if TYPE_CHECKING:
@@ -99,6 +99,41 @@ class NodesFunction(EmittedFunction):
         number, array, whole = types.float64, types.float64[::1], types.int64[::1]
         function = self.read((number, array, array, array, whole, array))
         return _compiled(self, function, module(function, symbol, _symbol, _is_short), symbol)
+
+
+class TangentFunction(EmittedFunction):
+    """A function with directions beside each float, by `symgen.native.tangents`, of the same arguments.
+
+    Parameters
+    ----------
+    function : EmittedFunction
+        The function without directions.
+    lanes : int
+        Number of directions.
+    places : mapping of str to int
+        First element of the directions behind each array.
+    """
+
+    def __init__(self, function: EmittedFunction, lanes: int, places: Mapping[str, int]) -> None:
+        super().__init__(function.py_func)
+        self.origin, self.lanes, self.places = function.origin, lanes, dict(places)
+
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+        slopes = sources_digest("vocabulary")
+        return f"directions {self.lanes} {sorted(self.places.items())} {slopes} {super().identity()}"
+
+    def __reduce__(self) -> Any:
+        raise TypeError("machine code does not travel")
+
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        """Return machine code, made from the source; callees are in it."""
+        from symgen.native.machine import compiled
+        from symgen.native.tangents import module
+
+        function = self.read(arguments)
+        text = module(function, symbol, self.lanes, self.places, _together())
+        return CacheEntry(function.returned, (), compiled(text, symbol))
 
 
 def plain(function: _Function) -> _Function:
