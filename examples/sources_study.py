@@ -4,11 +4,8 @@ python sources_study.py [MODEL [UNTIL]]
 """
 
 import sys
-from pathlib import Path
 
 import symgen
-from symgen.report.comparison import comparison
-from symgen.report.write import write
 
 model = sys.argv[1] if len(sys.argv) > 1 else "pendulum"
 until = float(sys.argv[2]) if len(sys.argv) > 2 else 1.0
@@ -20,6 +17,6 @@ for row in study.rows:
     print(f"{row.method:27} {row.step:g} s  {row.status}: {outcome}")
 print(f"reference: {study.how}")
 
-write(comparison([study]), Path("study.html"))
+study.save("study.html")
 study.save("study.csv")
 study.plot("study.pdf")

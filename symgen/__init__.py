@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from symgen.ensemble.sweep_study import Sweep
     from symgen.integrators import list_integrators
     from symgen.methods import list_methods
+    from symgen.report.write import write_report
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.stepping.run import SteppedRun
@@ -55,6 +56,7 @@ _WHERE = {
     "load_plugin": "symgen.base.plugins",
     "simulate": "symgen.api",
     "sweep": "symgen.ensemble.sweep",
+    "write_report": "symgen.report.write",
 }
 
 __all__ = [
@@ -80,6 +82,7 @@ __all__ = [
     "load_plugin",
     "simulate",
     "sweep",
+    "write_report",
 ]
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import msgspec
 import numpy as np
@@ -23,6 +23,7 @@ from symgen.base.errors import InputError, nearest
 from symgen.base.memory import require
 from symgen.layout import abi
 from symgen.result.labelled import Labelled, labelled
+from symgen.result.plot import Plot, plotted
 from symgen.result.reactions import Forces, seats
 from symgen.result.signals import accelerations, multiplier_unit
 from symgen.result.tables import Measured, MotionTables
@@ -188,24 +189,26 @@ class Kinematics(MotionTables):
             raise InputError("point", "a named point", arguments.shown(point), nearest(point, points))
         return np.column_stack(columns)
 
-    def plot_curves(self, path: str | PathLike[str], points: Sequence[str] = ()) -> Path:
-        """Draw the paths of points of bodies, the first two coordinates, into a PNG, SVG or PDF file.
+    @overload
+    def plot_curves(self, path: None = None, points: Sequence[str] = ()) -> Plot: ...
+
+    @overload
+    def plot_curves(self, path: str | PathLike[str], points: Sequence[str] = ()) -> Path: ...
+
+    def plot_curves(self, path: str | PathLike[str] | None = None, points: Sequence[str] = ()) -> Plot | Path:
+        """Draw the paths of points of bodies, the first two coordinates: a figure, or a PNG, SVG or PDF file.
 
         Parameters
         ----------
-        path : path
-            The file.
+        path : path, optional
+            The file. Without one the figure comes back, which notebooks show.
         points : sequence of str, optional
             Such as ``leg.foot``; all by default.
         """
-        from symgen.base.files import check_path
-        from symgen.result.export import PLOTTED
-        from symgen.result.plots import paths, write_figure
+        from symgen.result.plots import paths
 
-        where = arguments.path("plot", path)
-        check_path("plot", where, PLOTTED, "plot")
         chosen = arguments.words("points", points) or dict.fromkeys(n.rpartition(".")[0] for n in self.points.names)
-        return write_figure(paths({name: self.curve(name) for name in chosen}, self.title), where)
+        return plotted(path, lambda: paths({name: self.curve(name) for name in chosen}, self.title))
 
     def __repr__(self) -> str:
         return f"<Kinematics of {self.mechanism} at {len(self.t)} times{': ' + self.ended if self.ended else ''}>"

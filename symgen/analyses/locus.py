@@ -7,20 +7,19 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
+from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import plain
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
-from symgen.base import arguments
 from symgen.base.errors import InputError, SymgenError
-from symgen.base.files import check_path
 from symgen.describe.evaluate import parameter_values
-from symgen.result.export import PLOTTED
-from symgen.result.plots import COLOURS, write_figure
+from symgen.result.plot import Plot, plotted
+from symgen.result.plots import COLOURS
 
 Complex = NDArray[np.complex128]
 
@@ -89,23 +88,30 @@ class Locus:
 
         return in_notebook(shown_locus(self))
 
-    def plot(self, path: str | Path) -> Path:
-        """Draw real and imaginary parts over the parameter, and the plane of eigenvalues, into a file.
+    @overload
+    def plot(self, path: None = None) -> Plot: ...
+
+    @overload
+    def plot(self, path: str | PathLike[str]) -> Path: ...
+
+    def plot(self, path: str | PathLike[str] | None = None) -> Plot | Path:
+        """Draw real and imaginary parts over the parameter, and the plane of eigenvalues: a figure, or a file.
 
         Parameters
         ----------
-        path : str or Path
-            A ``.png``, ``.svg`` or ``.pdf`` file.
+        path : path, optional
+            A ``.png``, ``.svg`` or ``.pdf`` file. Without one the figure comes back, which notebooks show.
 
         Raises
         ------
         InputError
             If the suffix is not supported, matplotlib is missing, or the file cannot be written.
         """
+        return plotted(path, self._figure)
+
+    def _figure(self) -> Any:
         from matplotlib.figure import Figure
 
-        path = arguments.path("plot", path)
-        check_path("plot", path, PLOTTED, "plot")
         figure = Figure(figsize=(10.0, 4.5), layout="constrained")
         over, plane = figure.subplots(1, 2)
         for k, branch in enumerate(self.branches.T):
@@ -121,7 +127,7 @@ class Locus:
         over.set_ylabel("real part, and imaginary part dotted [1/s]")
         plane.set_xlabel("real part [1/s]")
         plane.set_ylabel("imaginary part [1/s]")
-        return write_figure(figure, path)
+        return figure
 
 
 def locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:

@@ -2,5 +2,5 @@
 
 In: a mechanism, settings and axes.
 Out: a `Sweep` with a row of numbers for each run.
-Imports: filelock, msgspec, Numba, NumPy; distributed, xarray when needed; `study` and rooms below.
+Imports: filelock, msgspec, Numba, NumPy; distributed, pandas, xarray when needed; `study` and rooms below.
 """

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,13 @@ from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension,
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
 from symgen.layout.ensemble_abi import ASSEMBLED
 from symgen.result.contract import finite
-from symgen.result.export import PLOTTED, netcdf
+from symgen.result.export import netcdf
 from symgen.result.labelled import html_table
+from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
     from symgen.ensemble.sweep_plan import Ensemble
@@ -277,13 +279,38 @@ class Sweep:
             return write_csv(file, *lines_of(self))
         return write_whole(file, netcdf(self.to_xarray()))
 
-    def plot(self, path: str | PathLike[str], what: Sequence[str] = (), over: str = "") -> Path:
-        """Draw quantities that were kept into a PNG, SVG or PDF file, a panel for each.
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for every run and output time, with what varied, quantities, events and status.
+
+        Columns carry no units; ``attrs["units"]`` holds them.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        need("to_dataframe", "pandas")
+        import pandas as pd
+
+        headings, lines = lines_of(self)
+        parts = [heading.partition(" [") for heading in headings]
+        frame = pd.DataFrame(list(lines), columns=[name for name, _, _ in parts])
+        frame.attrs["units"] = {name: unit.removesuffix("]") for name, _, unit in parts if unit}
+        return frame
+
+    @overload
+    def plot(self, path: None = None, what: Sequence[str] = (), over: str = "") -> Plot: ...
+
+    @overload
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = (), over: str = "") -> Path: ...
+
+    def plot(self, path: str | PathLike[str] | None = None, what: Sequence[str] = (), over: str = "") -> Plot | Path:
+        """Draw quantities that were kept: a figure, or a PNG, SVG or PDF file, a panel for each.
 
         Parameters
         ----------
-        path : path
-            The file; its ending says the kind.
+        path : path, optional
+            The file; its ending says the kind. Without one the figure comes back, which notebooks show.
         what : sequence of str, optional
             Quantities, or all of a body, a joint or a table; all by default.
         over : str
@@ -296,11 +323,8 @@ class Sweep:
             If a name is none, the ending is not known, matplotlib is missing, or the file cannot be written.
         """
         from symgen.ensemble.sweep_plot import sweep_figure
-        from symgen.result.plots import write_figure
 
-        file = argument_path("plot", path)
-        check_path("plot", file, PLOTTED, "plot")
-        return write_figure(sweep_figure(self, words("plot", what), text("over", over)), file)
+        return plotted(path, lambda: sweep_figure(self, words("plot", what), text("over", over)))
 
     def units(self) -> dict[str, str]:
         """Return the units of what varies, by name; empty where there is none."""

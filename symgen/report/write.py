@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
+from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import shown
 from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
 from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
+from symgen.study.comparison.comparison_rows import Study
 
 if TYPE_CHECKING:
     import jinja2
+
+    from symgen.study.stress.stress_rows import Stress
 
 #: Endings of reports -> the libraries needed.
 WRITTEN: Mapping[str, tuple[str, ...]] = {".html": ("matplotlib",), ".md": ("matplotlib",)}
@@ -61,6 +67,35 @@ def write(document: Document, path: Path) -> Path:
         if is_new and not any(folder.iterdir()):  # something could not be written
             folder.rmdir()
     return path
+
+
+def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[str]) -> Path:
+    """Write the report of a comparison, of several beside each other, or of a stress study.
+
+    Parameters
+    ----------
+    study : Study, Stress or sequence of Study
+        What `symgen.compare` or the stress study returns.
+    path : path
+        A ``.html`` file, which opens without a network, or ``.md`` with pictures in a folder beside it.
+
+    Raises
+    ------
+    InputError
+        If the ending is another one, matplotlib is missing, or the file cannot be written.
+    """
+    from symgen.report.comparison import comparison
+    from symgen.report.stress import stress_report
+    from symgen.study.stress.stress_rows import Stress
+
+    file = argument_path("report", path)
+    check_report("report", file)
+    if isinstance(study, Stress):
+        return write(stress_report(study), file)
+    studies = [study] if isinstance(study, Study) else study
+    if not (isinstance(studies, Sequence) and studies and all(isinstance(s, Study) for s in studies)):
+        raise InputError("report", "a comparison or a stress study", shown(study))
+    return write(comparison(studies), file)
 
 
 def _folder(path: Path) -> Path:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from symgen.base.errors import fitting
-from symgen.base.files import write_whole
 from symgen.result.labelled import Labelled
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
@@ -53,13 +51,6 @@ def panels(table: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
 def label(title: str, unit: str) -> str:
     """Return the label of an axis: ``angular velocity [rad/s]``."""
     return f"{title} [{unit.replace('^2', '$^2$')}]".strip() if unit else title
-
-
-def write_figure(figure: Any, path: Path) -> Path:
-    """Write a matplotlib figure to a file, without a date: the same result gives the same bytes."""
-    kind = path.suffix.lower().removeprefix(".")
-    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
-    return write_whole(path, lambda file: figure.savefig(file, format=kind, dpi=150, metadata=metadata))
 
 
 def drawing(along: Labelled, table: Labelled, title: str) -> Any:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
 
@@ -20,9 +20,10 @@ from symgen.compiling.side import compile_side
 from symgen.describe.columns import column_name
 from symgen.describe.readings import TABLES as FORMULAS
 from symgen.result.contract import series
-from symgen.result.export import COLUMNS, PLOTTED, data_frame, write_columns
+from symgen.result.export import COLUMNS, data_frame, write_columns
 from symgen.result.labelled import Array, Labelled, labelled
-from symgen.result.plots import drawing, write_figure
+from symgen.result.plot import Plot, plotted
+from symgen.result.plots import drawing
 from symgen.result.signals import SignalTables, check_single, choose, of_formulas
 
 if TYPE_CHECKING:
@@ -254,13 +255,21 @@ class Tables(ABC):
         """Return a table as JSON has it: lists by key; numbers that are not finite are None."""
         return series(getattr(self, one_of("table", table, self.names)))
 
-    def plot(self, path: str | PathLike[str], what: Sequence[str] = (), over: str = "t") -> Path:
-        """Draw quantities over time, or over another quantity, into a PNG, SVG or PDF file, a panel for each unit.
+    @overload
+    def plot(self, path: None = None, what: Sequence[str] = (), over: str = "t") -> Plot: ...
+
+    @overload
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = (), over: str = "t") -> Path: ...
+
+    def plot(self, path: str | PathLike[str] | None = None, what: Sequence[str] = (), over: str = "t") -> Plot | Path:
+        """Draw quantities over time, or over another quantity: a figure, or a PNG, SVG or PDF file.
+
+        Each unit has a panel.
 
         Parameters
         ----------
-        path : path
-            The file; its ending says the kind.
+        path : path, optional
+            The file; its ending says the kind. Without one the figure comes back, which notebooks show.
         what : sequence of str, optional
             Quantities as `select` takes them: ``["motor.effort", "knee.F"]``; an overview by default.
         over : str
@@ -271,11 +280,12 @@ class Tables(ABC):
         InputError
             If there is no such name, the ending is not known, matplotlib is missing, or the file cannot be written.
         """
-        where = argument_path("plot", path)
-        check_path("plot", where, PLOTTED, "plot")
         names = words("plot", what)
-        shown = self.select(names) if names else self.whole(self.drawn)
-        return write_figure(drawing(self.along(over), shown, self.title), where)
+
+        def draw() -> Any:
+            return drawing(self.along(over), self.select(names) if names else self.whole(self.drawn), self.title)
+
+        return plotted(path, draw)
 
     def along(self, over: str) -> Labelled:
         """Return the one column that other quantities are drawn over."""

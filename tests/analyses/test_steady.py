@@ -43,6 +43,7 @@ def test_weave_and_capsize_speeds(tmp_path):
     assert_allclose([c.value for c in found.crossings], [WEAVE, CAPSIZE], rtol=1e-9)
     assert [c.rising for c in found.crossings] == [False, True]
     assert_allclose(found.crossings[0].eigenvalue.imag, 3.43503384866144, rtol=1e-8)
+    assert len(found.plot().figure.axes) == 2
     assert found.plot(tmp_path / "locus.svg").read_text().lstrip().startswith("<?xml")
 
 

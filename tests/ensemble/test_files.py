@@ -117,6 +117,11 @@ def test_an_output_called_as_a_parameter_that_varies_has_a_label_of_its_own(tmp_
         np.testing.assert_allclose(data["output.output.x"][:, 0], twice, rtol=1e-12)
     lines = found.save(tmp_path / "few.csv").read_text(encoding="utf-8").splitlines()
     assert lines[0] == "run,x,t [s],output.output.x,output.x [m],t0,end [s],status,reason,warnings"
+    frame = found.to_dataframe()
+    assert [*frame.columns] == "run x t output.output.x output.x t0 end status reason warnings".split()
+    assert frame.attrs["units"] == {"t": "s", "output.x": "m", "end": "s"}
+    np.testing.assert_allclose(frame["output.output.x"], twice, rtol=1e-12)
+    assert found.plot(what=["t0"])._repr_png_()
 
 
 def test_any_number_of_threads_gives_the_same_bits():

@@ -283,7 +283,16 @@ def rows():
         ("sweep plot", lambda x, v: x.sweep.plot(v), "plot"),
     ):
         names = {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}
+        if where == "plot":  # without a path a plot comes back
+            del names["None"]
         yield from each(label, names, call, f"{where}: expected a path, got {{}}")
+    yield from each("report", NO_TEXT, lambda x, v: symgen.write_report(x.study, v), "report: expected a path, got {}")
+    yield (
+        "report of 3",
+        lambda x: symgen.write_report(3, "a.html"),
+        "report: expected a comparison or a stress",
+    )
+    yield "report ending", lambda x: x.study.save("a.htm"), "save: expected a file ending in .csv, .html, .md, got"
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
@@ -475,7 +484,7 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
-        *"list_methods list_integrators load_plugin".split(),
+        *"list_methods list_integrators load_plugin write_report".split(),
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
         *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),

@@ -94,6 +94,15 @@ def test_an_svg_says_units_and_is_the_same_every_time(result, tmp_path):
     assert result.plot(tmp_path / "b.png").stat().st_size > 10_000
 
 
+def test_a_plot_without_a_path_shows_itself(result, tmp_path):
+    plot = result.plot()
+    assert plot._repr_png_().startswith(b"\x89PNG") and len(plot.figure.axes) >= 3
+    again = result.plot().save(tmp_path / "again.svg").read_text()
+    assert again == result.plot(tmp_path / "file.svg").read_text()
+    with pytest.raises(InputError, match=r"plot: expected a file ending in \.png, \.svg, \.pdf"):
+        plot.save(tmp_path / "a.txt")
+
+
 def test_violations_are_drawn_on_a_logarithmic_axis(result):
     from symgen.result.plots import drawing
 

@@ -208,6 +208,9 @@ def test_rows_as_a_file_and_as_a_frame(study, tmp_path):
     assert list(study.to_dataframe()["error"]) == [r.error for r in study.rows]
     with pytest.raises(InputError, match=r"a file ending in \.csv"):
         study.save(tmp_path / "rows.txt")
+    assert "<html" in study.save(tmp_path / "report.html").read_text(encoding="utf-8")
+    assert study.save(tmp_path / "report.md").read_text(encoding="utf-8").startswith("# ")
+    assert len(study.plot(over="evaluations").figure.axes) == 1
 
 
 @pytest.mark.slow

@@ -8,17 +8,17 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from os import PathLike
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any, TypedDict, cast
+from typing import TYPE_CHECKING, Any, TypedDict, cast, overload
 
 import msgspec
 
 from symgen.base.arguments import one_of, words
 from symgen.base.arguments import path as argument_path
 from symgen.base.errors import InputError
-from symgen.base.files import check_path, check_writable, headed, write_csv
+from symgen.base.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
-from symgen.result.export import PLOTTED
 from symgen.result.labelled import html_table
+from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
 
 if TYPE_CHECKING:
@@ -380,13 +380,23 @@ class Study:
 
         return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(Row)])
 
-    def plot(self, path: str | PathLike[str], what: Sequence[str] = ("error",), over: str = "run_seconds") -> Path:
-        """Draw columns of the rows over another one into a PNG, SVG or PDF file, a line for each method and integrator.
+    @overload
+    def plot(self, path: None = None, what: Sequence[str] = ("error",), over: str = "run_seconds") -> Plot: ...
+
+    @overload
+    def plot(self, path: str | PathLike[str], what: Sequence[str] = ("error",), over: str = "run_seconds") -> Path: ...
+
+    def plot(
+        self, path: str | PathLike[str] | None = None, what: Sequence[str] = ("error",), over: str = "run_seconds"
+    ) -> Plot | Path:
+        """Draw columns of the rows over another one: a figure, or a PNG, SVG or PDF file.
+
+        Each method with each integrator has a line.
 
         Parameters
         ----------
-        path : path
-            The file; its suffix selects the format.
+        path : path, optional
+            The file; its ending says the kind. Without one the figure comes back, which notebooks show.
         what : sequence of str
             Columns of numbers: ``error``, ``energy_drift_max``, ``evaluations``, ...
         over : str
@@ -397,11 +407,24 @@ class Study:
         InputError
             If a column does not exist, the suffix is not supported, matplotlib is missing, or writing fails.
         """
-        return plot_rows([self], argument_path("plot", path), what, over)
+        return plot_rows([self], path, what, over)
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the rows to a CSV file; it appears whole or not at all."""
-        return save_csv([self], argument_path("save", path))
+        """Write the rows to a ``.csv`` file, or the report to ``.html`` or ``.md``; whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If the ending is another, matplotlib is missing for a report, or the file cannot be written.
+        """
+        file = argument_path("save", path)
+        if file.suffix.lower() in (".html", ".md"):
+            from symgen import write_report
+
+            return write_report(self, file)
+        if file.suffix.lower() != ".csv":
+            raise InputError("save", "a file ending in .csv, .html, .md", f"'{file}'")
+        return save_csv([self], file)
 
 
 def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
@@ -418,12 +441,17 @@ def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
     return words("plot", what)
 
 
-def plot_rows(studies: Sequence[Study], path: Path, what: Sequence[str], over: str) -> Path:
+def plot_rows(
+    studies: Sequence[Study], path: str | PathLike[str] | None, what: Sequence[str], over: str
+) -> Plot | Path:
     """Draw columns of the rows of studies over another one, a panel for each study and column; see `Study.plot`."""
-    from symgen.result.plots import empty, label, legend, style, write_figure
-
     names = check_columns_of_rows(what, over)
-    check_path("plot", path, PLOTTED, "plot")
+    return plotted(path, lambda: _figure_of_rows(studies, names, over))
+
+
+def _figure_of_rows(studies: Sequence[Study], names: Sequence[str], over: str) -> Any:
+    from symgen.result.plots import empty, label, legend, style
+
     parts = [(study, name) for study in studies for name in names]
     figure, axes = empty(", ".join(f"{study.mechanism}, {study.until:g} s" for study in studies), len(parts))
     for ax, (study, name) in zip(axes, parts, strict=True):
@@ -439,7 +467,7 @@ def plot_rows(studies: Sequence[Study], path: Path, what: Sequence[str], over: s
         if lines:
             legend(ax)
     axes[-1].set_xlabel(label(over.replace("_", " "), UNITS.get(over, "")))
-    return write_figure(figure, path)
+    return figure
 
 
 def save_csv(studies: Sequence[Study], path: Path, units: bool = False) -> Path:

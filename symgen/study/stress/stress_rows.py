@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
+from os import PathLike
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
-from symgen.base.files import check_writable, headed, write_csv
+from symgen.base.arguments import path as argument_path
+from symgen.base.errors import InputError
+from symgen.base.files import check_writable, headed, need, write_csv
 from symgen.result.contract import finite
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 #: Units of columns.
 UNITS = {
@@ -157,6 +163,30 @@ class Stress:
             "findings": list(findings(self)),
         }
         return cast(dict[str, Any], finite(contract))
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the cells as a pandas data frame."""
+        need("to_dataframe", "pandas")
+        import pandas as pd
+
+        return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(StressRow)])
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the cells to a ``.csv`` file, or the report to ``.html`` or ``.md``; whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If the ending is another, matplotlib is missing for a report, or the file cannot be written.
+        """
+        file = argument_path("save", path)
+        if file.suffix.lower() in (".html", ".md"):
+            from symgen import write_report
+
+            return write_report(self, file)
+        if file.suffix.lower() != ".csv":
+            raise InputError("save", "a file ending in .csv, .html, .md", f"'{file}'")
+        return save_csv(self, file)
 
 
 def save_csv(study: Stress, path: Path, units: bool = False) -> Path:
