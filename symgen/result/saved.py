@@ -25,8 +25,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _Value = TypeVar("_Value")
+#: Most bytes in one of a file, as the compression that NetCDF has can be.
+DENSEST = 1032
 #: Tables of a NetCDF file that are read.
 _TABLES = ("q", "v", "a", "joint_coordinates", "outputs")
+#: Variables of a NetCDF file that are loaded, beside those of the last state.
+_READ = frozenset({"time", *TABLES, *TABLES.values(), *(f"{dimension}_unit" for dimension in TABLES.values())})
 
 
 @dataclass(frozen=True)
@@ -122,13 +126,26 @@ def dataset_of(path: Path) -> xr.Dataset:
     import h5py
     import xarray as xr
 
-    with h5py.File(path) as file:
-        file["/"]  # without it, h5netcdf leaves an object that prints a traceback when it is deleted
+    most = DENSEST * path.stat().st_size
+    with h5py.File(path) as file:  # without it, h5netcdf leaves an object that prints a traceback when it is deleted
+        for name, variable in file["/"].items():
+            if (name in _READ or name.startswith(LAST_PREFIX)) and getattr(variable, "nbytes", 0) > most:
+                raise ValueError(f"'{name}' has {variable.nbytes:.2g} bytes, more than such a file can hold")
     with xr.open_dataset(path, engine="h5netcdf") as dataset:
         sizes = json.loads(dataset.attrs.get(LAST_HEADER, "{}")).get("sizes", {})
         last = {LAST_PREFIX + name: size for name, (_, size) in sizes.items()}
         own = [name for name, v in dataset.data_vars.items() if name in TABLES or last.get(str(name)) == v.size]
+        for name in own:
+            _check_table(str(name), dataset[name])
         return dataset[own].load()  # other variables may be larger than the memory
+
+
+def _check_table(name: str, variable: xr.DataArray) -> None:
+    """Refuse a table that is none of numbers over time and its labels."""
+    if name in TABLES and (variable.dims != ("time", TABLES[name]) or variable.dtype.kind not in "fiu"):
+        raise ValueError(f"'{name}' is no table of numbers over time and {TABLES[name]}")
+    if name in TABLES and variable.size and TABLES[name] not in variable.coords:
+        raise ValueError(f"'{name}' has no labels {TABLES[name]}")
 
 
 def _of_dataset(path: Path, whence: str) -> Recorded:

@@ -14,6 +14,7 @@ from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.evaluate import independent_values, parameter_values
 from symgen.describe.events import DOES
 from symgen.describe.inputs import are_words_of_data
+from symgen.describe.mechanism import ACCELERATIONS
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
@@ -280,11 +281,15 @@ def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
         If the file is none of a result of the mechanism.
     """
     data = _dataset(option, path)
-    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
-    if [str(n) for n in data["coordinate"].values] != names:
-        raise InputError(
-            option, f"a result of {mechanism.name}", f"'{path}', which is one of {data.attrs['mechanism']}"
-        )
+    names = {
+        "coordinate": [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates],
+        "velocity": [f"{b.name}.{s}" for b in mechanism.bodies for s in b.speeds],
+        "acceleration": [f"{b.name}.{ACCELERATIONS[s]}" for b in mechanism.bodies for s in b.speeds],
+    }
+    for dimension, expected in names.items():
+        if expected and [str(n) for n in data[dimension].values] != expected:
+            got = f"'{path}', which is one of {data.attrs['mechanism']} and has others as {dimension}"
+            raise InputError(option, f"a result of {mechanism.name}", got)
     tables = dict[str, Labelled]()
     for name, of in TABLES.items():
         columns, units = (

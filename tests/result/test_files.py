@@ -3,7 +3,9 @@
 import csv
 import importlib.util
 import json
+from functools import partial
 
+import h5py
 import numpy as np
 import pandas as pd
 import pytest
@@ -14,7 +16,8 @@ from symgen.base import files
 from symgen.base.errors import InputError
 from symgen.result.export import write_columns
 from symgen.result.labelled import Labelled
-from symgen.result.saved import dataset_of, read_last_state
+from symgen.result.saved import dataset_of, read_last_state, read_recorded
+from symgen.result.viewed import view_file
 
 #: Numbers are read to the last bit: the default from pandas 3 on, which warns of the argument.
 EXACT = {"float_precision": "round_trip"} if int(pd.__version__.partition(".")[0]) < 3 else {}
@@ -23,6 +26,11 @@ EXACT = {"float_precision": "round_trip"} if int(pd.__version__.partition(".")[0
 @pytest.fixture(scope="module")
 def result():
     return symgen.simulate("driven-four-bar", until=0.5, output_step=0.05)
+
+
+@pytest.fixture(scope="module")
+def saved(result, tmp_path_factory):
+    return xr.load_dataset(result.save(tmp_path_factory.mktemp("saved") / "run.nc"), engine="h5netcdf")
 
 
 def test_csv(result, tmp_path):
@@ -133,6 +141,46 @@ def test_a_missing_library_says_how_to_get_it(result, tmp_path, monkeypatch):
     monkeypatch.setattr(files, "find_spec", lambda name: None if name == "h5netcdf" else real(name))
     with pytest.raises(InputError, match=r"the library h5netcdf, got none; pip install 'symgen\[data\]' installs it"):
         result.save(tmp_path / "run.nc")
+
+
+SIZES = {
+    "a table of one dimension": ("q", lambda q: ("time", q[:, 0]), "'q' is no table of numbers over time and coordi"),
+    "three dimensions": ("q", lambda q: (("time", "coordinate", "z"), q[:, :, None]), "'q' is no table of numbers"),
+    "other times": ("energy", lambda x: (("other", "kind_of_energy"), x[:-1]), "'energy' is no table of numbers ove"),
+    "columns without labels": ("v", lambda v: (("time", "w"), v[:, :2]), "'v' is no table of numbers over time and v"),
+    "texts": ("q", lambda q: (("time", "coordinate"), q.astype(str).astype(object)), "'q' is no table of numbers o"),
+}
+
+
+@pytest.mark.parametrize("name", SIZES)
+def test_tables_of_other_sizes_are_refused(saved, tmp_path, name):
+    table, changed, sentence = SIZES[name]
+    path = tmp_path / "run.nc"
+    saved.drop_vars(table).assign({table: changed(saved[table].values)}).to_netcdf(path, engine="h5netcdf")
+    for read in (
+        read_last_state,
+        read_recorded,
+        partial(view_file, mechanism=symgen.load("driven-four-bar").mechanism),
+    ):
+        with pytest.raises(InputError, match=sentence):
+            read("--from", path)
+
+
+def test_a_result_with_columns_of_another_model_is_not_viewed(saved, tmp_path):
+    path = tmp_path / "run.nc"
+    saved.isel(velocity=slice(0, 2)).to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(InputError, match=r"a result of driven-four-bar, got .* and has others as velocity"):
+        view_file("view", path, symgen.load("driven-four-bar").mechanism)
+
+
+def test_a_table_that_its_file_cannot_hold_is_not_read(result, tmp_path):
+    """A table that nothing was written to takes no space in a file, and all of the memory."""
+    path = result.save(tmp_path / "run.nc")
+    with h5py.File(path, "a") as file:
+        del file["q"]
+        file.create_dataset("q", (10**8, 9), dtype="f8", chunks=True)
+    with pytest.raises(InputError, match=r"'q' has 7.2e\+09 bytes, more than such a file can hold"):
+        read_recorded("motion", path)
 
 
 def test_variables_that_are_not_of_a_result_are_not_read(tmp_path):
