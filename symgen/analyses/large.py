@@ -17,12 +17,14 @@ from symgen.analyses.edges import edges
 from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
 from symgen.analyses.modes import Modes
 from symgen.analyses.settle import search
-from symgen.analyses.subject import Yardsticks, at_start, inputs_at_start
+from symgen.analyses.subject import Yardsticks, inputs_at_start
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.settings import Settings
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.loops.newton import Pattern
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -144,7 +146,8 @@ def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Ar
     """
     placed = inputs_at_start(mechanism, settings)
     settings = replace(placed.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
-    mechanism, compiled, start, _ = at_start(placed.mechanism, settings)
+    run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
+    mechanism, compiled, start = run.mechanism, run.compiled, run.start
     pattern, y = Pattern.of(compiled, start.w), start.y.copy()
     y[pattern.nq :] = 0.0
     active = np.setdiff1d(np.arange(pattern.m), pattern.masked)

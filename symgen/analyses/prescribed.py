@@ -21,7 +21,7 @@ from symgen.layout.probe import Ready
 from symgen.running.dead_centre import DRIVER, jacobian_at
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose
-from symgen.running.prepare import code_and_start, make_plan
+from symgen.running.prepare import preparation
 from symgen.running.starts import compiled_for, start_of
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import GROUND, Integral
@@ -132,9 +132,9 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     settings = replace(settings, method="lagrange", integrator=None, output_step=None, coordinates="absolute")
     placed = put_inputs(mechanism, settings)
     driven = instantaneous(placed.mechanism)
-    plan = make_plan(driven, placed.settings, Purpose.STATE)
-    near, words = branch_near(plan, branch) if branch else (None, ())
-    run = code_and_start(plan, near)
+    ready = preparation(driven, placed.settings, Purpose.STATE)
+    near, words = branch_near(ready.plan, branch) if branch else (None, ())
+    run = replace(ready, near=near).run()
     compiled, start = run.compiled, run.start
     held, p, stops = list[tuple[float, Array]](), start.p, placed.stops[1:]
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}

@@ -11,24 +11,16 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split
-from symgen.base.errors import AssemblyError, InputError, nearest
+from symgen.base.errors import InputError, nearest
 from symgen.base.settings import Settings
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
-from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
-from symgen.describe.evaluate import evaluate, parameter_values, scalars
-from symgen.describe.holds import holds_of
-from symgen.describe.lengths import datum_of
-from symgen.describe.start import described_start
 from symgen.layout import abi
-from symgen.layout.model_arrays import lengths_of
 from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
 from symgen.running.inputs import Inputs, put_inputs
 from symgen.running.plan import Purpose
-from symgen.running.prepare import make_plan, prepare
-from symgen.running.starts import held_of, states_at_start
-from symgen.starts.assembly import Start
+from symgen.running.prepare import prepare
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -323,7 +315,8 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     if settings.shape == "auto":
         looped = mechanism.body_coordinates > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
-    mechanism, compiled, start, closed = at_start(placed.mechanism, settings)
+    run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
+    mechanism, compiled, start, closed = run.mechanism, run.compiled, run.start, run.assembled.closed
     names = [q.name for q in mechanism.parameters]
     for name in by:
         if name not in names:
@@ -354,48 +347,3 @@ def inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:
     # a run from here on begins behind what jumps here; smooth data may end here
     inputs = put_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
     return replace(inputs, settings=replace(inputs.settings, until=2.0 * begin))  # nothing is run
-
-
-def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Mechanism, CompiledModel, Start, bool]:
-    """Close a mechanism; where nothing closes it, take it as described, as a static search closes it on its way.
-
-    Returns
-    -------
-    mechanism : Mechanism
-        With its tree where the state is that of joints.
-    compiled, start : CompiledModel, Start
-        Its code and its start.
-    closed : bool
-        Whether the start satisfies the constraints.
-
-    Raises
-    ------
-    AssemblyError
-        If nothing closes a mechanism in joint coordinates.
-    """
-    try:
-        run = prepare(mechanism, settings, Purpose.STATE)
-    except AssemblyError:
-        plan = make_plan(mechanism, settings, Purpose.STATE)
-        if plan.coordinates == "joint":
-            raise
-    else:
-        return run.mechanism, run.compiled, run.start, True
-    mechanism, compiled = plan.mechanism, compile_model(plan.mechanism, plan.choice)
-    info, values = compiled.info, parameter_values(mechanism, plan.parameters)
-    numbers = scalars(values)
-    q, v = described_start(mechanism, numbers)
-    y, w = np.zeros(info.ny), compiled.scratch()
-    y[: info.nq] = q
-    y[info.own_states] = states_at_start(mechanism, numbers, plan.holds or ())
-    for i, value in held_of(info, plan.holds or holds_of(mechanism), numbers, v).coordinates.items():
-        y[i] = value
-    # the largest distance from the datum, or of a point in its body
-    places = [e for body in mechanism.bodies for _, point in body.points for e in point]
-    places += [e for _, marker in mechanism.seats for e in marker.point]
-    sizes, datum = [abs(evaluate(e, values, "points")) for e in places], datum_of(mechanism, numbers)
-    own = y[: info.nq]
-    w[abi.LENGTH] = max(float((np.abs(own - datum) * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
-    p = compiled.parameter_array(values, plan.method_parameters)
-    compiled.prepare(p)
-    return mechanism, compiled, Start(y, p, w, 0, (), ()), False

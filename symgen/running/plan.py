@@ -58,11 +58,14 @@ class Purpose(Enum):
         To be integrated for many parameters: drivers are checked row by row.
     STATE
         To be looked at where it starts.
+    DESCRIBED
+        To be looked at where it starts, or as it is described if nothing closes it.
     """
 
     MOTION = auto()
     ROWS = auto()
     STATE = auto()
+    DESCRIBED = auto()
 
 
 @dataclass(frozen=True)
@@ -176,7 +179,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         If a name, option or number is wrong.
     """
     mechanism = inputs.mechanism
-    if purpose is not Purpose.STATE:
+    if purpose in (Purpose.MOTION, Purpose.ROWS):
         refuse_weightless(mechanism)
     method = METHODS.get(s.method, "method")
     last = None if isinstance(s.start, Mapping) else s.start.last_state
@@ -261,7 +264,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         warnings=tuple(warnings),
         missed=tuple(times.missed(values, until, None if adaptive else step)),
         notes=notes,
-        bound=(why,) if why and adaptive and purpose is not Purpose.STATE else (),
+        bound=(why,) if why and adaptive and purpose in (Purpose.MOTION, Purpose.ROWS) else (),
         solver_is_free=free,
         holds=() if last is not None else holds_of(mechanism, "start", s.start),
         last=last,

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.errors import AssemblyError
 from symgen.base.memory import uncollected
 from symgen.base.settings import about
 from symgen.describe.holds import holds_of
@@ -20,7 +21,7 @@ from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, f
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
-from symgen.running.starts import DescribedStart, begun
+from symgen.running.starts import DescribedStart, begun, open_start
 from symgen.running.tree import TreeRun, begin_on_tree, carried_of, on_tree_of, over_of, tree_taken_up
 from symgen.runs.run import integrate
 from symgen.runs.simulation import Simulation
@@ -50,11 +51,14 @@ class Assembled:
         In the coordinates of the state.
     tree : TreeRun or None
         The map from joints to bodies where the state is that of joints.
+    closed : bool
+        Whether the start satisfies the constraints; False only for `Purpose.DESCRIBED`.
     """
 
     compiled: CompiledModel
     start: Start
     tree: TreeRun | None = None
+    closed: bool = True
 
     @property
     def of_bodies(self) -> tuple[CompiledModel, Start]:
@@ -129,6 +133,44 @@ class Prepared:
         return outcome.states[:, : self.compiled.info.nq] if self.tree is None else self.tree.positions(outcome)
 
 
+@dataclass(frozen=True)
+class Preparation:
+    """A run whose settings are resolved.
+
+    Attributes
+    ----------
+    plan : Plan
+        Settings, resolved.
+    near : array or None
+        Coordinates that the mechanism is closed from; None for the described ones.
+    assembled : Assembled or None
+        Code and start where an automatic choice has made them.
+    """
+
+    plan: Plan
+    near: Array | None = None
+    assembled: Assembled | None = None
+
+    def run(self, shared: dict[Any, Assembled] | None = None) -> Prepared:
+        """Compile the code and close the start.
+
+        Parameters
+        ----------
+        shared : dict, optional
+            Code and starts of runs with the same mechanism and parameters, by `Plan.key`; this run's are added.
+
+        Raises
+        ------
+        InputError, AssemblyError
+            If the start is refused, or the mechanism cannot be closed.
+        """
+        assembled = self.assembled if shared is None else shared.get(self.plan.key, self.assembled)
+        assembled = assembled or code_and_start(self.plan, self.near)
+        if shared is not None:
+            shared[self.plan.key] = assembled
+        return begin(self.plan, assembled)
+
+
 @uncollected()
 def prepare(
     mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION, near: Array | None = None
@@ -153,9 +195,7 @@ def prepare(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    plan, assembled = _decided(mechanism, settings, purpose, near)
-    assembled = assembled or code_and_start(plan, near)
-    return begin(plan, assembled)
+    return preparation(mechanism, settings, purpose, near).run()
 
 
 def make_plan(mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION) -> Plan:
@@ -168,25 +208,22 @@ def make_plan(mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpo
     AssemblyError
         If an automatic choice needs the start, and the mechanism cannot be closed.
     """
-    return _decided(mechanism, settings, purpose)[0]
+    return preparation(mechanism, settings, purpose).plan
 
 
-def _decided(
-    mechanism: Mechanism, settings: Settings, purpose: Purpose, near: Array | None = None
-) -> tuple[Plan, Assembled | None]:
-    """Return the plan of a run, and its code and start where an automatic choice has made them.
+def preparation(
+    mechanism: Mechanism, settings: Settings, purpose: Purpose = Purpose.MOTION, near: Array | None = None
+) -> Preparation:
+    """Resolve the settings of a run; parameters and errors as for `prepare`.
 
-    Parameters
-    ----------
-    mechanism, settings, purpose, near
-        As for `prepare`.
+    An automatic choice compiles code and closes the start; they serve the run too if the choice leaves them valid.
     """
     inputs = put_inputs(mechanism, settings)
     mechanism, settings = inputs.mechanism, inputs.settings
     if settings.integrator is None and mechanism.defaults.integrator is not None:
         settings = replace(settings, integrator=mechanism.defaults.integrator)
     if AUTO not in (settings.method, settings.integrator):
-        return resolved(inputs, settings, purpose), None
+        return Preparation(resolved(inputs, settings, purpose), near)
     trial = trial_of(mechanism, settings)
     plan = resolved(inputs, trial, purpose)
     assembled = code_and_start(plan, near)
@@ -194,9 +231,8 @@ def _decided(
     method, integrator, notes = decide(facts, settings.method, settings.integrator)
     if method == STRUCTURAL and settings.method == AUTO:
         options = {**settings.options, "integrator.adaptive": "true"}
-        return resolved(
-            inputs, replace(settings, method=method, integrator=integrator, options=options), purpose, notes
-        ), None
+        settings = replace(settings, method=method, integrator=integrator, options=options)
+        return Preparation(resolved(inputs, settings, purpose, notes), near)
     chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
     same = assembled if chosen.choice == plan.choice else None
     if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:
@@ -205,7 +241,7 @@ def _decided(
             _, integrator, notes = decide(facts, settings.method, settings.integrator)
             chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
             same = assembled if chosen.choice == plan.choice else None
-    return chosen, same
+    return Preparation(chosen, near, same)
 
 
 def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
@@ -226,7 +262,15 @@ def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
     joint = plan.coordinates == "joint"
     tree = tree_taken_up(plan, plan.last) if joint and plan.last is not None else None
     if tree is None:
-        bodies = begun(plan, near) if plan.last is None else continued(plan, plan.last)
+        if plan.last is not None:
+            bodies = continued(plan, plan.last)
+        else:
+            try:
+                bodies = begun(plan, near)
+            except AssemblyError:
+                if joint or plan.purpose is not Purpose.DESCRIBED:
+                    raise
+                return Assembled(*open_start(plan), closed=False)
         if not joint:
             return Assembled(*bodies)
         tree = on_tree_of(plan, *bodies)
@@ -236,7 +280,7 @@ def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
 def begin(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
     run = Prepared(plan, _noted(plan, assembled), plan.spec)
-    if plan.purpose is Purpose.STATE:
+    if plan.purpose in (Purpose.STATE, Purpose.DESCRIBED):
         return run
     from symgen.compiling.events import compile_events
 

@@ -11,13 +11,14 @@ import numpy as np
 
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import with_integrals
-from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start, moved
+from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.model_arrays import velocity_of
+from symgen.layout.model_arrays import lengths_of, velocity_of
 from symgen.layout.start_records import Instant
 from symgen.starts.assembler import Assembly
 from symgen.starts.assembly import Start, closed_start, closed_state
@@ -282,3 +283,30 @@ def closed_by(
         return compiled, start
     compiled = compiled_for(plan.mechanism, plan.choice.with_options(solver="augmented"))
     return compiled, close(compiled, False)
+
+
+def open_start(plan: Plan) -> tuple[CompiledModel, Start]:
+    """Compile a plan for the coordinates of bodies and take the mechanism as it is described, open.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    """
+    mechanism, compiled = plan.mechanism, compiled_for(plan.mechanism, plan.choice)
+    info, values = compiled.info, parameter_values(mechanism, plan.parameters)
+    numbers = scalars(values)
+    q, v = described_start(mechanism, numbers)
+    y, w = np.zeros(info.ny), compiled.scratch()
+    y[: info.nq] = q
+    y[info.own_states] = states_at_start(mechanism, numbers, plan.holds or ())
+    for i, value in held_of(info, plan.holds or holds_of(mechanism), numbers, v).coordinates.items():
+        y[i] = value
+    # the largest distance from the datum, or of a point in its body
+    places = [x for body in mechanism.bodies for _, point in body.points for x in point]
+    places += [x for _, marker in mechanism.seats for x in marker.point]
+    sizes, datum = [abs(evaluate(x, values, "points")) for x in places], datum_of(mechanism, numbers)
+    w[abi.LENGTH] = max(float((np.abs(y[: info.nq] - datum) * lengths_of(info)).max(initial=0.0)), *sizes, 0.0) or 1.0
+    p = compiled.parameter_array(values, plan.method_parameters)
+    compiled.prepare(p)
+    return compiled, Start(y, p, w, 0, (), ())

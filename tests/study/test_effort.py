@@ -76,13 +76,13 @@ def test_a_prediction_is_below_what_a_run_takes():
 def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     level = levels_of("damping", Base.of("four-bar"), False)[4]
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
-    monkeypatch.setattr("symgen.study.stress.cells.code_and_start", None)
+    monkeypatch.setattr("symgen.running.prepare.code_and_start", None)
     found = compute(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
 
 
 def test_cells_without_a_reference_are_not_run(monkeypatch):
-    monkeypatch.setattr("symgen.study.stress.cells.code_and_start", None)
+    monkeypatch.setattr("symgen.running.prepare.code_and_start", None)
     level = levels_of("gravity", Base.of("pendulum"), True)[0]
     for known, why in (
         ({"unusable": "none at hand"}, "none at hand"),

@@ -16,7 +16,7 @@ from symgen.base.settings import Settings, default
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.running.outputs import multiples, output_size
 from symgen.running.plan import refuse_events
-from symgen.running.prepare import make_plan
+from symgen.running.prepare import preparation
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Study, Trace, save_csv
@@ -182,8 +182,8 @@ def compare_all(
         shape = "straight" if common.shape == "auto" and small else common.shape
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
-        plans = [make_plan(chosen.mechanism, s) for s in settings]  # raises errors before the first run
-        works.append(ModelComparison(chosen, common, end, times, settings, plans, reference_by, records))
+        runs_of_model = [preparation(chosen.mechanism, s) for s in settings]  # raises errors before the first run
+        works.append(ModelComparison(chosen, common, end, times, settings, runs_of_model, reference_by, records))
     ahead = jobs > 1 and cache_location().persistent  # else the code that another process compiles would be lost
     reached, total = 0.0, sum(work.total(ahead) for work in works)
     report: Progress = progress or (lambda what, reached, of: None)

@@ -17,7 +17,7 @@ from symgen.describe.digest import digest, identity
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.running.plan import Plan, Purpose
-from symgen.running.prepare import Assembled, Prepared, begin, code_and_start, prepare
+from symgen.running.prepare import Assembled, Preparation, Prepared, prepare
 from symgen.runs.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import Study, check_entry, from_entry, to_entry, with_ratios
@@ -114,9 +114,14 @@ class ModelComparison:
     end: float
     times: Array
     settings: list[Settings]
-    plans: list[Plan]
+    preparations: list[Preparation]
     reference_by: str
     journal: Journal
+
+    @property
+    def plans(self) -> list[Plan]:
+        """The runs before their code exists."""
+        return [preparation.plan for preparation in self.preparations]
 
     @cached_property
     def pairs(self) -> set[Any]:
@@ -172,18 +177,16 @@ class ModelComparison:
         motions, interrupted = run_cells([self.reference], motion, self.journal)
         if interrupted:
             return self.study(True)
-        distances, assembled = self._distances(motions[self.reference.key]), dict[Any, Assembled]()
+        distances, shared = self._distances(motions[self.reference.key]), dict[Any, Assembled]()
         compiled = set[Any]()
 
         def row(i: int) -> Outcome:
-            settings, plan = self.settings[i], self.plans[i]
+            settings, plan = self.settings[i], self.preparations[i].plan
             words, pair = f"{settings.method}, {settings.integrator}", (plan.key, plan.integrator.name)
             first = not ahead and pair not in compiled
             if first:
                 show(f"compiling {words}", 1.0 + i + PREPARATION * len(compiled))
-            if plan.key not in assembled:
-                assembled[plan.key] = code_and_start(plan)
-            run = begin(plan, assembled[plan.key])
+            run = self.preparations[i].run(shared)
             if first:
                 compile_all(run)
                 compiled.add(pair)

@@ -30,8 +30,7 @@ from symgen.result.points import Points
 from symgen.result.result import INTERRUPTED
 from symgen.running.automatic import AUTO
 from symgen.running.options import split_options
-from symgen.running.plan import Purpose
-from symgen.running.prepare import _decided, begin, code_and_start
+from symgen.running.prepare import preparation
 from symgen.runs.outcome import Outcome
 from symgen.study.limits import UNWATCHED, WATCHES, unlimited
 from symgen.study.stress import cell_outcome as judged
@@ -107,7 +106,8 @@ def _run(task: RunTask) -> Fields:
         **({} if level.watched else UNWATCHED),
     )
     try:
-        plan, assembled = _decided(mechanism, _shaped(mechanism, settings), Purpose.MOTION)
+        ready = preparation(mechanism, _shaped(mechanism, settings))
+        plan = ready.plan
         why = without_reference(motion)
         if why is not None:
             return _not_run(judged.UNJUDGED, why)
@@ -117,7 +117,7 @@ def _run(task: RunTask) -> Fields:
         if least > budget:
             what = "at least " if plan.spec.adaptive else ""
             return _not_run(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
-        run = begin(plan, assembled or code_and_start(plan)).with_spec(max_evaluations=budget)
+        run = ready.run().with_spec(max_evaluations=budget)
     except (InputError, AssemblyError) as error:
         return _not_run(judged.REFUSED, str(error))
     outcome, verification = run.integrate(), None
