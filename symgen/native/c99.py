@@ -9,12 +9,14 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from symgen.native import language as lang
-from symgen.native.printing import FunctionPrinter, ordered
+from symgen.native.binding import MEMORY, BoundFunctions, ConstantTable, is_bound
+from symgen.native.folding import visited
+from symgen.native.printing import FunctionPrinter, ordered, word
 
 #: Functions outside the C library that printed ones call, by name.
 HELPERS = {
@@ -52,45 +54,51 @@ RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "fabs"}
 _CALLED |= {"math.fabs": "fabs", "pow": "pow", "round": "rint"}
-_OF_INTEGERS = {"min": "least_of_integers", "max": "greatest_of_integers", "floordiv": "floored_quotient", "abs": "abs"}
-_OF_INTEGERS |= {"quotient": "quotient_of_integers", "rest": "rest_of_integers", "mod": "rest_of_integers"}
+OF_INTEGERS = {"min": "least_of_integers", "max": "greatest_of_integers", "floordiv": "floored_quotient", "abs": "abs"}
+OF_INTEGERS |= {"quotient": "quotient_of_integers", "rest": "rest_of_integers", "mod": "rest_of_integers"}
 _TYPES = {"float": "real", "int": "int", "bool": "int"}
-#: Types of functions with the arguments of machine code.
-_WIDE = {"float": "real", "int": "long long", "bool": "int"}
+#: Limits of rounding below this are others for numbers of 32 bits, in proportion to the rounding of these.
+FINEST, _COARSER = 1e-5, 2.0**29
 #: Most characters of a line; C's compilers need not take lines of more than 4095.
 _WIDTH = 120
 #: Most statements of a function: the time that compilers spend on one function grows faster than its length.
 _LONGEST = 600
 
 
-def c_functions(functions: Mapping[str, lang.Function]) -> str:
+def c_functions(functions: Mapping[str, lang.Function], bound: BoundFunctions | None = None, memory: str = "") -> str:
     """Return the text of functions and their callees, each once, callees first, after their helpers.
 
     Parameters
     ----------
     functions : mapping of str to Function
         Functions by their names in the text.
+    bound : BoundFunctions, optional
+        Functions of the runtime bound to a model, which follow.
+    memory : str
+        Type of the structure with the memory of these.
     """
-    order, names = ordered(functions, RESERVED)
+    bound = bound or BoundFunctions({})
+    order, names = ordered({**functions, **bound.functions}, RESERVED)
     written: dict[object, frozenset[str]] = {}
     for function in order:
         written[function.key] = _written(function, written)
-    return _with_helpers([_Printer(function, names, written).text() for function in order])
+    texts = [*map(_table, bound.tables.values())]
+    for function in order:
+        if is_bound(function):
+            texts.append(_BoundPrinter(function, names, written, bound, memory).text())
+        else:
+            texts.append(CPrinter(function, names, written).text())
+    return with_helpers(texts)
 
 
-def c_loops(functions: Mapping[str, lang.Function]) -> str:
-    """Return the text of functions of the runtime with the arguments of machine code; else as `c_functions`.
-
-    An array is the address of its elements and its lengths, another function its address, integers have 64 bits. The
-    functions of the mapping have external linkage, so that machine code may call them, and they may call machine code.
-    """
-    order, names = ordered(functions, RESERVED)
-    outside = {function.key for function in functions.values()}
-    texts = [_LoopPrinter(function, names, external=function.key in outside).text() for function in order]
-    return _with_helpers(texts, _WIDE["int"])
+def _table(table: ConstantTable) -> str:
+    """Return the definition of a table of numbers."""
+    kind = "real" if table.type == "float" else "int"
+    numbers = ", ".join(c_number(x) if kind == "real" else str(int(x)) for x in table.values)
+    return broken(f"static const {kind} {word(table.name, RESERVED)}[] = {{{numbers}}};")
 
 
-def _with_helpers(texts: Sequence[str], integer: str = "int") -> str:
+def with_helpers(texts: Sequence[str], integer: str = "int") -> str:
     """Return functions after the helpers that they call."""
     text = "\n\n".join(texts)
     used = (helper for name, helper in HELPERS.items() if re.search(rf"\b{name}\(", text))
@@ -116,36 +124,27 @@ def c_number(value: float) -> str:
     return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "-INFINITY"
 
 
-def _visited(value: object) -> Iterator[Any]:
-    """Yield statements and expressions, without those of called functions."""
-    if isinstance(value, tuple):
-        for each in value:
-            yield from _visited(each)
-    elif not isinstance(value, lang.Function) and hasattr(value, "__struct_fields__"):
-        yield value
-        for name in value.__struct_fields__:
-            yield from _visited(getattr(value, name))
-
-
 def _written(function: lang.Function, of_called: Mapping[object, frozenset[str]]) -> frozenset[str]:
     """Return the arrays that a function or its callees change."""
     arrays = set[str]()
-    for value in _visited(function.body):
+    for value in visited(function.body):
         if isinstance(value, lang.Store):
             arrays.add(value.array)
         elif isinstance(value, lang.FunctionCall):
             pairs = zip(value.function.parameters, value.arguments, strict=True)
             arrays.update(str(a) for parameter, a in pairs if parameter.name in of_called[value.function.key])
+        elif isinstance(value, lang.ArrayView):
+            arrays.add(value.array)
     return frozenset(arrays)
 
 
 def _names(body: object) -> frozenset[str]:
     """Return the names of arrays and variables that statements read or change."""
     names = set[str]()
-    for value in _visited(body):
+    for value in visited(body):
         if isinstance(value, lang.Variable | lang.Assign | lang.For):
             names.add(value.name)
-        elif isinstance(value, lang.ArrayElement | lang.Store):
+        elif isinstance(value, lang.ArrayElement | lang.Store | lang.ArrayView):
             names.add(value.array)
         elif isinstance(value, lang.FunctionCall):
             names.update(a for a in value.arguments if isinstance(a, str))
@@ -155,7 +154,7 @@ def _names(body: object) -> frozenset[str]:
 def _parts(function: lang.Function) -> list[tuple[lang.Statement, ...]]:
     """Return the body of a long straight function in parts, one part of others."""
     body = function.body
-    ends = [s for s in _visited(body) if isinstance(s, lang.Return)]
+    ends = [s for s in visited(body) if isinstance(s, lang.Return)]
     if len(body) <= 2 * _LONGEST or ends != [body[-1]]:
         return [body]
     count = -(-len(body) // _LONGEST)
@@ -163,12 +162,12 @@ def _parts(function: lang.Function) -> list[tuple[lang.Statement, ...]]:
     return [*(body[first:last] for first, last in pairwise(at)), body[-1:]]
 
 
-class _Printer(FunctionPrinter):
+class CPrinter(FunctionPrinter):
     """Prints one function."""
 
     reserved = RESERVED
     types: ClassVar[Mapping[str, str]] = _TYPES
-    of_integers: ClassVar[Mapping[str, str]] = _OF_INTEGERS
+    of_integers: ClassVar[Mapping[str, str]] = OF_INTEGERS
 
     def __init__(
         self, function: lang.Function, names: Mapping[object, str], written: Mapping[object, frozenset[str]]
@@ -311,42 +310,64 @@ class _Printer(FunctionPrinter):
         return [f"{self.types[kind]} *", *(self.types["int"] for _ in self.handed(argument)[1:])]
 
 
-class _LoopPrinter(_Printer):
-    """Prints one function with the arguments of machine code.
+class _BoundPrinter(CPrinter):
+    """Prints one function bound to a model.
 
     Parameters
     ----------
-    function, names
-        As for `FunctionPrinter`.
-    external : bool
-        Whether other texts may call it.
+    function, names, written
+        As for `CPrinter`.
+    bound : BoundFunctions
+        The functions, with the memory that they use.
+    memory : str
+        Type of the structure with this memory.
     """
 
-    types = _WIDE
-    of_integers: ClassVar = {**_OF_INTEGERS, "abs": "size_of_integer"}
-
-    def __init__(self, function: lang.Function, names: Mapping[object, str], external: bool) -> None:
-        super().__init__(function, names, {function.key: frozenset()})
-        self.external = external
+    def __init__(
+        self,
+        function: lang.Function,
+        names: Mapping[object, str],
+        written: Mapping[object, frozenset[str]],
+        bound: BoundFunctions,
+        memory: str,
+    ) -> None:
+        super().__init__(function, names, written)
+        self.bound, self.memory = bound, memory
+        self.arrays |= bound.arrays
 
     def text(self) -> str:
-        """Return the definition, after the tables that it reads."""
+        """Return the definition."""
         f, own = self.function, self.names[self.function.key]
-        body, every = self.lines(f.body), f.variables.keys()
-        head = f"{self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{"
-        lines = [*self.tables(), head if self.external else f"static {head}", *self._locals(every), *self.views]
-        return "\n".join(map(broken, [*lines, *body, "}"]))
+        used, body = _names(f.body), self.lines(f.body)
+        heads = [f"{self.memory} *model"] if f.key in self.bound.with_memory else []
+        heads += map(self._parameter, f.parameters)
+        lines = [f"static {self.types[f.returned]} {own}({', '.join(heads) or 'void'}) {{"]
+        lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
+        return "\n".join(map(broken, [*lines, *self._locals(used), *self.views, *body, "}"]))
 
-    def handed(self, array: str) -> list[str]:
-        """Return the arguments of a call for an array: its address and its lengths."""
-        _, rank = self.arrays[array]
-        return [self.word(array), *(self.length(array, axis) for axis in range(rank))]
+    def word(self, name: str) -> str:
+        """Return the name of a variable, or a member of the structure."""
+        if name in self.bound.rooms:
+            return f"model->{name.removeprefix(MEMORY)}"
+        return super().word(name)
+
+    def passed(self, e: lang.FunctionCall) -> list[str]:
+        """Return the arguments of a call of another function."""
+        return [*(["model"] if e.function.key in self.bound.with_memory else []), *self.arguments(e.arguments)]
 
     def _parameter(self, parameter: lang.FunctionParameter) -> str:
-        if parameter.address:
-            return f"void *{self.word(parameter.name)}"
-        kind = self.types[parameter.type]
-        if not parameter.array:
-            return f"{kind} {self.word(parameter.name)}"
-        address, *lengths = self.handed(parameter.name)
-        return ", ".join([f"{kind} *{address}", *(f"{self.types['int']} {n}" for n in lengths)])
+        return super()._parameter(parameter).replace("*restrict ", "*")  # some are parts of others
+
+    def literal(self, value: float | int | bool) -> tuple[str, int]:
+        """Return a number; a macro replaces limits of rounding by those of 32 bits."""
+        if isinstance(value, float) and 0.0 < abs(value) < FINEST:
+            single = value * _COARSER if abs(value) < 1e-7 else math.copysign(1e-3, value)
+            return f"FINE({value!r}, {single:.3g})", 20
+        return super().literal(value)
+
+    def named(self, name: str, array: str, first: lang.Expression | None, lengths: list[str]) -> list[str]:
+        """Return the statement that gives a name to an array, or to the elements from one on."""
+        kind, _ = self.arrays[name]
+        address, begin = self.word(name), f" + {self.value(first, 13)}" if first is not None else ""
+        self.views |= {f"{self.types[kind]} *{address} = 0;": None}
+        return [f"{address} = {self.word(array)}{begin};"]

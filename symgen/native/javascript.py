@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from symgen.native import language as lang
-from symgen.native.printing import FunctionPrinter, ordered
+from symgen.native.binding import MEMORY, BoundFunctions, is_bound
+from symgen.native.printing import FunctionPrinter, ordered, word
 
 #: Helpers of printed functions. Sines and cosines of browsers are rounded wrongly once in thirty times,
 #: those of C libraries once in a thousand: here the first terms of their series have twice the digits.
@@ -89,16 +90,31 @@ _CALLED |= {"quotient": "quotient", "round": "nearest"}
 _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
 
 
-def javascript(functions: Mapping[str, lang.Function]) -> str:
+def javascript(functions: Mapping[str, lang.Function], bound: BoundFunctions | None = None) -> str:
     """Return the text of functions and their callees, each once, callees first.
 
     Parameters
     ----------
     functions : mapping of str to Function
         Functions to define, by their names in the text.
+    bound : BoundFunctions, optional
+        Functions of the runtime bound to a model, which follow; their first argument is an object with memory.
     """
-    order, names = ordered(functions, RESERVED)
-    return "\n".join(_Printer(function, names).text() for function in order)
+    bound = bound or BoundFunctions({})
+    order, names = ordered({**functions, **bound.functions}, RESERVED)
+    tables = [
+        f"const {word(table.name, RESERVED)} = [{', '.join(map(js_number, table.values))}];"
+        for table in bound.tables.values()
+    ]
+    printers = (_BoundPrinter(f, names, bound) if is_bound(f) else _Printer(f, names) for f in order)
+    return "\n".join([*tables, *(printer.text() for printer in printers)])
+
+
+def js_number(value: float | int | bool) -> str:
+    """Return the text of a number."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    return repr(value).removesuffix(".0")
 
 
 class _Printer(FunctionPrinter):
@@ -119,16 +135,18 @@ class _Printer(FunctionPrinter):
         body = self.lines(f.body)
         lines = [f"let {', '.join([*local, *self.views])};"] if local or self.views else []
         arguments = (a for p in f.parameters for a in (self.handed(p.name) if p.array else [self.word(p.name)]))
-        head = f"function {self.names[f.key]}({', '.join(arguments)}) {{"
+        head = f"function {self.names[f.key]}({', '.join([*self.first_arguments(f), *arguments])}) {{"
         return "\n".join([*tables, head, *lines, *body, "}"])
+
+    def first_arguments(self, function: lang.Function) -> list[str]:
+        """Return the arguments before those of a function's source."""
+        return []
 
     def literal(self, value: float | int | bool) -> tuple[str, int]:
         """Return a number and the precedence of its text."""
         if isinstance(value, bool):
             return ("true" if value else "false"), 20
-        if isinstance(value, float) and not math.isfinite(value):
-            return ("NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"), 20 if value > 0 else 14
-        text = repr(value).removesuffix(".0")
+        text = js_number(value)
         return text, 14 if text.startswith("-") else 20
 
     def defined(self, s: lang.Assign) -> str:
@@ -186,3 +204,32 @@ class _Printer(FunctionPrinter):
         """Return the call of a function by its address, here the function itself."""
         function = self.word(e.function) if isinstance(e.function, str) else self.value(e.function)
         return f"{function}({', '.join(self.arguments(e.arguments))})"
+
+
+class _BoundPrinter(_Printer):
+    """Prints one function bound to a model.
+
+    Parameters
+    ----------
+    function, names
+        As for `FunctionPrinter`.
+    bound : BoundFunctions
+        The functions, with the memory that they use.
+    """
+
+    def __init__(self, function: lang.Function, names: Mapping[object, str], bound: BoundFunctions) -> None:
+        super().__init__(function, names)
+        self.bound = bound
+        self.arrays |= bound.arrays
+
+    def word(self, name: str) -> str:
+        """Return the name of a variable, or a member of the memory."""
+        return f"model.{name.removeprefix(MEMORY)}" if name in self.bound.rooms else super().word(name)
+
+    def first_arguments(self, function: lang.Function) -> list[str]:
+        """Return the memory, for functions that use it."""
+        return ["model"] if function.key in self.bound.with_memory else []
+
+    def passed(self, e: lang.FunctionCall) -> list[str]:
+        """Return the arguments of a call of another function."""
+        return [*self.first_arguments(e.function), *super().passed(e)]

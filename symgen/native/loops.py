@@ -42,7 +42,9 @@ from symgen.native.read_values import Foreign, as_type, truth_of
 Pieces = Callable[[Piece], Any] | None
 
 
-def read_loop(function: Any, arguments: tuple[types.Kind, ...], pieces: Pieces = None) -> lang.Function:
+def read_loop(
+    function: Any, arguments: tuple[types.Kind, ...], pieces: Pieces = None, apart: bool = False
+) -> lang.Function:
     """Return a loop with the types that follow from those of its arguments.
 
     Parameters
@@ -53,6 +55,9 @@ def read_loop(function: Any, arguments: tuple[types.Kind, ...], pieces: Pieces =
         Types of its arguments (`symgen.native.types`).
     pieces : callable, optional
         Makes the compiled function of the plain form of a piece, for languages other than LLVM's.
+    apart : bool
+        Whether functions with numbers as results are called rather than copied into their callers: the text is
+        shorter.
 
     Raises
     ------
@@ -62,7 +67,7 @@ def read_loop(function: Any, arguments: tuple[types.Kind, ...], pieces: Pieces =
     names = function.py_func.__code__.co_varnames
     pairs = [laid_out(name, kind) for name, kind in zip(names, arguments, strict=False)]
     parameters = tuple(p for _, ps in pairs for p in ps)
-    return LoopReader(function, tuple(v for v, _ in pairs), parameters, {}, pieces).function()
+    return LoopReader(function, tuple(v for v, _ in pairs), parameters, {}, pieces, apart).function()
 
 
 class _Copied(NamedTuple):
@@ -85,7 +90,7 @@ class LoopReader(LoopValues):
         Their parameters.
     shared : dict
         Called parts read so far, by their arguments.
-    pieces : callable, optional
+    pieces, apart
         As for `read_loop`.
     """
 
@@ -96,6 +101,7 @@ class LoopReader(LoopValues):
         parameters: tuple[lang.FunctionParameter, ...],
         shared: dict[Any, lang.Function],
         pieces: Pieces = None,
+        apart: bool = False,
     ) -> None:
         tree = tree_of(function)
         names = [x.arg for x in tree.args.args]
@@ -104,7 +110,7 @@ class LoopReader(LoopValues):
         # an argument that is a number has its own name, and may be given another value
         bound = {n: v for n, v in zip(names, arguments, strict=True) if not isinstance(v, lang.Variable)}
         super().__init__(function, tree, bound, parameters)
-        self.shared, self.plain_piece = shared, pieces
+        self.shared, self.plain_piece, self.apart = shared, pieces, apart
         self.copies: list[_Copied] = []
 
     def function(self) -> lang.Function:
@@ -248,7 +254,7 @@ class LoopReader(LoopValues):
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
             raise Foreign("a call", node)
-        if called.inlined:
+        if called.inlined and not self.apart:
             if called.contracted != self.source.contracted:
                 raise Foreign(f"the function '{called.__name__}', whose sums are others", node)
             return self.copy(called, arguments, node)
@@ -317,7 +323,7 @@ class LoopReader(LoopValues):
         inside, parameters = tuple(v for v, _ in pairs), tuple(p for _, ps in pairs for p in ps)
         key = (called, parameters)
         if key not in self.shared:
-            reader = LoopReader(called, inside, parameters, self.shared, self.plain_piece)
+            reader = LoopReader(called, inside, parameters, self.shared, self.plain_piece, self.apart)
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # its identity
         leaf_arguments = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))

@@ -176,7 +176,12 @@ class FunctionPrinter(ABC):
         assert isinstance(s, lang.For), "the language has no other statements"
         self.counters += 1
         counter = f"counter{self.counters}"
-        return [self.loop_head(s, counter), f"{self.word(s.name)} = {counter};", *self.lines(s.body), "}"]
+        named = [f"{self.word(s.name)} = {counter};"] if s.name else []
+        return [self.loop_head(s, counter), *named, *self.lines(s.body), "}"]
+
+    def passed(self, e: lang.FunctionCall) -> list[str]:
+        """Return the arguments of a call of another function."""
+        return self.arguments(e.arguments)
 
     def arguments(self, arguments: tuple[lang.Expression | str, ...]) -> list[str]:
         """Return the arguments of a call: numbers, or by their names arrays and functions."""
@@ -202,7 +207,7 @@ class FunctionPrinter(ABC):
             array = self.names[self.function.key, e.array] if constant else self.word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
         if isinstance(e, lang.FunctionCall):
-            return f"{self.names[e.function.key]}({', '.join(self.arguments(e.arguments))})", 20
+            return f"{self.names[e.function.key]}({', '.join(self.passed(e))})", 20
         if isinstance(e, lang.ArrayLength):
             return self.length(e.array, e.axis), 20
         if isinstance(e, lang.Invoke):
@@ -218,7 +223,9 @@ class FunctionPrinter(ABC):
         """Return a binary operation by its sign."""
         sign, own = self.signs.get(name) or _SIGNS[name]
         room = "" if sign in "*/" else " "  # a sign may follow + and -
-        return f"{self.value(first, own)}{room}{sign}{room}{self.value(second, own + 1)}", own
+        left = own + 2 if name == "or" and getattr(first, "name", "") == "and" else own  # compilers ask for parentheses
+        right = own + 2 if name == "or" else own + 1
+        return f"{self.value(first, left)}{room}{sign}{room}{self.value(second, right)}", own
 
     def operation(self, e: lang.ScalarOperation) -> tuple[str, int]:
         """Return an operation."""

@@ -18,7 +18,7 @@ from symgen.loopcode.exact import Exact, compiled_form
 from symgen.native import javascript as js
 from symgen.native import language as lang
 from symgen.native import types
-from symgen.native.c99 import c_loops
+from symgen.native.c99_loops import c_loops
 from symgen.native.calls import caller
 from symgen.native.loops import read_loop
 from symgen.native.pieces import Piece

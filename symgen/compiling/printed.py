@@ -1,0 +1,86 @@
+"""Functions of starts and events bound to one compiled model, for printers of other languages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from symgen.loopcode.exact import compiled_form
+from symgen.native import language as lang
+from symgen.native import types
+from symgen.native.binding import ConstantTable, Meaning, Room
+from symgen.native.loop_values import laid_out
+from symgen.native.loops import read_loop
+from symgen.native.read_values import Foreign
+
+#: Name of an array by its place in the arguments; None where it is constant.
+Naming = Callable[[str], str | None]
+
+
+def source_of(function: Any) -> lang.Function:
+    """Return a function of the runtime, whose callees are functions of their own.
+
+    Raises
+    ------
+    Foreign
+        If nothing is compiled, so that no types are known.
+    """
+    signature = getattr(compiled_form(function), "signature", None)
+    if signature is None:
+        raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
+    return read_loop(compiled_form(function), signature.arguments, None, apart=True)
+
+
+def meanings_of(
+    function: Any, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
+) -> dict[str, Meaning]:
+    """Return the meanings of a function's parameters for the arguments of a call.
+
+    Parameters
+    ----------
+    function : Exact
+        The function, with a signature.
+    arguments : tuple
+        Records, numbers, arrays and functions, as it is called with them.
+    emitted : mapping of int to Function
+        Emitted functions by the identity of those in the arguments; others are functions of the runtime.
+    room : callable
+        Name of an array that is no constant, by the parameter.
+    """
+    compiled = compiled_form(function)
+    assert compiled.signature is not None, "an entry has a signature"
+    names = compiled.py_func.__code__.co_varnames
+    meanings = dict[str, Meaning]()
+    for name, kind, argument in zip(names, compiled.signature.arguments, arguments, strict=False):
+        _, parameters = laid_out(name, kind)
+        for parameter, value in zip(parameters, _items(kind, argument), strict=True):
+            meanings[parameter.name] = _meaning(parameter, value, emitted, room)
+    return meanings
+
+
+def _items(kind: types.Kind, value: Any) -> Iterator[Any]:
+    """Yield numbers, arrays and functions of an argument in the order of parameters."""
+    if isinstance(kind, types.RecordType):
+        for part, item in zip(kind, value, strict=True):
+            yield from _items(part, item)
+    else:
+        yield value
+
+
+def _meaning(
+    parameter: lang.FunctionParameter, value: Any, emitted: Mapping[int, lang.Function], room: Naming
+) -> Meaning:
+    if parameter.address:
+        return emitted[id(value)] if id(value) in emitted else source_of(value)
+    if not parameter.array:
+        if value is None:
+            return None
+        number = float(value) if parameter.type == "float" else int(value)
+        return lang.Constant(parameter.type, number)
+    name, values = room(parameter.name), np.ravel(value)
+    if name is not None and len(values):
+        return Room(name, len(values))
+    table = tuple(values.tolist())
+    return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
