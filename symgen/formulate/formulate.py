@@ -19,6 +19,7 @@ from symgen.formulate.measures import DerivedMeasure, ModelNodes
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import MODE_NUMBERS, of_table
+from symgen.joints._space import is_of_axes
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import GROUND, Holonomic, Row, StiffHolonomic
 from symgen.vocabulary.quantities import Quantity
@@ -142,7 +143,9 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
         entries, bias, drift = model.pulled(measure.row, measure.bias)
         gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
         ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
-    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, size, stiffness)
+    axes = model.tree is None and isinstance(row, Holonomic) and is_of_axes(row)
+    name = f"{joint}.{row.label}"
+    return ConstraintRow(name, joint, row.unit, phi, ordered, nu, gamma, size, stiffness, axes=axes)
 
 
 def _first_modes(mechanism: Mechanism) -> Iterator[tuple[Joint, int]]:

@@ -1,10 +1,10 @@
 """Elimination of M v' + D^T lambda = f, D v' = gamma on a static pattern, velocities first that rows fix.
 
 A row with an entry of +-1 that no elimination has changed fixes this velocity by the others: v' = +-(gamma - n v'). The
-velocity and its row leave the equations together. The other entries of M become N^T M N, those of D lose a column; that
-takes no division, cannot fail and decides nothing on rank, since such rows are independent of each other. Accelerations
-of fixed velocities then follow from their rows, and multipliers of the rows from the equations of the velocities, both
-as they were before.
+velocity and its row leave the equations together, and so do the two rows of a hinge's axis with two angular velocities.
+The other entries of M become N^T M N, those of D lose a column. This cannot fail, and decides nothing on rank: such
+rows are independent of each other. Accelerations of fixed velocities then follow from their rows, and multipliers of
+the rows from the equations of the velocities, both as they were before.
 
 What is left over is eliminated one by one: velocities, then rows.
 """
@@ -67,9 +67,9 @@ class SaddleMatrix:
         nv: int,
         mass: Mapping[tuple[int, int], int],
         rows: Rows,
-        simpler: Callable[[int], int] = lambda node: node,
+        simpler: Callable[[int], int] | None = None,
     ) -> None:
-        self.graph, self.nv, self.simpler = graph, nv, simpler
+        self.graph, self.nv, self.simpler = graph, nv, simpler or (lambda node: node)
         self.entries: list[dict[int, int]] = [{} for _ in range(nv + len(rows))]
         for (i, j), node in mass.items():
             self._set(i, j, node)
@@ -223,8 +223,12 @@ class SaddleMatrix:
             waiting = later
 
 
-def fixed_velocities(equations: Equations) -> tuple[FixedVelocities, ...]:
-    """Return the velocities that rows in force at all times fix, in an order that fills in few entries."""
+def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocities, ...]:
+    """Return the velocities that rows in force at all times fix, in an order that fills in few entries.
+
+    `hinges`: two angular velocities of a body are fixed by the two rows that keep its axis parallel to another one,
+    where these have no part along a third. Their determinant is the cosine of the angle between the axes.
+    """
     mass = {
         (i, j): node
         for block in equations.mass
@@ -233,7 +237,7 @@ def fixed_velocities(equations: Equations) -> tuple[FixedVelocities, ...]:
     }
     nv, rows = equations.nv, tuple(row.entries for row in equations.rows)
     matrix = SaddleMatrix(equations.graph.copy(), nv, mass, rows)
-    candidates = list(_candidates(matrix, equations))
+    candidates = list(_candidates(matrix, equations, hinges))
     costs = {block: _cost(matrix, block) for block in candidates}
     by_unknown: dict[int, list[FixedVelocities]] = {}
     for block in candidates:
@@ -274,11 +278,23 @@ def _closes_a_cycle(matrix: SaddleMatrix, taken: Mapping[int, FixedVelocities], 
     return False
 
 
-def _candidates(matrix: SaddleMatrix, equations: Equations) -> Iterator[FixedVelocities]:
+def _candidates(matrix: SaddleMatrix, equations: Equations, hinges: bool) -> Iterator[FixedVelocities]:
+    of_joint: dict[str, list[int]] = {}
     for r, row in enumerate(equations.rows):
-        for c, _ in row.entries if row.held is None else ():
+        if row.held is not None:
+            continue
+        if row.axes:
+            of_joint.setdefault(row.joint, []).append(r)
+        for c, _ in row.entries:
             if matrix.is_unit(matrix.nv + r, c):
                 yield FixedVelocities((c,), (r,))
+    bodies = [v.name.rpartition(".")[0] for v in equations.velocities]
+    for rows in of_joint.values() if hinges else ():
+        columns = sorted({c for r in rows for c, _ in equations.rows[r].entries})
+        for body in dict.fromkeys(bodies[c] for c in columns):
+            two = tuple(c for c in columns if bodies[c] == body)
+            if len(two) == len(rows) == 2:
+                yield FixedVelocities(two, tuple(rows))
 
 
 def _is_open(matrix: SaddleMatrix, block: FixedVelocities) -> bool:

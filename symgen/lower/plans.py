@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
@@ -18,14 +19,20 @@ def cheapest_plan(equations: Equations) -> EliminationPlan:
 
     Equal numbers are decided by the longest chain of operations.
     """
-    return min(_plans(equations), key=lambda plan: _cost(equations, plan)) if equations.m else EliminationPlan()
+    if not equations.m:
+        return EliminationPlan()
+    costs = {plan: _cost(equations, plan) for plan in _plans(equations)}
+    best = min(costs, key=costs.__getitem__)
+    normal = replace(best, normal=True)
+    return best if best.schur or _cost(equations, normal) >= costs[best] else normal
 
 
 def _plans(equations: Equations) -> Iterator[EliminationPlan]:
     yield EliminationPlan()
-    fixed = fixed_velocities(equations)
-    if fixed:
-        yield EliminationPlan(fixed, schur=False)
+    for hinges in (False, True) if any(row.axes for row in equations.rows) else (False,):
+        fixed = fixed_velocities(equations, hinges)
+        if fixed:
+            yield EliminationPlan(fixed, schur=False)
 
 
 def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:

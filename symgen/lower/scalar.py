@@ -8,6 +8,7 @@ from functools import cached_property
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
+from symgen.ir.polynomial import NormalForms
 from symgen.ir.program import STATUS, EliminationPlan, Target
 from symgen.lower.blocks import SaddleMatrix
 from symgen.lower.factor import FactorNodes, factorise, minimum_degree
@@ -55,7 +56,8 @@ class ScalarNodes(OfMass):
     def saddle(self) -> SaddleMatrix:
         """The eliminated matrix of M and D; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
-        matrix = SaddleMatrix(g, self.equations.nv, self.mass_matrix, self.rows)
+        simpler = NormalForms(g).simpler if self.plan.normal else None
+        matrix = SaddleMatrix(g, self.equations.nv, self.mass_matrix, self.rows, simpler)
         for block in self.plan.fixed:
             matrix.fix(block)
         for row, entries in enumerate(self.rows):
