@@ -147,14 +147,17 @@ _LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "om
 
 def show_study(study: Study) -> None:
     """Print the rows of a study."""
-    from symgen.study.comparison.comparison_rows import BEYOND, ONE_RUN
+    from symgen.study.comparison.comparison_rows import BEYOND, FRONT, ONE_RUN
 
     out = console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
     out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
     if study.note:
         out.print(study.note)
-    show_rows(out, _HEADINGS, map(_cells, study.rows), (*_HEADINGS[:3], "status"), first=3, in_parts=False)
+    cells = [_cells(row, i in study.front) for i, row in enumerate(study.rows)]
+    show_rows(out, _HEADINGS, cells, (*_HEADINGS[:3], "status"), first=3, in_parts=False)
+    if len(study.rows) > 1:
+        out.print(FRONT)
     if any(row.below_reference for row in study.rows):
         out.print("* below what the reference itself may be off")
     if any(row.beyond_limits for row in study.rows):
@@ -166,6 +169,8 @@ def show_study(study: Study) -> None:
         out.print(
             f"ratios of run time may vary by {100 * spreads[0]:.1f} % (median row; worst {100 * spreads[1]:.0f} %)"
         )
+    if study.at:
+        show_rows(out, *_at_error(study), ("error [m]", "method", "integrator"), first=3)
     common = study.common_warnings
     for sentence in common:
         out.print(f"every run: {sentence}", style="dim")
@@ -174,6 +179,23 @@ def show_study(study: Study) -> None:
         own = [sentence for sentence in row.warnings if sentence not in common]
         for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *own):
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
+
+
+def _at_error(study: Study) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Return headings and cells of the run times at errors."""
+
+    def both(middle: float | None, low: float | None, high: float | None, scale: float = 1.0) -> tuple[str, str]:
+        if middle is None or low is None or high is None:
+            return "", ""
+        return f"{scale * middle:.3g}", f"{scale * low:.3g} - {scale * high:.3g}"
+
+    ratio = f"time / {study.rows[0].label}"
+    headings = "error [m]", "method", "integrator", "CPU [ms]", "quartiles", ratio, "of the ratio"
+    cells = list[tuple[str, ...]]()
+    for x in study.at:
+        times = both(x.seconds, x.seconds_low, x.seconds_high, 1e3)
+        cells.append((f"{x.error:g}", x.method, x.integrator, *times, *both(x.ratio, x.ratio_low, x.ratio_high)))
+    return headings, cells
 
 
 #: Columns of a study; a narrow terminal shows the first ones.
@@ -193,10 +215,10 @@ _HEADINGS = (
 )
 
 
-def _cells(row: Row) -> tuple[str, ...]:
+def _cells(row: Row, on_front: bool) -> tuple[str, ...]:
     return (
         *(row.label, row.integrator, f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s"),
-        "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else ""),
+        "" if row.error is None else f"{row.error:.2e}" + " *" * row.below_reference + " ^" * on_front,
         *(f"{1e3 * row.run_seconds:.3f}", row.status_text, "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}"),
         *(f"{row.position_violation_max:.1e}", f"{row.energy_drift_max:.1e}", str(row.evaluations)),
         *(

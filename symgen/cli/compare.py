@@ -43,6 +43,11 @@ if TYPE_CHECKING:
 @click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 by default.")
 @click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own by default.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")
+@click.option(
+    *("--at", "error_at"),
+    metavar="E,E",
+    help="Errors [m] at which run times are interpolated between settings; all lines are timed in turn.",
+)
 @setting_options(
     *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_step"),
     *("max_attempts", "repeat", "shape"),
@@ -84,6 +89,7 @@ def command(
     integrators: str | None,
     steps: str | None,
     rtols: str | None,
+    error_at: str | None,
     states: str | None,
     reference_by: str,
     quantities: tuple[str, ...],
@@ -101,6 +107,7 @@ def command(
     --steps. Ctrl-C shows the finished rows; with --resume the same command continues after them.
     """
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
+    errors = number_list("--at", error_at)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
     plot_path = plotted(plot, over)
     if quantities and plot_path is None:
@@ -126,7 +133,7 @@ def command(
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
             lines.say(f"{name}{what}", reached / total)
 
-        runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
+        runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states), errors)
         settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     rows = [row for study in studies for row in study.rows]
@@ -153,7 +160,7 @@ def command(
         from symgen.report.write import write
 
         sketches = sketches_of(loaded, values["parameters"], values["start"])
-        texts = [text for option, text in _ranges(step_list, rtol_list).items() if used[option]]
+        texts = [text for option, text in _ranges(step_list, rtol_list, bool(errors)).items() if used[option]]
         write(comparison(studies, command_again(), texts, sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
@@ -166,13 +173,13 @@ def command(
     return write_files(_exit_code(studies, files.journal is not None), written)
 
 
-def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...]) -> dict[str, tuple[str, str]]:
+def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:
     """Return the settings of --steps and --rtols: a label and words."""
     from symgen.report.words import exact
-    from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, STEP_FACTORS
+    from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, RTOLS_AT, STEP_FACTORS, STEP_FACTORS_AT
 
-    own = f"{', '.join(f'{x:g}' for x in STEP_FACTORS)} times the mechanism's own"
-    relative = ", ".join(exact(x) for x in rtols or RTOLS)
+    own = f"{', '.join(f'{x:g}' for x in (STEP_FACTORS_AT if at else STEP_FACTORS))} times the mechanism's own"
+    relative = ", ".join(exact(x) for x in rtols or (RTOLS_AT if at else RTOLS))
     return {
         "--steps": ("Steps", ", ".join(f"{exact(x)} s" for x in steps) or own),
         "--rtols": ("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them"),

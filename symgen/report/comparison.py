@@ -10,7 +10,7 @@ from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
 from symgen.report.picture import sketched
 from symgen.report.source import beside_the_source
-from symgen.study.comparison.comparison_rows import BEYOND, ONE_RUN, YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import BEYOND, FRONT, ONE_RUN, YARDSTICK, Row, Study
 from symgen.study.machine_class import machine_class, versions
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
@@ -117,7 +117,7 @@ def _one(study: Study) -> Section:
         study.mechanism,
         text,
         findings(study),
-        (_summary(study), *_cost_table(study)),
+        (_summary(study), *_at_table(study), *_cost_table(study)),
         pictures(study),
         (Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),),
     )
@@ -153,8 +153,27 @@ def _marks(rows: Sequence[Row]) -> tuple[str, ...]:
     return tuple(text for text, used in marks if used)
 
 
-def _error_text(row: Row) -> str:
-    return words.number(row.error) + (" *" if row.below_reference else "")
+def _error_text(row: Row, on_front: bool = False) -> str:
+    return words.number(row.error) + " *" * row.below_reference + " ^" * on_front
+
+
+def _at_table(study: Study) -> tuple[DocumentTable, ...]:
+    if not study.at:
+        return ()
+    rows = tuple(
+        (
+            *(words.exact(x.error), x.method, x.integrator, words.seconds(x.seconds)),
+            *map(words.ratio, (x.ratio, x.ratio_low, x.ratio_high)),
+        )
+        for x in study.at
+    )
+    first = study.rows[0].label
+    headings = "error [m]", "method", "integrator", "CPU time", f"× {first}", "lower quartile", "upper quartile"
+    caption = (
+        f"CPU time at an error, interpolated between settings, and as a multiple of that of {first} with the same "
+        "integrator: medians and quartiles of rounds in which all runs are timed in turn."
+    )
+    return (DocumentTable(caption, headings, rows, words=3),)
 
 
 def _cost_table(study: Study) -> tuple[DocumentTable, ...]:
@@ -175,7 +194,7 @@ def _all_rows(study: Study) -> DocumentTable:
         *("error / length", "error [m/s]", "error [N]", "evaluations", "iterations", "energy [J]"),
     )
     rows = list[tuple[str | TableCell, ...]]()
-    for row in study.rows:
+    for i, row in enumerate(study.rows):
         longer = row.run_seconds_spread
         spread = longer / row.run_seconds if longer is not None and row.run_seconds > 0.0 else None
         both = words.with_spread(row.cost_ratio, row.cost_ratio_spread or None)
@@ -183,12 +202,12 @@ def _all_rows(study: Study) -> DocumentTable:
             (
                 *(row.label, row.integrator, words.setting(row.step, row.rtol)),
                 TableCell(row.status_text, _MOODS[row.status]),
-                *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
+                *(_error_text(row, i in study.front), words.seconds(row.run_seconds), words.percent(spread), both),
                 *map(words.number, (row.relative_error, row.velocity_error, row.reaction_error)),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
         )
-    notes = [*_marks(study.rows)]
+    notes = [*_marks(study.rows), *([FRONT] if len(study.rows) > 1 else [])]
     notes += [] if study.is_repeated else [ONE_RUN]
     for row in study.rows:
         notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []

@@ -10,11 +10,13 @@ import numpy as np
 from symgen.report import words
 from symgen.report.comparison_findings import line_number, methods, representatives, settings_text
 from symgen.report.document import Picture, anchor
-from symgen.report.picture import COLOURS, GREY, below, drawn, style
+from symgen.report.picture import COLOURS, DASHES, GREY, below, drawn, style
 from symgen.study.comparison.comparison_rows import Row, Study
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from symgen.study.comparison.equal_error import TimeAtError
 
 #: Smaller values are drawn here: a logarithm has no zero.
 FLOOR = 1e-17
@@ -36,6 +38,8 @@ def pictures(study: Study) -> tuple[Picture, ...]:
     work = "W being the work of forces without potential and of drivers"
     balance = f"Energy error |T + V − E₀ − W| over time, {work} ({shared})."
     every = [
+        _front(study),
+        _ratios(study),
         *_errors_against_time(study),
         _over_time(study, "error", "error", "error [m]", distance),
         *(_over_time(study, x, f"{x}-violation", y, f"{x.title()} violation over time ({shared}).") for x, y in levels),
@@ -43,6 +47,71 @@ def pictures(study: Study) -> tuple[Picture, ...]:
         _energies(study),
     ]
     return tuple(picture for picture in every if picture is not None)
+
+
+# -- at a glance -------------------------------------------------------------------------------------------------------
+
+
+def _front(study: Study) -> Picture | None:
+    """Return all rows as points of error and run time, with those that none surpasses."""
+    if len(study.front) < FEW:
+        return None
+    rows = [(row, i in study.front) for i, row in enumerate(study.rows) if _drawable(row)]
+    best = sorted((row for row, on_front in rows if on_front), key=lambda row: row.run_seconds)
+    lines = list(dict.fromkeys((row.label, row.integrator) for row in best))
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        ax.plot(*_points([row for row, _ in rows]), ".", color="#b8bec7", markersize=4.0, label="all rows")
+        ax.plot(*_points(best), color=GREY, linewidth=0.8, drawstyle="steps-post")
+        for method, integrator in lines:
+            look = style(line_number(method))
+            own = _points([row for row in best if (row.label, row.integrator) == (method, integrator)])
+            ax.plot(*own, look["marker"], color=look["color"], label=f"{method}, {integrator}")
+        ax.set(xscale="log", yscale="log", xlabel="run time", ylabel="error [m]")
+        _floor(ax, study.estimated_error, ax.get_ylim())
+        _durations(ax, ax.get_xlim())
+        ax.set_title("Error against run time: the front")
+        below(figure, len(lines) + 1)
+
+    caption = "Error against run time of all rows; named marks lie on the front: none is both faster and more accurate."
+    return drawn(f"{anchor(study.mechanism)}-front", caption, f"The front of {study.mechanism}.", draw)
+
+
+def _points(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
+    return [row.run_seconds for row in rows], [max(row.error or 0.0, FLOOR) for row in rows]
+
+
+def _ratios(study: Study) -> Picture | None:
+    """Return the ratios of run time at equal error."""
+    first = study.rows[0].label if study.rows else ""
+    lines: dict[tuple[str, str], list[TimeAtError]] = {}
+    for time in study.at:
+        if time.ratio is not None and time.method != first:
+            lines.setdefault((time.method, time.integrator), []).append(time)
+    if not lines:
+        return None
+    integrators = list(dict.fromkeys(integrator for _, integrator in lines))
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        for k, ((method, integrator), times) in enumerate(lines.items()):
+            look = style(line_number(method)) | {"linestyle": DASHES[integrators.index(integrator) % len(DASHES)]}
+            middle = np.array([time.ratio for time in times], dtype=float)
+            spread = [middle - [t.ratio_low for t in times], [t.ratio_high for t in times] - middle]
+            beside = [time.error * (1.0 + 0.03 * (k - 0.5 * len(lines))) for time in times]  # bars stay apart
+            ax.errorbar(beside, middle, spread, **look, capsize=2.0, label=f"{method}, {integrator}")
+        ax.axhline(1.0, color=GREY, linewidth=0.8)
+        ax.set(xscale="log", yscale="log", xlabel="error [m]", ylabel=f"run time / that of {first}")
+        ax.set_title("Ratio of run time at equal error")
+        below(figure, len(lines))
+
+    caption = (
+        f"Run time over that of {first} with the same integrator at the same error, interpolated between settings: "
+        "median and quartiles of rounds in which all runs are timed in turn."
+    )
+    alternative = f"Ratios of run time at equal error on {study.mechanism}."
+    return drawn(f"{anchor(study.mechanism)}-ratio", caption, alternative, draw)
 
 
 # -- error against run time --------------------------------------------------------------------------------------------

@@ -243,6 +243,7 @@ class Outcome(Motion, Ended):
     run_seconds: float
     simulation: Simulation = field(repr=False)
     compile_seconds: float = 0.0
+    cpu_seconds: float = 0.0
     happened: tuple[Happening, ...] = ()
     accumulation: float | None = None
 

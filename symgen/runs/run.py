@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Callable
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
+#: CPU time of the calling thread [s], which the load of the machine changes little; elapsed time where a system counts
+#: it coarsely or not at all.
+CPU_CLOCK = getattr(time, "thread_time", time.perf_counter) if os.name == "posix" else time.perf_counter
 #: Messages for runs without progress, and for runs whose forces or joints compare the state.
 _STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
 _JUMPING = (
@@ -62,12 +66,17 @@ def integrate(
     if start.saved is not None:
         simulation.store_first(outputs)
     simulation.warm(outputs)
-    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
-    return outcome_of(simulation, outputs, code, seconds, interrupted)
+    code, seconds, cpu_seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
+    return outcome_of(simulation, outputs, code, seconds, interrupted, cpu_seconds)
 
 
 def outcome_of(
-    simulation: Simulation, outputs: Outputs, code: int, seconds: float = 0.0, interrupted: bool = False
+    simulation: Simulation,
+    outputs: Outputs,
+    code: int,
+    seconds: float = 0.0,
+    interrupted: bool = False,
+    cpu_seconds: float = 0.0,
 ) -> Outcome:
     """Return the outcome of a run whose loop has ended.
 
@@ -81,6 +90,8 @@ def outcome_of(
         Time that the loop took [s].
     interrupted : bool
         Whether it was stopped from outside.
+    cpu_seconds : float
+        CPU time of its thread [s].
     """
     compiled, spec, start, state = simulation.compiled, simulation.spec, simulation.start, simulation.state
     w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
@@ -123,6 +134,7 @@ def outcome_of(
         rank_event_count=int(control[abi.PASSAGES]),
         interrupted=interrupted,
         run_seconds=seconds,
+        cpu_seconds=cpu_seconds,
         compiled=compiled,
         start=start,
         p=state.p,
@@ -161,11 +173,11 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
 
 def _in_thread(
     simulation: Simulation, outputs: Outputs, progress: Progress | None, budget: int | None
-) -> tuple[int, float, bool]:
+) -> tuple[int, float, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
-    Returns the end code of the loop, its seconds, and whether it was interrupted, even if too late to stop it. A loop
-    beyond its budget of evaluations is stopped as well, but does not count as interrupted.
+    Returns the end code of the loop, its seconds, those of the processor, and whether it was interrupted, even if too
+    late to stop it. A loop beyond its budget of evaluations is stopped as well, but does not count as interrupted.
     """
     result: list[Any] = []
     interrupted = False
@@ -173,10 +185,10 @@ def _in_thread(
     clock, control = simulation.state.clock, simulation.state.control
 
     def work() -> None:
-        began = time.perf_counter()
+        began, cpu = time.perf_counter(), CPU_CLOCK()
         try:
             code = simulation.enter(outputs)
-            result.append((code, time.perf_counter() - began))
+            result.append((code, time.perf_counter() - began, CPU_CLOCK() - cpu))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)
         finally:
@@ -198,7 +210,7 @@ def _in_thread(
     outcome = result[0]
     if isinstance(outcome, BaseException):
         raise outcome
-    return int(outcome[0]), float(outcome[1]), interrupted
+    return int(outcome[0]), float(outcome[1]), float(outcome[2]), interrupted
 
 
 def end_reason(

@@ -141,7 +141,7 @@ def test_the_page_says_what_it_was_made_with_and_words_are_escaped(text, page):
         "* below the error of the reference itself",
     ):
         assert words in whole
-    assert "<with>" not in text and any(t.strip() == "10⁻¹³ *" for t in page.text)
+    assert "<with>" not in text and any(t.strip() == "10⁻¹³ * ^" for t in page.text)
 
 
 def test_every_row_stands_in_the_tables(page):

@@ -50,10 +50,10 @@ def test_rows_come_in_order(study):
 def test_json_is_the_contract(study):
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False)) == json.loads(json.dumps(found))
-    assert set(found) == {"mechanism", "digest", "until", "reference", "interrupted", "rows"}
+    assert set(found) == {"mechanism", "digest", "until", "reference", "interrupted", "rows", "at"}
     assert set(found["reference"]) == {"how", "estimated_error", "note", "length", "speed", "reaction"}
     for row in found["rows"]:
-        assert set(row) == ROW_KEYS
+        assert set(row) == ROW_KEYS | {"on_front"}
         assert (row["step"] is None) != (row["rtol"] is None)
 
 

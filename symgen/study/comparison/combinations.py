@@ -16,6 +16,10 @@ from symgen.methods import METHODS
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
 #: Default relative tolerances of adaptive runs; absolute ones are this fraction of them.
 RTOLS = (1e-6, 1e-8, 1e-10)
+#: Least number of settings a line from which run times at an error are interpolated, and the settings by default.
+LEAST_SETTINGS = 6
+STEP_FACTORS_AT = (4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
+RTOLS_AT = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
 ATOL_SHARE = 1e-2
 #: Default methods of `compare`: the six of Marques, Souto and Flores (2017).
 DEFAULT_METHODS = (
@@ -43,14 +47,20 @@ class Combinations:
     steps: Sequence[float] = ()
     rtols: Sequence[float] = ()
     coordinates: Sequence[str] = ()
+    error_at: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         words = {name: arguments.words(name, getattr(self, name)) for name in ("methods", "integrators", "coordinates")}
         for state in words["coordinates"]:
             arguments.one_of("coordinates", state, COORDINATES)
         numbers = {
-            name: arguments.numbers(name[:-1], getattr(self, name), positive=True) for name in ("steps", "rtols")
+            name: arguments.numbers(name.removesuffix("s"), getattr(self, name), positive=True)
+            for name in ("steps", "rtols", "error_at")
         }
+        for name in ("steps", "rtols"):
+            if numbers["error_at"] and 0 < len(set(numbers[name])) < LEAST_SETTINGS:
+                expected = f"at least {LEAST_SETTINGS} values, between which the run time at an error is interpolated"
+                raise InputError(name, expected, f"{len(set(numbers[name]))}", "leave them out: each line gets enough")
         for name, value in (words | numbers).items():
             object.__setattr__(self, name, value)
 
@@ -96,13 +106,12 @@ class Combinations:
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
         name = str(common.integrator)
         if adapts(INTEGRATORS.get(name, "integrators"), common.options):
-            for rtol in self.rtols or RTOLS:
+            for rtol in self.rtols or (RTOLS_AT if self.error_at else RTOLS):
                 yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
         else:
             assert common.until is not None, "a comparison knows its end"
-            for step in (
-                self.steps or [h for h in (own * f for f in STEP_FACTORS) if h <= common.until] or [common.until]
-            ):
+            factors = STEP_FACTORS_AT if self.error_at else STEP_FACTORS
+            for step in self.steps or [h for h in (own * f for f in factors) if h <= common.until] or [common.until]:
                 yield replace(common, step=step)
 
 

@@ -64,6 +64,7 @@ def compare(
     start: Mapping[str, float] | None = None,
     coordinates: Sequence[str] = (),
     max_step: float | None = None,
+    error_at: Sequence[float] = (),
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -108,6 +109,9 @@ def compare(
         ``absolute``, ``joint`` or both, side by side; absolute ones by default.
     max_step : float
         Largest step of adaptive integrators and of the reference [s].
+    error_at : sequence of float
+        Errors [m] at which run times are interpolated, `Study.at`. Lines then have more settings, and all of them are
+        timed again in turn.
 
     Returns
     -------
@@ -132,7 +136,7 @@ def compare(
         repeat=repeat,
         shape=shape,
     )
-    runs = Combinations(methods, integrators, steps, rtols, coordinates)
+    runs = Combinations(methods, integrators, steps, rtols, coordinates, error_at)
     return compare_all([model], common, runs, reference_by, progress, jobs, journal)[0]
 
 
@@ -183,7 +187,8 @@ def compare_all(
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         runs_of_model = [preparation(chosen.mechanism, s) for s in settings]  # raises errors before the first run
-        works.append(ModelComparison(chosen, common, end, times, settings, runs_of_model, reference_by, records))
+        measures = (reference_by, records, tuple(runs.error_at))
+        works.append(ModelComparison(chosen, common, end, times, settings, runs_of_model, *measures))
     ahead = jobs > 1 and cache_location().persistent  # else the code that another process compiles would be lost
     reached, total = 0.0, sum(work.total(ahead) for work in works)
     report: Progress = progress or (lambda what, reached, of: None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from statistics import median
@@ -20,6 +21,7 @@ from symgen.result.contract import finite
 from symgen.result.labelled import html_table
 from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
+from symgen.study.comparison.equal_error import TimeAtError, front
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -247,6 +249,8 @@ def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
 
 #: Meaning of the mark of a row that is `Row.beyond_limits`.
 BEYOND = "+ exceeded a limit of a run; measured to its end without limits"
+#: Meaning of the mark of a row on the front.
+FRONT = "^ on the front: no other row is both faster and more accurate"
 #: In place of the spread of run times, where each was measured once.
 ONE_RUN = "one run: no spread"
 
@@ -284,6 +288,8 @@ class Study:
     length, speed, reaction : float or None
         Scales of errors, of the reference: the mechanism's length [m], the largest speed of a point [m/s] and the
         largest reaction [N]; None where there is none.
+    at : tuple of TimeAtError
+        Run times of the lines at the errors asked for.
     """
 
     mechanism: str
@@ -304,6 +310,7 @@ class Study:
     length: float | None = None
     speed: float | None = None
     reaction: float | None = None
+    at: tuple[TimeAtError, ...] = ()
 
     def __repr__(self) -> str:
         methods = len({row.label for row in self.rows})
@@ -333,6 +340,11 @@ class Study:
             for row in self.rows
         ]
         return html_table(headings, rows, most=60)
+
+    @cached_property
+    def front(self) -> frozenset[int]:
+        """Indices of the rows that no other row surpasses in both error and run time."""
+        return front(self.rows, self.estimated_error)
 
     @property
     def failed(self) -> bool:
@@ -367,7 +379,8 @@ class Study:
                 **{"length": self.length, "speed": self.speed, "reaction": self.reaction},
             },
             "interrupted": self.interrupted,
-            "rows": [asdict(row) for row in self.rows],
+            "rows": [asdict(row) | {"on_front": i in self.front} for i, row in enumerate(self.rows)],
+            "at": [asdict(time) for time in self.at],
         }
         return cast(dict[str, Any], finite(contract))
 

@@ -22,6 +22,7 @@ from symgen.runs.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import Study, check_entry, from_entry, to_entry, with_ratios
 from symgen.study.comparison.distances import Distances, exact_reactions
+from symgen.study.comparison.equal_error import ROUNDS, times_at
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.limits import WATCHES, unlimited
@@ -117,6 +118,7 @@ class ModelComparison:
     preparations: list[Preparation]
     reference_by: str
     journal: Journal
+    error_at: tuple[float, ...] = ()
 
     @property
     def plans(self) -> list[Plan]:
@@ -131,7 +133,8 @@ class ModelComparison:
 
     def total(self, ahead: bool) -> float:
         """Return what the progress counts: rows, the reference, and compilation unless it was done ahead."""
-        return len(self.plans) + 1 + (0.0 if ahead else PREPARATION * len(self.pairs))
+        rounds = ROUNDS if self.error_at else 0
+        return len(self.plans) + 1 + rounds + (0.0 if ahead else PREPARATION * len(self.pairs))
 
     @cached_property
     def _parts(self) -> dict[str, Any]:
@@ -180,13 +183,16 @@ class ModelComparison:
         distances, shared = self._distances(motions[self.reference.key]), dict[Any, Assembled]()
         compiled = set[Any]()
 
+        def begun(i: int) -> Prepared:
+            return self.preparations[i].run(shared)
+
         def row(i: int) -> Outcome:
             settings, plan = self.settings[i], self.preparations[i].plan
             words, pair = f"{settings.method}, {settings.integrator}", (plan.key, plan.integrator.name)
             first = not ahead and pair not in compiled
             if first:
                 show(f"compiling {words}", 1.0 + i + PREPARATION * len(compiled))
-            run = self.preparations[i].run(shared)
+            run = begun(i)
             if first:
                 compile_all(run)
                 compiled.add(pair)
@@ -200,7 +206,26 @@ class ModelComparison:
             variant = words_of_variant(settings, self.common)
             return to_entry(*measured(run, runs, distances, variant, stopped))
 
-        return self.study(run_cells(self.rows, row, self.journal)[1])
+        def in_turn(indices: list[int]) -> Outcome:
+            runs, seconds = [unlimited(begun(i)) for i in indices], list[list[float]]()
+            for k in range(ROUNDS):
+                show(f"round {k + 1} of {ROUNDS}", 1.0 + len(self.plans) + PREPARATION * len(compiled) + k)
+                outcomes = [run.integrate() for run in runs]
+                if any(outcome.interrupted for outcome in outcomes):
+                    raise KeyboardInterrupt
+                seconds.append([outcome.cpu_seconds for outcome in outcomes])
+            return {"seconds": seconds}
+
+        done, interrupted = run_cells(self.rows, row, self.journal)
+        if self.error_at and not interrupted:
+            ended = [i for i, cell in enumerate(self.rows) if from_entry(done[cell.key])[0].ended]
+            interrupted = run_cells([self.rounds(ended)], in_turn, self.journal)[1]
+        return self.study(interrupted)
+
+    def rounds(self, ended: list[int]) -> Cell:
+        """Return the cell of the run times of some rows, round by round."""
+        keys = [self.rows[i].key for i in ended]
+        return Cell(cell_key(what="rounds", rows=keys, rounds=ROUNDS), "", ended, check=_check_rounds)
 
     def _distances(self, entry: Outcome) -> Distances | None:
         """Return the measures of errors by a journal's entry, None where it holds the reason of their absence."""
@@ -218,12 +243,21 @@ class ModelComparison:
         base, why = self.settings[0], motion.get("unusable")
         distances = self._distances(motion) if "q" in motion else None
         without = "there is no reference, so errors are unknown"
+        rows = with_ratios([row for row, _ in done])
+        rounds = list[list[float | None]]()
+        if len(rows) == len(self.rows) and self.error_at:
+            ended = [i for i, row in enumerate(rows) if row.ended]
+            measured_times = self.journal.get(self.rounds(ended).key) or {"seconds": []}
+            for seconds in measured_times["seconds"]:
+                by_row = dict(zip(ended, seconds, strict=True))
+                rounds.append([by_row.get(i) for i in range(len(rows))])
         return Study(
             mechanism=self.model.name,
             how=motion.get("how", "none"),
             estimated_error=motion.get("estimated_error", float("nan")),
             until=self.end,
-            rows=with_ratios([row for row, _ in done]),
+            rows=rows,
+            at=times_at(rows, rounds, self.error_at),
             interrupted=interrupted,
             traces=tuple(trace for _, trace in done),
             note=motion.get("note", f"{without}: {why}" if why else without),
@@ -249,8 +283,17 @@ class _Motion(TypedDict):
     note: str
 
 
+class _Rounds(TypedDict):
+    seconds: list[list[float]]
+
+
 class _Unusable(TypedDict):
     unusable: str
+
+
+def _check_rounds(entry: Outcome) -> None:
+    """Raise `ValueError` unless an entry of a journal is one of run times."""
+    msgspec.convert(entry, _Rounds)
 
 
 def _check_motion(entry: Outcome) -> None:

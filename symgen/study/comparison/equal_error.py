@@ -1,0 +1,133 @@
+"""Run time at an error: what each line of a study costs at one and the same accuracy.
+
+Methods at the same step differ in error as well as in time, so that the ratio of their times alone compares nothing.
+Run times are interpolated between settings, log time over log error. All settings of all lines are timed in turn,
+round by round: a round shares the load of the machine, and ratios are taken within it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from symgen.study.comparison.comparison_rows import Row
+
+#: Rounds of timed runs.
+ROUNDS = 9
+#: Name of a line: label of the method, and integrator.
+Line = tuple[str, str]
+#: Run times of all rows by round [s]; None for a row that has none.
+Rounds = Sequence[Sequence[float | None]]
+
+
+@dataclass(frozen=True)
+class TimeAtError:
+    """Run time of a line at an error, interpolated over its settings in every round.
+
+    Attributes
+    ----------
+    error : float
+        The error [m].
+    method, integrator : str
+        Label of the method, and integrator.
+    seconds, seconds_low, seconds_high : float or None
+        Median and quartiles of the CPU time of the loop over the rounds [s]; None where no two settings of the line
+        have errors on both sides.
+    ratio, ratio_low, ratio_high : float or None
+        The same of the ratio to the first method of the study with the same integrator.
+    """
+
+    error: float
+    method: str
+    integrator: str
+    seconds: float | None = None
+    seconds_low: float | None = None
+    seconds_high: float | None = None
+    ratio: float | None = None
+    ratio_low: float | None = None
+    ratio_high: float | None = None
+
+
+def lines_of(rows: Sequence[Row]) -> dict[Line, list[int]]:
+    """Return the indices of the rows of each line, the coarsest setting first."""
+    lines: dict[Line, list[int]] = {}
+    for i, row in enumerate(rows):
+        lines.setdefault((row.label, row.integrator), []).append(i)
+    return {line: sorted(own, key=lambda i: -(rows[i].step or rows[i].rtol or 0.0)) for line, own in lines.items()}
+
+
+def interpolated(points: Sequence[tuple[float, float]], error: float) -> float | None:
+    """Return the time at an error, from (error, time) of settings in their order; the least where several fit."""
+    fit = []
+    for (e0, t0), (e1, t1) in pairwise(points):
+        if min(e0, e1) <= error <= max(e0, e1) and e0 != e1:
+            share = math.log(error / e0) / math.log(e1 / e0)
+            fit.append(t0 * (t1 / t0) ** share)
+    return min(fit, default=None)
+
+
+def times_at(rows: Sequence[Row], rounds: Rounds, errors: Sequence[float]) -> tuple[TimeAtError, ...]:
+    """Return the run time of every line at every error.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Rows of a study. Those that did not reach the end, or whose error the reference does not resolve, have no point.
+    rounds : sequence
+        See `Rounds`.
+    errors : sequence of float
+        Errors [m].
+    """
+    lines = lines_of(rows)
+    table = []
+    for error in errors:
+        columns = {line: [_at(rows, own, seconds, error) for seconds in rounds] for line, own in lines.items()}
+        for (method, integrator), column in columns.items():
+            base = columns.get((rows[0].label, integrator), [])
+            pairs = zip(column, base, strict=False)
+            ratios = [a / b for a, b in pairs if a is not None and b is not None]
+            own = [x for x in column if x is not None]
+            table.append(TimeAtError(error, method, integrator, *_quartiles(own), *_quartiles(ratios)))
+    return tuple(table)
+
+
+def _at(rows: Sequence[Row], own: Sequence[int], seconds: Sequence[float | None], error: float) -> float | None:
+    points = []
+    for i in own:
+        e, t = rows[i].error, seconds[i]
+        if rows[i].ended and not rows[i].below_reference and e and t:
+            points.append((e, t))
+    return interpolated(points, error)
+
+
+def _quartiles(values: Sequence[float]) -> tuple[float, float, float] | tuple[None, None, None]:
+    if not values:
+        return None, None, None
+    low, middle, high = np.percentile(values, [25.0, 50.0, 75.0]).tolist()
+    return middle, low, high
+
+
+def front(rows: Sequence[Row], finest: float) -> frozenset[int]:
+    """Return the indices of the rows on the Pareto front of error and run time.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Rows of a study; those that did not reach the end take no part.
+    finest : float
+        Error of the reference [m]: smaller ones are alike.
+    """
+    floor = finest if math.isfinite(finest) else 0.0
+    points = [(r.run_seconds, max(r.error, floor), i) for i, r in enumerate(rows) if r.ended and r.error is not None]
+    chosen, least = set[int](), math.inf
+    for _, error, i in sorted(points):
+        if error < least:
+            chosen.add(i)
+            least = error
+    return frozenset(chosen)
