@@ -251,9 +251,10 @@ def operations(mechanism: Mechanism) -> int:
 
     method = METHODS.get("lagrange", "")
     equations = formulate(mechanism)
-    record = record_law(method, method.complete_options({}), equations.driving is not None)
+    plan = cheapest_plan(equations)
+    record = record_law(method, method.complete_options({}), equations.driving is not None).resolved(plan.schur)
     names = [p.name for p in method.parameters]
-    scalars = ScalarNodes(equations, record.operations, names, plan=cheapest_plan(equations))
+    scalars = ScalarNodes(equations, record.operations, names, plan=plan)
     scalars.compute(record.ends)
     nodes = [node for part in record.parts if part.role == "acceleration" for _, node in part_outputs(scalars, part)]
     return scalars.graph.operations(nodes)

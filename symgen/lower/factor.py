@@ -57,6 +57,18 @@ def minimum_degree(
     return tuple(order), below
 
 
+def fill_of(neighbours: Sequence[frozenset[int]], order: Sequence[int]) -> int:
+    """Return the number of entries of L that a symmetric pattern does not have, for an order of elimination."""
+    graph, filled = [set(near) for near in neighbours], 0
+    for pivot in order:
+        clique = graph[pivot]
+        for i in clique:
+            filled += len(clique) - 1 - len(clique & graph[i])
+            graph[i] |= clique
+            graph[i] -= {i, pivot}
+    return filled // 2
+
+
 @dataclass(frozen=True)
 class FactorNodes:
     """L and the reciprocal pivots of an L D L^T factorisation, as nodes.

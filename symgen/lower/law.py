@@ -52,7 +52,8 @@ def lower_law(
         raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
     if any(row.held is not None for row in equations.rows):
         _refuse_switching(method, options, implicit)
-    record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
+    names = [p.name for p in method.parameters]
+    record = record_law(method, options, equations.driving is not None).resolved(model.plan.schur)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))

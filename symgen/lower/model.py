@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
+from symgen.lower.factor import fill_of
 from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
@@ -23,12 +24,11 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     digest : str
         Digest of the canonical description, for the emitted header.
     """
-    m, record = equations.m, record_model()
-    plan = cheapest_plan(equations)
+    m, plan = equations.m, cheapest_plan(equations)
+    record = record_model().resolved(plan.schur)
     scalars = ScalarNodes(equations, record.operations, plan=plan)
     scalars.compute(record.ends)
     geometry, spread = record.parts
-    factor = scalars.values[geometry.outputs[1][1]]
     sections: dict[str, tuple[int, int]] = {}
     offset = 0
     sizes = {"m": m, "nv": equations.nv, "jacobian": sum(e.slot is not None for e in scalars.jacobian)}
@@ -37,7 +37,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         ("winding", len(equations.windings)),  # right after the status: both are kept with every output
         ("modes", MODE_NUMBERS * sum(row.held is not None for row in equations.rows)),  # and so are these
         *((name, sizes[size]) for name, size in SECTIONS),
-        *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal")),
+        *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal") if name in scalars.stored),
         ("mass_entry", len(scalars.mass_entries)),
     ):
         if size or name not in ("winding", "modes", "mass_entry"):
@@ -66,7 +66,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         jacobian=scalars.jacobian,
         hoisted=len(hoister.slots),
         order=scalars.order,
-        fill=sum(len(c) for c in factor.lower.values()) - sum(i > j for i, j in scalars.gram(scalars.rows)),
+        fill=fill_of(scalars.neighbours(scalars.rows), scalars.order),
         tables=equations.tables,
         plan=plan,
     )

@@ -9,6 +9,7 @@ from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
 from symgen.ir.program import EliminationPlan
 from symgen.lower.blocks import fixed_velocities
+from symgen.lower.record import Part, RecordedLaw
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._base import multiplier_law
 from symgen.methods._formula import System
@@ -24,7 +25,8 @@ def cheapest_plan(equations: Equations) -> EliminationPlan:
     costs = {plan: _cost(equations, plan) for plan in _plans(equations)}
     best = min(costs, key=costs.__getitem__)
     normal = replace(best, normal=True)
-    return best if best.schur or _cost(equations, normal) >= costs[best] else normal
+    # Euler parameters have no sines whose squares meet
+    return best if best.schur or equations.spins or _cost(equations, normal) >= costs[best] else normal
 
 
 def _plans(equations: Equations) -> Iterator[EliminationPlan]:
@@ -38,10 +40,12 @@ def _plans(equations: Equations) -> Iterator[EliminationPlan]:
 def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
     system = System()
     law = multiplier_law(system, system.gamma)
-    ends = [law.acceleration.index, law.multipliers.index, system.flag().index]
-    scalars = ScalarNodes(equations, tuple(system.tape.operations), plan=plan)
-    scalars.compute(ends)
-    accelerations, multipliers, flag = (scalars.values[i] for i in ends)
+    outputs = ("rates.v", law.acceleration.index), ("multipliers", law.multipliers.index)
+    part = Part("rhs", "", outputs, system.flag().index)
+    record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
+    scalars = ScalarNodes(equations, record.operations, plan=plan)
+    scalars.compute(record.ends)
+    accelerations, multipliers, flag = (scalars.values[i] for i in record.ends)
     g, nodes = scalars.graph, [*accelerations, *multipliers, *(() if flag is None else (flag,))]
     depth: dict[int, int] = {}
     counted = 0

@@ -11,7 +11,7 @@ from typing import assert_never
 
 from symgen.base.errors import InputError
 from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, Tangent, multiplier_law
-from symgen.methods._formula import Factor, FormulaStep, Scalar, System, Value, Vector
+from symgen.methods._formula import ALTERNATIVES, Factor, FormulaStep, Scalar, System, Value, Vector
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
@@ -44,6 +44,8 @@ class Part:
         Part of the law.
     velocities : int, optional
         The operation that computes v where the state does not hold it.
+    factors : tuple of (str, int)
+        Outputs that nothing reads but solutions by factors of D W D^T, see `RecordedLaw.resolved`.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Part:
     flag: int | None = None
     role: str = "acceleration"
     velocities: int | None = None
+    factors: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -82,17 +85,22 @@ class RecordedLaw:
             index for part in self.parts for index in (*(i for _, i in part.outputs), part.flag) if index is not None
         ]
 
-    def by_schur(self) -> RecordedLaw:
-        """Return the same with the operations of S in the place of those that may be solved otherwise."""
-        same = {i: o.operands[0] for i, o in enumerate(self.operations) if o.kind == "constrained"}
-        operations = tuple(
-            replace(o, operands=tuple(same.get(i, i) for i in o.operands)) if o.kind != "constrained" else o
-            for o in self.operations
+    def resolved(self, schur: bool) -> RecordedLaw:
+        """Return the same with one way to what may be solved in two: by factors of D W D^T, or by fixed velocities."""
+        if schur:
+            same = {i: o.operands[0] for i, o in enumerate(self.operations) if o.kind in ALTERNATIVES}
+            operations = (replace(o, operands=tuple(same.get(i, i) for i in o.operands)) for o in self.operations)
+            parts = (
+                replace(part, outputs=tuple((place, same.get(i, i)) for place, i in part.outputs))
+                for part in self.parts
+            )
+            return replace(self, operations=tuple(operations), parts=tuple(parts))
+        operations = (replace(o, operands=o.operands[1:]) if o.kind in ALTERNATIVES else o for o in self.operations)
+        parts = (
+            replace(part, outputs=tuple(output for output in part.outputs if output not in part.factors))
+            for part in self.parts
         )
-        parts = tuple(
-            replace(part, outputs=tuple((place, same.get(i, i)) for place, i in part.outputs)) for part in self.parts
-        )
-        return replace(self, operations=operations, parts=parts)
+        return replace(self, operations=tuple(operations), parts=tuple(part for part in parts if part.outputs))
 
 
 def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> RecordedLaw:
@@ -214,9 +222,12 @@ class _Law:
         basis = ("nv", "degrees")
         self.sections |= {"basis": basis, "trial": basis, "small": ("degrees", "degrees"), "reduced": ("degrees",)}
         self.sections |= {"force": ("nv",), "weighed": ("nv",)}
-        constraints, factor = s.stored_constraints(), s.stored_factor(s.rank_factor(), "")
+        constraints, rank = s.stored_constraints(), s.rank_factor()
+        factor = s.stored_factor(rank, "")
         change, accelerations = s.variable("change", "nv"), s.variable("rates.v", "nv")
-        multipliers = s.solve(factor, constraints @ s.gauged(s.f - s.mass(accelerations)))
+        left = s.f - s.mass(accelerations)
+        multipliers = s.solve(factor, constraints @ s.gauged(left))
+        multipliers = s.stored_constrained("scaled", "multipliers", rank, left, s.zeros("m"), multipliers)
         work = self.work(accelerations, multipliers)
         aim = [("residual", -s.gamma), ("force", s.f)]
         struck, weighed = constraints @ change, s.mass(change)
@@ -251,6 +262,11 @@ class _Law:
         purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
         self.metric("refactor", purpose, ("law_", factor))
 
+    def only_for_factors(self) -> None:
+        """Mark the factor of the last part as one that solutions without factors need not."""
+        part = self.parts[-1]
+        self.parts[-1] = replace(part, factors=tuple(output for output in part.outputs if output[0] in ("", "law_")))
+
     def spread(self, change: Vector) -> None:
         if self.share:
             change = self.system.parameter(self.share) * change
@@ -259,16 +275,20 @@ class _Law:
     def identity_metric(self) -> None:
         """Add a factorisation and spread in the metric of the identity, in which 1 rad weighs as 1 m: D D^T."""
         s = self.system
-        factor = s.weighted_factor(s.rank_factor(), "identity")
+        rank = s.rank_factor()
+        factor = s.weighted_factor(rank, "identity")
         self.metric_apart("D D^T", factor)
-        self.spread(_change(s, s.stored_factor(factor, "law_")))
+        self.only_for_factors()
+        self.spread(_nearest(s, "identity", rank, _change(s, s.stored_factor(factor, "law_"))))
 
     def mass_metric(self) -> None:
         """Add a factorisation and spread in the metric of M: S = D M^-1 D^T, rows skipped as D G D^T decides."""
         s = self.system
-        factor = s.weighted_factor(s.rank_factor(), "mass")
+        rank = s.rank_factor()
+        factor = s.weighted_factor(rank, "mass")
         self.metric_apart("D M^-1 D^T", factor)
-        self.spread(s.minv(_change(s, s.stored_factor(factor, "law_"))))
+        self.only_for_factors()
+        self.spread(_nearest(s, "mass", rank, s.minv(_change(s, s.stored_factor(factor, "law_")))))
 
     def body_metric(self) -> None:
         """Add a factorisation and spread in the metric of the velocities of bodies that joints of a tree carry."""
@@ -285,7 +305,7 @@ class _Law:
         """Add geometry and spread that change dependent coordinates only: W^-1 = P G, P in ``dependent``."""
         s = self.system
         self.expanded()
-        chosen, rank = s.variable("dependent", "nv"), s.rank_factor()
+        chosen, rank = s.variable("dependent", "nv"), s.rank_factor(whole=True)
         factor = s.weighted_factor(rank, "dependent")
         written = ("status.partition_quality", s.partition_quality(rank, factor)), ("law_", factor)
         purpose = "Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of D P D^T"
@@ -319,6 +339,11 @@ def _change(s: System, factor: Factor) -> Vector:
     return s.stored_constraints().transposed(y)
 
 
+def _nearest(s: System, metric: str, rank: Factor, by_factor: Vector) -> Vector:
+    """Return the smallest change in a metric with ``D x = -r``."""
+    return s.stored_constrained(metric, "change", rank, s.zeros("nv"), -s.variable("residual", "m"), by_factor)
+
+
 def record_model() -> RecordedLaw:
     """Record the shared functions: geometry with the factor that decides rank, and x = -G D^T (D G D^T)^-1 r.
 
@@ -329,7 +354,8 @@ def record_model() -> RecordedLaw:
     rank = s.rank_factor()
     purpose = "Phi, nu, D, and the factorisation of D G D^T that decides rank"
     recording.add("geometry", purpose, ("geometry", s.geometry(rank)), ("", rank))
-    recording.spread(s.gauged(_change(s, s.stored_factor(rank, ""))))
+    recording.only_for_factors()
+    recording.spread(_nearest(s, "scaled", rank, s.gauged(_change(s, s.stored_factor(rank, "")))))
     return recording.record()
 
 

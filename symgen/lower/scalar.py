@@ -38,28 +38,51 @@ class ScalarNodes(OfMass):
 
     def compute(self, ends: Iterable[int]) -> None:
         """Evaluate the operations that some depend on."""
-        self.run(needed(ends, self._operands))
+        self.run(needed(ends, lambda i: self.operations[i].operands))
 
-    def _operands(self, index: int) -> tuple[int, ...]:
-        operation = self.operations[index]
-        if operation.kind == "constrained":
-            return operation.operands[:1] if self.plan.schur else operation.operands[1:]
-        return operation.operands
-
-    def _on_constrained(self, operation: FormulaStep, by_schur: Nodes | None, f: Nodes, gamma: Nodes) -> Nodes:
-        if by_schur is not None:
-            return by_schur
+    def _on_constrained(self, operation: FormulaStep, f: Nodes, gamma: Nodes) -> Nodes:
         accelerations, multipliers = self.saddle.solve(f, gamma)
         return accelerations if operation.payload == ("accelerations",) else multipliers
+
+    def _on_stored_constrained(self, operation: FormulaStep, rank: FactorNodes, f: Nodes, gamma: Nodes) -> Nodes:
+        metric, name = operation.payload
+        change, multipliers = self._stored_saddle(str(metric), rank).solve(f, gamma)
+        return change if name == "change" else multipliers
+
+    def _stored_saddle(self, metric: str, rank: FactorNodes) -> SaddleMatrix:
+        """Return the eliminated matrix of W and D as ``geometry`` left it, rows left out by the pivots that it left."""
+        g = self.graph
+
+        def reciprocal(row: int, pivot: int, _: int) -> int:
+            if self._certain(row, rank.pivots[row], rank.diagonal[row]):
+                return g.div(g.one, pivot)
+            keep = g.call("step", g.input("pivot", row), g.add(g.constant(SKIP), self.mask[row]))
+            return self._masked_reciprocal(keep, pivot)
+
+        matrix = self._with_fixed(self._metric(metric), self.stored_constraints())
+        matrix.eliminate_rest(reciprocal)
+        return matrix
+
+    def _metric(self, name: str) -> Mapping[tuple[int, int], int]:
+        if name == "mass":
+            return self.mass_matrix
+        g = self.graph
+        scales = (next(iter(x.values())) if name == "scaled" else g.one for x in self.gauge)
+        return {(j, j): g.div(g.one, node) for j, node in enumerate(scales)}
+
+    def _with_fixed(self, mass: Mapping[tuple[int, int], int], rows: Rows, normal: bool = False) -> SaddleMatrix:
+        """Return a matrix from which fixed velocities have been eliminated with their rows."""
+        simpler = NormalForms(self.graph).simpler if normal else None
+        matrix = SaddleMatrix(self.graph, self.equations.nv, mass, rows, simpler)
+        for block in self.plan.fixed:
+            matrix.fix(block)
+        return matrix
 
     @cached_property
     def saddle(self) -> SaddleMatrix:
         """The eliminated matrix of M and D; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
-        simpler = NormalForms(g).simpler if self.plan.normal else None
-        matrix = SaddleMatrix(g, self.equations.nv, self.mass_matrix, self.rows, simpler)
-        for block in self.plan.fixed:
-            matrix.fix(block)
+        matrix = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal)
         for row, entries in enumerate(self.rows):
             if row not in self.plan.rows and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
                 rest = self._square(row, sorted(matrix.entries[matrix.nv + row].items()))
@@ -164,11 +187,31 @@ class ScalarNodes(OfMass):
 
     def _on_rank(self, operation: FormulaStep) -> FactorNodes:
         """Return the factor of D G D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
+        if not self.plan.schur and "whole" not in operation.payload:
+            return self._rank_of_rest()
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
             return self._masked_reciprocal(self._decided(row, pivot, diagonal), pivot)
 
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
+
+    def _rank_of_rest(self) -> FactorNodes:
+        """Return the same pivots behind fixed velocities, without L: they do not depend on the order before them."""
+        pivots, reciprocals = dict[int, int](), dict[int, int]()
+        diagonal = {row: self._square(row, entries) for row, entries in enumerate(self.rows)}
+        linked = {j for row in self.plan.rows for j, _ in self.rows[row]}
+
+        def reciprocal(row: int, pivot: int, first: int) -> int:
+            alone = pivot == first and linked.isdisjoint(j for j, _ in self.rows[row])
+            pivots[row] = diagonal[row] if alone else pivot
+            keep = self._decided(row, pivots[row], diagonal[row])
+            reciprocals[row] = self._masked_reciprocal(keep, pivots[row])
+            return reciprocals[row]
+
+        self._with_fixed(self._metric("scaled"), self.rows).eliminate_rest(reciprocal)
+        order = (*sorted(self.plan.rows), *pivots)
+        pivots |= {row: diagonal[row] for row in self.plan.rows}
+        return FactorNodes(order, {}, reciprocals, pivots, diagonal)
 
     def _decided(self, row: int, pivot: int, diagonal: int) -> int:
         """Return 1 where the pivot of D G D^T keeps its row, else 0; a row eliminated alone is kept where it holds."""

@@ -36,6 +36,10 @@ class FormulaStep:
     size: str = ""
 
 
+#: Kinds of operations whose first operand is their value by a factor of D W D^T.
+ALTERNATIVES = frozenset(("constrained", "stored_constrained"))
+
+
 @dataclass(eq=False)
 class Tape:
     """Distinct operations in the order of their first use.
@@ -359,9 +363,32 @@ class System:
         """Return the outputs of every `geometry`: Phi, its norm, nu, D, relative pivots and the resulting rank."""
         return rank.applied(Value, "geometry", rank)
 
-    def rank_factor(self) -> Factor:
-        """Return the factor of D G D^T that decides rank."""
-        return self.tape.named(Factor, "rank")
+    def rank_factor(self, whole: bool = False) -> Factor:
+        """Return the factor of D G D^T that decides rank; `whole`: with the pivots of rows that nothing decides on."""
+        return self.tape.named(Factor, "rank", *(("whole",) if whole else ()))
+
+    def stored_constrained(
+        self, metric: str, name: str, rank: Factor, f: Vector, gamma: Vector, by_factor: Vector
+    ) -> Vector:
+        """Return x or y with ``W x + D^T y = f``, ``D x = gamma``, of D as ``geometry`` left it.
+
+        Rows that `rank` leaves out are left out. W is M (``mass``), the identity (``identity``) or G^-1 (``scaled``).
+
+        Parameters
+        ----------
+        metric : str
+            W.
+        name : {"change", "multipliers"}
+            x or y.
+        rank, f, gamma
+            Decisions and right-hand sides.
+        by_factor : Vector
+            The same by a factor of D W^-1 D^T.
+        """
+        operands = (by_factor.index, rank.index, f.index, gamma.index)
+        return Vector(
+            self.tape, self.tape.add(FormulaStep("stored_constrained", operands, (metric, name), by_factor.size))
+        )
 
     def weighted_factor(self, rank: Factor, weight: str) -> Factor:
         """Return the factor of D W D^T without the rows that `rank` leaves out.

@@ -140,7 +140,7 @@ def law(method: str, options: Mapping[str, str] | None = None, driven: bool = Fa
     """
     chosen = METHODS.get(method, "law")
     complete = chosen.complete_options(options or {})
-    record = record_law(chosen, complete, driven).by_schur()
+    record = record_law(chosen, complete, driven).resolved(schur=True)
     steps = [step for part in record.parts for step in _LawReader(record, part).steps()]
     return Law(chosen.name, chosen.summary, record.form, complete, tuple(steps))
 

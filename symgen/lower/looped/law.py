@@ -66,7 +66,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
         why = " with a dense factorisation of D"
     elif method.dense:
         why = f", {method.dense}"
-    elif strange := _strange(record_law(method, options).by_schur(), KINDS, _FUNCTIONS):
+    elif strange := _strange(record_law(method, options).resolved(schur=True), KINDS, _FUNCTIONS):
         why = f", whose formula asks for '{strange}'"
     elif implicit and (strange := _strange(record_form(method, options, "joint"), _OF_A_JOINT, ("residual",))):
         expected, why = "constraints that each joint gives alone", f", whose constraints ask for '{strange}'"
@@ -113,7 +113,7 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
     method, options : Method, mapping
         A method that `refuse_dense` lets pass, with its structural options, complete.
     """
-    record = record_law(method, options).by_schur()
+    record = record_law(method, options).resolved(schur=True)
     names = tuple(p.name for p in method.parameters)
     parts = [Loops(record, part, names) for part in record.parts]
     phi = next(i for i, o in enumerate(record.operations) if o.payload == ("phi",))
