@@ -12,17 +12,21 @@ from support.graph_values import node_values
 from symgen.formulate.equations import ConstraintRow, Equations, MassBlock, Quantity
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import SUSPICIOUS
+from symgen.ir.program import EliminationPlan
+from symgen.lower.record import Part, RecordedLaw
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._formula import System
 
+SCHUR = EliminationPlan()
+
 
 def equations_of(d: np.ndarray, masses: np.ndarray) -> tuple[Equations, dict]:
-    """Equations with the entries of D as inputs, and their values; a mask of zeros."""
+    """Equations with the entries of D as inputs unless they are +-1, and their values; a mask of zeros."""
     graph, (m, n) = Graph(), d.shape
     values = {("d", i * n + j): float(d[i, j]) for i, j in np.argwhere(d != 0.0)} | {("mask", i): 0.0 for i in range(m)}
     rows = tuple(
         ConstraintRow(
-            f"r{i}", f"j{i}", "m", graph.zero, _entries(graph, d[i], i * n), graph.zero, graph.input("gamma", i)
+            f"r{i}", f"j{i}", "m", graph.zero, entries_of(graph, d[i], i * n), graph.zero, graph.input("gamma", i)
         )
         for i in range(m)
     )
@@ -48,8 +52,9 @@ def equations_of(d: np.ndarray, masses: np.ndarray) -> tuple[Equations, dict]:
     return equations, values
 
 
-def _entries(graph, row, first):
-    return tuple((int(j), graph.input("d", first + int(j))) for j in np.flatnonzero(row))
+def entries_of(graph, row, first):
+    columns = map(int, np.flatnonzero(row))
+    return tuple((j, graph.constant(row[j]) if abs(row[j]) == 1.0 else graph.input("d", first + j)) for j in columns)
 
 
 def random_rows(rng, m: int, n: int) -> np.ndarray:
@@ -59,13 +64,15 @@ def random_rows(rng, m: int, n: int) -> np.ndarray:
     return d
 
 
-def laid_out(equations: Equations, formula):
+def laid_out(equations: Equations, formula, plan=SCHUR):
     """What a formula over a system gives, element by element."""
     system = System()
     ends = formula(system)
-    scalars = ScalarNodes(equations, tuple(system.tape.operations))
-    scalars.run(range(len(system.tape.operations)))
-    return scalars, [scalars.values[end.index] for end in ends]
+    part = Part("rhs", "", tuple(("", end.index) for end in ends))
+    record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
+    scalars = ScalarNodes(equations, record.operations, plan=plan)
+    scalars.compute(record.ends)
+    return scalars, [scalars.values[index] for index in record.ends]
 
 
 def corrected(equations: Equations, values, d, b, weight=None):

@@ -1,0 +1,57 @@
+"""Normal forms: like terms together, sin^2 + cos^2 = 1, and never a longer text."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support.checks import RANDOM, close
+from support.graph_values import node_values
+
+from symgen.ir.graph import Graph
+from symgen.ir.polynomial import NormalForms
+
+
+def test_squares_of_sine_and_cosine_are_one():
+    g = Graph()
+    a, mass, length = g.input("q", 0), g.input("p", 0), g.input("p", 1)
+    sine, cosine = (g.mul(length, g.call(name, a)) for name in ("sin", "cos"))
+    node = g.add(g.mul(mass, g.mul(sine, sine)), g.mul(mass, g.mul(cosine, cosine)))
+    assert NormalForms(g).simpler(node) == g.mul(mass, g.mul(length, length)), "a number that depends on no state"
+
+
+def test_terms_that_cancel_vanish():
+    g = Graph()
+    x, y, s = g.input("v", 0), g.input("v", 1), g.call("sin", g.input("q", 0))
+    node = g.sub(g.mul(g.mul(x, s), y), g.mul(x, g.mul(s, y)))
+    assert NormalForms(g).simpler(node) == g.zero
+
+
+def test_differences_of_positions_stay_whole():
+    """A gap of 1e-9 between two coordinates of 1, times 1e9, keeps its digits."""
+    g = Graph()
+    gap = g.sub(g.input("q", 0), g.input("q", 1))
+    stiffness, s = g.input("p", 0), g.call("sin", g.input("q", 2))
+    node = g.mul(stiffness, g.mul(gap, g.add(s, g.mul(s, s))))
+    result = NormalForms(g).simpler(node)
+    values = {("q", 0): 1.0 + 2.0**-30, ("q", 1): 1.0, ("q", 2): 1.0, ("p", 0): 2.0**30}
+    expected = math.sin(1.0) + math.sin(1.0) ** 2
+    assert node_values(g, [result], values)[0] == pytest.approx(expected, rel=1e-15)
+
+
+@RANDOM
+@given(seed=st.randoms(use_true_random=False))
+def test_values_stay_and_operations_do_not_grow(seed):
+    g = Graph()
+    nodes = [g.input("v", i) for i in range(2)] + [g.input("p", 0), g.constant(2.0)]
+    nodes += [g.call(name, g.input("q", i)) for name in ("sin", "cos") for i in range(2)]
+    for _ in range(12):
+        kind = seed.choice(("add", "sub", "mul", "mul"))
+        nodes.append(getattr(g, kind)(seed.choice(nodes), seed.choice(nodes)))
+    values = {(space, i): seed.uniform(-2.0, 2.0) for space in "vq" for i in range(2)} | {("p", 0): 0.7}
+    forms = NormalForms(g)
+    before = g.operations(nodes[-1:])
+    result = forms.simpler(nodes[-1])
+    scale = 1.0 + max(map(abs, node_values(g, nodes, values)))
+    close(node_values(g, [result], values), node_values(g, nodes[-1:], values), "value", 1e-11 * scale**2)
+    assert g.operations([result]) <= before or g.tree_operations([result]) <= g.tree_operations(nodes[-1:])
