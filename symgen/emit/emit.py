@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted
 from symgen.emit.module import PLATFORMS, ModulePiece, function, module, render, sentence, templates_digest
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_model, of_observed, table_name
@@ -47,7 +47,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     header = [
         versions(program.digest),
         f"{layout.nq} coordinates, {layout.nv} velocities, {layout.m} constraint rows, {layout.parameters} parameters,",
-        f"{program.fill} fill-ins in the factor of D D^T",
+        _elimination(program),
         "",
         "Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.",
         "",
@@ -68,6 +68,17 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     if whole:
         return Places(layout.sections).module(title, header, [codes], {}, numba=platform.numba)
     return module(title, header, codes, {}, {}, platform.numba)
+
+
+def _elimination(program: ModelProgram) -> str:
+    """Return the line on the elimination of rows."""
+    if not program.plan.fixed:
+        return f"{program.fill} fill-ins in the factor of D D^T"
+    divisions = sum(len(each.rows) > 1 for each in program.plan.fixed)
+    how = "without a division" if not divisions else f"with {counted(divisions, 'division')}"
+    return (
+        f"{len(program.plan.rows)} of {program.layout.m} rows eliminated {how}, together with velocities that they fix"
+    )
 
 
 def emit_law(

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from lower.test_rank import SCHUR, equations_of, laid_out
 from support.checks import RANDOM, close
 from support.graph_values import node_values
 
 import symgen
+from lower.test_rank import SCHUR, equations_of, laid_out
 from symgen.compiling.choices import on_tree
 from symgen.describe.switching import with_switchable
 from symgen.formulate.formulate import formulate
