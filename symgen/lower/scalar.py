@@ -208,7 +208,7 @@ class ScalarNodes(OfMass):
             reciprocals[row] = self._masked_reciprocal(keep, pivots[row])
             return reciprocals[row]
 
-        self._with_fixed(self._metric("scaled"), self.rows).eliminate_rest(reciprocal)
+        self._with_fixed(self._metric("scaled"), self.rows, self.plan.normal).eliminate_rest(reciprocal)
         order = (*sorted(self.plan.rows), *pivots)
         pivots |= {row: diagonal[row] for row in self.plan.rows}
         return FactorNodes(order, {}, reciprocals, pivots, diagonal)
