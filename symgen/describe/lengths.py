@@ -46,15 +46,13 @@ def datum_of(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The description.
-    numbers : Numbers
-        Numbers of one run, or of many.
+    mechanism, numbers
+        As for `symgen.describe.start.described_start`.
 
     Returns
     -------
     list
-        A number, or an array of many, for each coordinate [m].
+        As the coordinates of a start [m].
     """
     point = next(_ground_points(mechanism), None)
     if point is None:

@@ -17,7 +17,7 @@ from symgen.loops.run_spec import RunSpec
 from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"
-COMMANDS = {name: group.get_command(None, name) for name in ("run", "compare", "stress", "sweep")}
+COMMANDS = {name: group.get_command(click.Context(group), name) for name in ("run", "compare", "stress", "sweep")}
 #: Settings of runs that look for events.
 EVENTS = ("stop_when", "record_when", "events")
 #: Settings that a command goes without, since it has a list of them, or no use for them.
