@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.side import Side, compile_side
+from symgen.compiling.side import compile_side
 from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
@@ -104,13 +104,6 @@ def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[E
         bodies=sum(len(body.speeds) for body in mechanism.bodies) if carried else 0,
         first=mechanism.body_coordinates if carried else 0,
     )
-
-
-def velocities_at(mechanism: Mechanism, compiled: CompiledModel, event: Event) -> Side:
-    """Return the velocities that an event changes, then their values after it."""
-    formulas = [(to_text(name), name) for name, _ in event.reset]
-    formulas += [(f"{to_text(name)} afterwards", value) for name, value in event.reset]
-    return compile_side(mechanism, compiled, "reset", "Velocities at an event", formulas)
 
 
 def switch_of(passed: Discontinuity, rtol: float) -> Switch:

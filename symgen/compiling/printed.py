@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.effects.applying import apply_effects
+from symgen.layout.start_records import Instant
 from symgen.loopcode.exact import compiled_form
 from symgen.native import language as lang
 from symgen.native import types
-from symgen.native.binding import ConstantTable, Meaning, Room
+from symgen.native.binding import BoundFunctions, ConstantTable, Elements, Meaning, Room, bind
 from symgen.native.loop_values import laid_out
 from symgen.native.loops import read_loop
 from symgen.native.read_values import Foreign
 
-#: Name of an array by its place in the arguments; None where it is constant.
+if TYPE_CHECKING:
+    from symgen.effects.effects import Effects
+
+#: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
 Naming = Callable[[str], str | None]
 
 
@@ -47,7 +53,7 @@ def meanings_of(
     emitted : mapping of int to Function
         Emitted functions by the identity of those in the arguments; others are functions of the runtime.
     room : callable
-        Name of an array that is no constant, by the parameter.
+        See `Naming`.
     """
     compiled = compiled_form(function)
     assert compiled.signature is not None, "an entry has a signature"
@@ -81,6 +87,55 @@ def _meaning(
         return lang.Constant(parameter.type, number)
     name, values = room(parameter.name), np.ravel(value)
     if name is not None and len(values):
-        return Room(name, len(values))
+        return Room(name, len(values)) if name else Elements(len(values))
     table = tuple(values.tolist())
     return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
+
+
+@dataclass(frozen=True)
+class Printed:
+    """Functions of the runtime for one compiled model in another language.
+
+    Attributes
+    ----------
+    emitted : mapping of str to Function
+        Emitted functions by their names in the text.
+    entries : dict
+        Functions of the runtime by their names in the text, with the meanings of their parameters.
+    """
+
+    emitted: Mapping[str, lang.Function]
+    entries: dict[str, tuple[lang.Function, dict[str, Meaning]]] = field(default_factory=dict)
+
+    def bound(self) -> BoundFunctions:
+        """Return the functions bound to the model."""
+        return bind(self.entries, frozenset(f.key for f in self.emitted.values()))
+
+    def add_effects(self, effects: Effects, formulas: str) -> None:
+        """Add ``apply_effects(t, y)``, which changes a state by the effects of the events in ``chosen``.
+
+        Parameters
+        ----------
+        effects : Effects
+            The effects.
+        formulas : str
+            Name of the function of their formulas in the text.
+        """
+        info, scratch = effects.compiled.info, effects.compiled.scratch()
+        layout, geometry, of_formulas, of_bodies, changes = effects.model
+        functions = {id(geometry): self.emitted["geometry"], id(of_formulas): self.emitted[formulas]}
+        if effects.bodies:
+            functions[id(of_bodies)] = self.emitted["bodies"]
+        now = Instant(np.zeros(info.ny), np.zeros(1), scratch)
+        work = effects.memory(info.ny, len(scratch))
+        chosen = effects.chosen(())
+
+        def room(name: str) -> str | None:
+            if name.startswith("now."):
+                return name.removeprefix("now.").replace("y", "")
+            own = name.removeprefix("work.").replace(".", "_")
+            return "chosen" if name == "chosen" else f"effect_{own}" if name.startswith("work.") else None
+
+        model = layout, geometry, of_formulas, of_bodies, changes
+        meanings = meanings_of(apply_effects, (model, None, now, chosen, work), functions, room)
+        self.entries["apply_effects"] = source_of(apply_effects), meanings

@@ -48,7 +48,7 @@ _LIBRARY = (
     "sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn significand drem finite isinf isnan isfinite abs abort exit main "
     "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
-_OWN = ("end", "real", "M", "I", "EOF", "NULL", "NAN", "SMALL", "LARGE")
+_OWN = ("end", "real", "mechanism", "model", "M", "I", "FINE", "EOF", "NULL", "NAN", "SMALL", "LARGE")
 #: Reserved words: keywords, names of the library, and the files' own names.
 RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 

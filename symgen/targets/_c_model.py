@@ -11,12 +11,11 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.compiling.checked import checked, read
-from symgen.compiling.events import DIRECTIONS, velocities_at
+from symgen.compiling.events import DIRECTIONS, effects_of
+from symgen.compiling.printed import Printed
 from symgen.compiling.side import Side, compile_side
 from symgen.describe.events import RESET, STOP
-from symgen.describe.formula_text import to_text
 from symgen.describe.holds import ORIENTATION, holds_of
-from symgen.describe.mechanism import SpatialBody
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
@@ -29,17 +28,20 @@ from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
 from symgen.targets._c_names import prefix_of
-from symgen.vocabulary.expressions import ZERO
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Event, Mechanism
+    from symgen.describe.mechanism import Mechanism
+    from symgen.effects.effects import Effects
     from symgen.layout.compiled import CompiledModel
+    from symgen.native.binding import BoundFunctions
     from symgen.native.language import Function
     from symgen.targets._target import Request
     from symgen.vocabulary.quantities import Quantity
 
 #: Functions of a law and of a model that exist in C.
 _NAMES = ("rhs", "accept", "geometry", "confirm", "masses", "move", "bodies")
+#: Memory that every mechanism has.
+_OWN = ("y", "p", "w", "iw")
 #: Maximum number of operations of a right-hand side: a compiler takes half a minute for it.
 MOST_OPERATIONS = 40_000
 
@@ -106,7 +108,7 @@ class CModel:
     @cached_property
     def text(self) -> str:
         """Emitted functions in C."""
-        return c_functions(self.functions)
+        return c_functions(self.functions, self.bound, "mechanism")
 
     @property
     def columns(self) -> tuple[Quantity, ...]:
@@ -126,8 +128,6 @@ class CModel:
         start, info, law = self.run.start, self.compiled.info, self.compiled.law
         mechanism, defaults = self.mechanism, self.mechanism.defaults
         acting = [i for i, event in enumerate(mechanism.events) if event.action in (STOP, RESET)]
-        resets = [(i, event) for i, event in enumerate(mechanism.events) if event.action == RESET]
-        changed = {i: self._changed(event) for i, event in resets}
         scratch = np.zeros(len(start.w))
         for first, size in (info.sections[name] for name in SETTLED if name in info.sections):
             scratch[first : first + size] = start.w[first : first + size]
@@ -147,14 +147,18 @@ class CModel:
             "upper": self.prefix.upper(),
             **{"nq": info.nq, "nv": info.nv, "ny": info.ny, "m": info.m, "np": len(start.p), "nw": len(start.w)},
             "ni": len(COUNTERS),
-            "k": info.m + max(map(len, changed.values()), default=0),
             "columns": self.columns,
             "outputs": mechanism.outputs,
             "events": mechanism.events,
             "acting": acting,
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
-            "resets": [{"event": i, "function": _reset(event), "columns": changed[i]} for i, event in resets],
+            "effects": self.effects is not None,
+            "memory": [
+                {"name": name, "is_real": kind == "float", "size": size}
+                for name, (kind, size) in self.bound.memory.items()
+                if name not in _OWN
+            ],
             "parameters": [
                 {"name": q.name, "unit": q.unit, "value": c_number(x), "input": q.name in info.inputs}
                 for q, x in zip(info.parameters, parameters.values(), strict=True)
@@ -209,24 +213,21 @@ class CModel:
         if conditions := [(event.name, event.when) for event in events]:
             purpose = "Switching functions"
             sides["formulas_of_events"] = compile_side(self.mechanism, self.compiled, "events", purpose, conditions)
-        for event in events:
-            if event.action == RESET:
-                sides[_reset(event)] = velocities_at(self.mechanism, self.compiled, event)
-        return functions | {name: read(side.function, abi.OBSERVE) for name, side in sides.items()}
+        functions |= {name: read(side.function, abi.OBSERVE) for name, side in sides.items()}
+        return functions | ({"formulas_of_effects": read(self.effects.formulas, abi.OBSERVE)} if self.effects else {})
 
-    def _changed(self, event: Event) -> list[int]:
-        """Return the indices of the velocities that an event changes."""
-        info, bodies = self.compiled.info, self.mechanism.bodies
-        where = f"--target {self.target}: events.{event.name}"
-        if self.joint:
-            raise InputError(where, "coordinates of bodies, as it changes velocities", "joint coordinates")
-        products = [e for b in bodies if isinstance(b, SpatialBody) and b.inertia for e in b.inertia[3:]]
-        if info.massless or "mass_entry" in info.sections or any(entry != ZERO for entry in products):
-            raise InputError(where, "bodies with mass whose axes are principal, as it changes velocities", "others")
-        names = [velocity.name for velocity in info.velocities]
-        for state in (state.name for state in info.states if state.name in {to_text(name) for name, _ in event.reset}):
-            raise InputError(where, "velocities in `reset`", f"the state '{state}'")
-        return [names.index(to_text(name)) for name, _ in event.reset]
+    @cached_property
+    def effects(self) -> Effects | None:
+        """What events change."""
+        return effects_of(self.mechanism, self.compiled, self.mechanism.events)
+
+    @cached_property
+    def bound(self) -> BoundFunctions:
+        """Functions of the runtime."""
+        printed = Printed(self.functions)
+        if self.effects:
+            printed.add_effects(self.effects, "formulas_of_effects")
+        return printed.bound()
 
     def _start(self) -> dict[str, str]:
         """Return lines for the derived parameters and for the start.
@@ -258,11 +259,6 @@ class CModel:
             "described": "\n".join(f"    {line}" for line in (*unused, *lines.lines_of(written), *written)),
             "fixed": _list(int(j in fixed) for j in range(info.nv)),
         }
-
-
-def _reset(event: Event) -> str:
-    """Return the name of the function for the velocities that an event changes."""
-    return f"velocities_at_{event.name}"
 
 
 def _list(words: Iterable[object]) -> str:
