@@ -60,6 +60,7 @@ def simulate(
     model: str | Path | Mechanism | Model,
     settings: Settings | None = None,
     progress: Callable[[float], None] | None = None,
+    sensitivities: Sequence[str] = (),
     **changes: Unpack[RunKeywords],
 ) -> Result:
     """Load and run a model.
@@ -68,12 +69,12 @@ def simulate(
     ----------
     model
         As for `load`.
-    settings, progress
+    settings, progress, sensitivities
         As for `Model.simulate`.
     **changes
         Single settings by name, as listed above.
     """
-    return load(model).simulate(settings, progress, **changes)
+    return load(model).simulate(settings, progress, sensitivities, **changes)
 
 
 class _OfPackage:
@@ -271,6 +272,7 @@ class Model(Analysed, Shown):
         self,
         settings: Settings | None = None,
         progress: Callable[[float], None] | None = None,
+        sensitivities: Sequence[str] = (),
         **changes: Unpack[RunKeywords],
     ) -> Result:
         """Run the model.
@@ -281,6 +283,9 @@ class Model(Analysed, Shown):
             All settings at once.
         progress : callable, optional
             Called with the time reached, about ten times a second.
+        sensitivities : sequence of str
+            Numbers that the motion is differentiated by: parameters, values of the start such as ``crank.omega``, and
+            ``method.NAME``. `Result.gradient` returns the derivatives.
         **changes
             Single settings by name, as listed above.
 
@@ -298,11 +303,18 @@ class Model(Analysed, Shown):
         arguments.function("progress", progress)
         settings = changed(settings, changes)
         before = seconds_in_cache()
-        run = prepare(self.mechanism, settings)
-        runs = timed(lambda: run.integrate(progress), settings.repeat)
+        if by := arguments.words("sensitivities", sensitivities):
+            from symgen.result.sensitivities import Differentiated
+
+            directed = Differentiated(self.mechanism, settings, by)
+            run, integrate = directed.run, directed.integrate
+        else:
+            run = prepare(self.mechanism, settings)
+            integrate = run.integrate
+        runs = timed(lambda: integrate(progress), settings.repeat)
         outcome, verification = runs.outcome, None
         if unchecked(run, outcome) is None:
-            free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None
+            free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by
             run, outcome, verification = verified(run, outcome, free)
             if settings.verify and run.plan.mechanism.beams:
                 from symgen.reruns.discretisation import discretisation
@@ -312,7 +324,8 @@ class Model(Analysed, Shown):
                 verification = replace(verification, note=note or None)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        return build_result(run, outcome, runs.spread or 0.0, verification)
+        result = build_result(run, outcome, runs.spread or 0.0, verification)
+        return directed.result(result) if by else result
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -40,7 +40,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     holds, for each body with Euler parameters, the index of these in q and of its angular velocity in v; `inputs` are
     parameters that may change during a run; `states` are states of the file's own, after the work, and `integrals` is
     the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
-    never left out, so nothing reads their mask; `switchable` are rows that may be off.
+    never left out, so nothing reads their mask; `switchable` are rows that may be off;
+    `shadows` is the number of elements behind the state without error control, directions (`symgen.runs.directions`).
     """
 
     name: str
@@ -63,6 +64,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     alone: tuple[int, ...] = ()
     states: tuple[Quantity, ...] = ()
     switchable: tuple[int, ...] = ()
+    shadows: int = 0
 
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
@@ -79,8 +81,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
 
     @property
     def ny(self) -> int:
-        """Length of the state: q, v, the work, states of the file's own and integrals."""
-        return self.work + 1 + len(self.states) + self.integrals
+        """Length of the state: q, v, the work, states of the file's own, integrals and directions."""
+        return self.work + 1 + len(self.states) + self.integrals + self.shadows
 
     @property
     def kept(self) -> int:
@@ -149,6 +151,22 @@ class CompiledModel(ABC):
         for i, (name, default) in enumerate(law.parameters):
             p[law.parameter_offset + i] = method_parameters.get(name, default)
         return p
+
+    def longer(self, shadows: int, hoisted: int, nw: int, model: Any, law_module: Any) -> CompiledModel:
+        """Return a model with longer arrays and other functions.
+
+        Parameters
+        ----------
+        shadows : int
+            Elements behind the state without error control.
+        hoisted, nw : int
+            Numbers that ``prepare`` computes, and length of the scratch array.
+        model, law_module : module
+            Functions of model and law.
+        """
+        info = msgspec.structs.replace(self.info, shadows=shadows)
+        law = msgspec.structs.replace(self.law, hoisted=hoisted, nw=nw)
+        return replace(self, info=info, law=law, model=model, law_module=law_module, origin=None)
 
     def prepare(self, p: Array) -> None:
         """Compute the numbers that follow the parameters in ``p``."""

@@ -49,6 +49,7 @@ def contract(result: Result) -> dict[str, Any]:
             "accumulation": result.accumulation,
             "start": result.start,
             "final": final,
+            **({"sensitivities": result.sensitivities.to_json(result)} if result.sensitivities else {}),
         }
     )
     return facts

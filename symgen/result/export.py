@@ -117,6 +117,11 @@ def to_xarray(result: Result) -> xr.Dataset:
         coordinates[dimension] = (dimension, _texts(names), {})
         coordinates[f"{dimension}_unit"] = (dimension, _texts(table.units), {})
     variables["smallest_pivot"] = (("time",), result.smallest_pivot)
+    if (by := result.sensitivities) is not None:
+        coordinates["direction"] = ("direction", _texts(by.names), {})
+        coordinates["direction_unit"] = ("direction", _texts(by.units), {})
+        for name in by.saved(result):
+            variables[f"sensitivity_{name}"] = (("time", TABLES[name], "direction"), by.table(name))
     facts = {
         "mechanism": result.mechanism,
         "method": result.method,

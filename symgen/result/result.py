@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.result.reactions import Forces
+    from symgen.result.sensitivities import Sensitivities
     from symgen.result.tables import Measured
     from symgen.runs.events import EventRecord
     from symgen.runs.last_state import LastState
@@ -110,6 +111,8 @@ class Result(MotionTables):
     watched : tuple of (str, str)
         Names of the events that the run looked for, those of the file and others, and what each does: ``"record"``,
         ``"stop"`` or ``"reset"``.
+    sensitivities : Sensitivities or None
+        Derivatives of the motion by chosen numbers, which `gradient` returns; None where the run had none.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -177,6 +180,7 @@ class Result(MotionTables):
     coordinates: str = "absolute"
     state: tuple[str, ...] = ()
     watched: tuple[tuple[str, str], ...] = ()
+    sensitivities: Sensitivities | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -218,6 +222,25 @@ class Result(MotionTables):
     @cached_property
     def _final_multipliers(self) -> dict[str, float]:
         return self.forces.final()
+
+    def gradient(self, name: str) -> Labelled:
+        """Return the derivatives of a quantity over time, one column for each number in `sensitivities`.
+
+        Parameters
+        ----------
+        name : str
+            A column: ``crank.theta``, ``crank.omega``, ``arm.tip.x``, ``spring.force``, or an output of the file.
+
+        Raises
+        ------
+        InputError
+            If the run had no ``sensitivities``, or the quantity has none.
+        """
+        if self.sensitivities is None:
+            raise InputError("gradient", "a run with sensitivities=(...)", "one without")
+        from symgen.result.sensitivities import place_of
+
+        return self.sensitivities.column(*place_of(self, name))
 
     @property
     def interrupted(self) -> bool:

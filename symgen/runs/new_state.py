@@ -38,7 +38,15 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
     info, sections = compiled.info, compiled.info.sections
     names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
     places = (sections.get(name, (0, 0))[0] for name in names)
-    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), max(1, info.ny - 1), compiled.law.unknowns
+    lengths = (
+        info.nq,
+        info.nv,
+        info.m,
+        info.ny,
+        padded(info.ny),
+        max(1, info.ny - info.shadows - 1),
+        compiled.law.unknowns,
+    )
     auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
     return Sizes._make((*lengths, *places, auxiliary, len(info.states)))
 
@@ -82,14 +90,16 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int, dat
     datum : sequence of float
         What coordinates are measured from; empty for the origin.
     """
-    law, scales = compiled.law, np.zeros(2 * sizes.width)
-    scales[sizes.nq + sizes.nv + 1 : sizes.ny] = 1.0  # integrals of outputs have units of their own
+    law, scales, own = compiled.law, np.zeros(2 * sizes.width), sizes.ny - compiled.info.shadows
+    scales[sizes.nq + sizes.nv + 1 : own] = 1.0  # integrals of outputs have units of their own
     control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
     p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
+    share = share_of(sizes, datum)
+    share[own : sizes.ny] = 0.0
     return State(
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_PASSAGES * abi.N_PASSAGE)),
-        *(np.zeros(memory), share_of(sizes, datum), metric_of(compiled.info, sizes), scales),
+        *(np.zeros(memory), share, metric_of(compiled.info, sizes), scales),
         np.zeros(sizes.width + room),
     )
 

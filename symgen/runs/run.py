@@ -61,7 +61,12 @@ def integrate(
     Outcome
         After an interruption (KeyboardInterrupt) as well: with all results up to there and code `STOPPED`.
     """
-    simulation = Simulation(compiled, integrator, start, spec)
+    return completed(Simulation(compiled, integrator, start, spec), progress)
+
+
+def completed(simulation: Simulation, progress: Progress | None = None) -> Outcome:
+    """Run to the end, as `integrate` does, and return the outcome."""
+    start, spec = simulation.start, simulation.spec
     outputs = simulation.outputs(spec.times)
     if start.saved is not None:
         simulation.store_first(outputs)

@@ -1,0 +1,354 @@
+"""Sensitivities of a run: derivatives of its quantities by chosen numbers, as labelled arrays.
+
+They are derivatives of the run that was made: of its code, its steps and its corrections, evaluated beside the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.compiling.side import compile_side
+from symgen.describe.readings import TABLES as FORMULAS
+from symgen.integrators import INTEGRATORS
+from symgen.layout import abi
+from symgen.result.labelled import Labelled
+from symgen.running.directions import named_directions
+from symgen.running.prepare import Prepared, prepare
+from symgen.running.start_directions import StartDirections
+from symgen.runs.directions import Course, DirectedModel, Observer, Part, run_with_directions
+
+if TYPE_CHECKING:
+    from symgen.base.settings import Settings
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+    from symgen.runs.outcome import Outcome
+
+Array = NDArray[np.float64]
+
+#: Explicit schemes whose steps are linear in the state, the default first.
+SCHEMES = ("dop853", "dopri5", "rk4", "abm4", "abm", "euler", "heun")
+#: Tables of a result with sensitivities.
+TABLES = ("q", "v", "a", "joint_coordinates", *FORMULAS)
+#: Directions leave the constraints by less than this part of their size, unless they are doubtful.
+CONSISTENT = 1e-6
+
+
+def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[str, ...]]:
+    """Return a run that can have directions, and notes on what was chosen for that.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        Of the run; what they leave open is chosen.
+
+    Raises
+    ------
+    InputError
+        If the scheme, the shape of the code or the start has no directions; says what works instead.
+    """
+    notes = list[str]()
+    if settings.shape == "auto":
+        settings = replace(settings, shape="straight")
+    elif settings.shape == "looped":
+        raise InputError("sensitivities", "code of the shape 'straight'", "shape 'looped'")
+    usual = settings.integrator or mechanism.defaults.integrator
+    run = prepare(mechanism, settings)
+    name = run.plan.integrator.name
+    if name not in SCHEMES and usual in (None, "auto") and "ode" in run.plan.choice.method.forms:
+        run = prepare(mechanism, replace(settings, integrator=SCHEMES[0]))
+        notes.append(f"{SCHEMES[0]} in place of {name}, which has no sensitivities")
+        name = SCHEMES[0]
+    if name not in SCHEMES:
+        works = [n for n in SCHEMES if n in INTEGRATORS.names]
+        got, hint = f"'{name}'", f"with the method {run.plan.choice.method.name}, none has"
+        if "ode" in run.plan.choice.method.forms:
+            hint = f"take {works[0]}"
+        raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
+    watched = run.spec.events
+    if watched is not None and (watched.names or watched.jumps or watched.rows is not None):
+        what = f"the event '{watched.names[0]}'" if watched.names else "formulas that jump where the state passes zero"
+        raise InputError("sensitivities", "a run without events", what)
+    return run, tuple(notes)
+
+
+class Differentiated:
+    """A run with directions.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        Of the run.
+    names : sequence of str
+        What it is differentiated by: parameters, values of the start, ``method.NAME``.
+
+    Attributes
+    ----------
+    run : Prepared
+        The run without directions.
+    """
+
+    def __init__(self, mechanism: Mechanism, settings: Settings, names: Sequence[str]) -> None:
+        self.run, self._notes = prepared(mechanism, settings)
+        self.directions = named_directions(self.run, names)
+        self._start = StartDirections(self.run, self.directions)
+        self._course: Course | None = None
+
+    def integrate(self, progress: Callable[[float], None] | None = None) -> Outcome:
+        """Integrate with directions, and return the outcome as of a run without them."""
+        run = self.run
+        seeds = self._start.seeds()
+        self._course = run_with_directions(run.compiled, run.plan.integrator, run.start, run.spec, seeds, progress)
+        return self._course.outcome
+
+    def sensitivities(self, outcome: Outcome) -> Sensitivities:
+        """Return the sensitivities of the run that `integrate` made.
+
+        Parameters
+        ----------
+        outcome : Outcome
+            The outcome as reported.
+        """
+        assert self._course is not None, "the run was made"
+        return Sensitivities(Evaluated(self.run, self._start, self._course), outcome)
+
+    def result(self, result: Result) -> Result:
+        """Return a result with its sensitivities, and what is to be said of them."""
+        found = self.sensitivities(result.outcome)
+        notes, reason, status = [*result.notes, *self._notes], result.reason, result.status
+        still = [name for name, moves in zip(found.names, found.moves, strict=True) if not moves]
+        warnings = [f"{name} changes nothing in this run" for name in still]
+        doubt = found.doubt(result)
+        if doubt and status == "ok":
+            status, reason = "unverified", doubt
+        said = (*result.warnings, *warnings)
+        return replace(result, sensitivities=found, notes=tuple(notes), warnings=said, status=status, reason=reason)
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """Evaluates quantities of a run with directions.
+
+    Parameters
+    ----------
+    run : Prepared
+        The run.
+    start : StartDirections
+        Its directions at the start.
+    course : Course
+        What its loops left behind.
+    """
+
+    run: Prepared
+    start: StartDirections
+    course: Course
+
+    @cached_property
+    def observers(self) -> tuple[Observer, ...]:
+        """The motion of bodies with directions, one for each loop."""
+        parts = self.course.parts
+        if self.run.tree is None:
+            return tuple(self._own(part) for part in parts)
+        return tuple(self._carried(part, k * part.model.lanes) for k, part in enumerate(parts))
+
+    def _own(self, part: Part) -> Observer:
+        outcome, info = part.outcome, part.model.plain.info
+        windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        pieces = (*outcome.held, (np.inf, outcome.p))
+        return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w)
+
+    def _carried(self, part: Part, first: int) -> Observer:
+        """Return the motion of bodies that joints carry."""
+        tree = self.run.tree
+        assert tree is not None, "the state is that of joints"
+        info, own, lanes = tree.bodies.info, part.model.plain.info, part.model.lanes
+        values, slopes = self._own(part).observed(tree.compiled.model.bodies, info.nq + 2 * info.nv)
+        model, k = DirectedModel(tree.bodies, lanes), len(values)
+        states, directions = np.zeros((k, info.ny)), np.zeros((k, info.ny, lanes))
+        states[:, : info.work], directions[:, : info.work] = values[:, : info.work], slopes[:, : info.work]
+        states[:, : info.nq] *= tree.signs
+        directions[:, : info.nq] *= tree.signs[:, np.newaxis]
+        behind = part.model.sizes["y"]
+        states[:, info.work :] = part.outcome.states[:, own.work : behind]
+        directions[:, info.work :] = part.states[:, own.work :]
+        carried = tree.carried(self.course.outcome)
+        seeds = self.start.parameters(tree.bodies)[:, first : first + lanes]
+        room = np.zeros((len(seeds), lanes))
+        room[:, : seeds.shape[1]] = seeds
+        pieces = tuple((t, model.parameters(p, room)) for t, p in (*carried.held, (np.inf, carried.p)))
+        longer = np.concatenate([states, directions.reshape(k, -1)], axis=1)
+        windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        w = model.scratch(pieces[-1][1], carried.w)
+        return Observer(model, part.outcome.times, longer, windings, pieces, w)
+
+    def gathered(self, of: Callable[[Observer], Array]) -> Array:
+        """Return directions of all loops beside each other, along the last axis."""
+        return np.concatenate([of(x) for x in self.observers], axis=-1)[..., : self.course.count]
+
+    def states(self) -> Array:
+        """Return the directions of the states of bodies at the outputs, shape (k, ny, n)."""
+        return self.gathered(lambda x: x.model.shadow(x.states, "y"))
+
+    def rates(self) -> Array:
+        """Return the directions of the rates of these states."""
+        return self.gathered(lambda x: x.model.shadow(x.rates[0], "y"))
+
+    def function(self, function: Any, length: int) -> Array:
+        """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
+        return self.gathered(lambda x: x.observed(function, length)[1])
+
+    def apart(self) -> Array:
+        """Return by how much directions leave the constraints, over their size, shape (n,)."""
+        parts = [(part.model, self._own(part)) for part in self.course.parts]
+        found = list[Array]()
+        for model, observer in parts:
+            sizes = np.abs(model.shadow(observer.states, "y")[:, : model.plain.info.nq]).max(axis=(0, 1), initial=0.0)
+            largest = observer.violations().max(axis=0, initial=0.0)
+            found.append(largest / np.where(sizes > 0.0, sizes, 1.0))
+        return np.concatenate(found)[: self.course.count]
+
+
+class Sensitivities:
+    """Derivatives of a run by chosen numbers; ``sensitivities["crank.theta"]`` is a table over time, as `of` returns.
+
+    Parameters
+    ----------
+    evaluated : Evaluated
+        Evaluates them.
+    outcome : Outcome
+        The outcome as reported.
+
+    Attributes
+    ----------
+    names, units : tuple of str
+        What the run is differentiated by, and the units of that.
+    """
+
+    def __init__(self, evaluated: Evaluated, outcome: Outcome) -> None:
+        self._evaluated, self._outcome = evaluated, outcome
+        self.names = tuple(d.name for d in evaluated.start.directions)
+        self.units = tuple(d.unit for d in evaluated.start.directions)
+        self._tables = dict[str, Array]()
+
+    def __repr__(self) -> str:
+        return f"<Sensitivities to {', '.join(self.names)}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        for name in ("q", "v"):
+            self.table(name)
+        _ = self.violation, self.moves
+        return {**self.__dict__, "_evaluated": None, "_outcome": None}
+
+    @cached_property
+    def violation(self) -> float:
+        """How far directions leave the constraints: the largest derivative of a row over that of a coordinate."""
+        return float(self._evaluated.apart().max(initial=0.0))
+
+    @cached_property
+    def moves(self) -> tuple[bool, ...]:
+        """Whether each number changes the motion at all."""
+        return tuple(bool(x) for x in np.any(self._evaluated.course.states != 0.0, axis=(0, 1)))
+
+    def table(self, name: str) -> Array:
+        """Return the derivatives of all columns of a table of the result, shape (k, columns, n).
+
+        Parameters
+        ----------
+        name : str
+            ``q``, ``v``, ``a``, ``joint_coordinates``, ``points``, ``elements`` or ``outputs``.
+
+        Raises
+        ------
+        InputError
+            If the table has no sensitivities.
+        """
+        if name not in TABLES:
+            raise InputError("sensitivities", f"a table with sensitivities ({', '.join(TABLES)})", quoted(name))
+        if name not in self._tables:
+            if self._evaluated is None:
+                raise InputError("sensitivities", "a result of this process", "one that was pickled or copied")
+            self._tables[name] = self._table(name)
+        return self._tables[name]
+
+    def _table(self, name: str) -> Array:
+        evaluated, outcome = self._evaluated, self._outcome
+        compiled, mechanism = outcome.compiled, evaluated.run.plan.mechanism
+        info = compiled.info
+        if name in ("q", "v"):
+            states = evaluated.states()
+            return states[:, : info.nq] if name == "q" else states[:, info.nq : info.work]
+        if name == "a":
+            return evaluated.rates()[:, info.nq : info.work]
+        if name == "joint_coordinates":
+            return evaluated.function(compiled.model.observe, info.observed)[:, info.m :]
+        formulas = [(column.name, column.formula) for column in FORMULAS[name](mechanism)]
+        if not formulas:
+            return np.zeros((len(outcome.times), 0, len(self.names)))
+        side = compile_side(mechanism, compiled, name, f"the table {name} of results", formulas)
+        if "multipliers" in side.reads and outcome.start.redundant_rows:
+            row = outcome.start.redundant_rows[0]
+            got = f"those of dependent rows ({row}) in {name}"
+            raise InputError("sensitivities", "multipliers that the motion determines", got)
+        return evaluated.function(side.function, len(formulas))
+
+    def column(self, table: str, place: int, unit: str) -> Labelled:
+        """Return the derivatives of one column of a table over time."""
+        values = self.table(table)[:, place]
+        return Labelled(values, self.names, tuple(over(unit, own) for own in self.units))
+
+    def saved(self, result: Result) -> tuple[str, ...]:
+        """Return the tables that files hold: coordinates, velocities, and outputs if there are any."""
+        return ("q", "v", "outputs") if result.columns("outputs") else ("q", "v")
+
+    def to_json(self, result: Result) -> dict[str, Any]:
+        """Return names, units, the violation, and the derivatives at the end by quantity and name."""
+        final = dict[str, dict[str, float]]()
+        for table in self.saved(result) if len(result.t) else ():
+            for column, row in zip(getattr(result, table).names, self.table(table)[-1].tolist(), strict=True):
+                final[column] = dict(zip(self.names, row, strict=True))
+        by = dict(zip(self.names, self.units, strict=True))
+        return {"by": by, "violation": self.violation, "final": final}
+
+    def doubt(self, result: Result) -> str | None:
+        """Return why the sensitivities of a run are in doubt, None where they are not."""
+        if result.rank_event_count:
+            first = result.rank_events[0].t_in
+            return f"the motion passes near a singular position at t = {first:.6g} s, where sensitivities may jump"
+        if result.outcome.counters["dense_solves"]:
+            return "accelerations were solved with another rank on the way, which sensitivities do not follow"
+        if self.violation > CONSISTENT:
+            return f"sensitivities leave the constraints by {self.violation:.1g} of their size"
+        return None
+
+
+def over(unit: str, by: str) -> str:
+    """Return the unit of a derivative."""
+    if not by:
+        return unit
+    below = f"({by})" if any(sign in by for sign in " */") else by
+    return f"{unit or '1'}/{below}" if not any(sign in unit for sign in " /") else f"({unit})/{below}"
+
+
+def place_of(result: Result, name: str) -> tuple[str, int, str]:
+    """Return the table, the place and the unit of a column of a result.
+
+    Raises
+    ------
+    InputError
+        If there is no such column, or it has no sensitivities.
+    """
+    places = {n: at for n, at in result._places.items() if at[0] in TABLES}
+    if name not in places:
+        raise InputError("gradient", "a quantity with sensitivities", quoted(name), nearest(name, places))
+    table, place = places[name]
+    return table, place, getattr(result, table).units[place]
