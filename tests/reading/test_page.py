@@ -184,10 +184,14 @@ def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):
     assert "It does not close, and is drawn as described" in text
 
 
-@pytest.mark.parametrize("name", ["four-bar", "andrews", "n-four-bar:3", "bricard"])
+@pytest.mark.parametrize("name", ["four-bar", "andrews", "n-four-bar:3", "bricard", "chain:10"])
 def test_the_factor_that_is_drawn_is_the_one_that_is_compiled(name):
     equations = formulate(load(name))
     program = lower_model(equations, "")
     entries = of_factor(equations, program.order)
     assert sum(kind == "f" for kind in entries.values()) == program.fill
-    assert len(entries) - equations.m == program.layout.sections["lower"][1]
+    if program.plan.schur:  # others keep no factor
+        assert len(entries) - equations.m == program.layout.sections["lower"][1]
+    else:
+        assert set(program.order[: len(program.plan.rows)]) == program.plan.rows
+    assert program.plan.schur == (name == "chain:10")

@@ -112,8 +112,8 @@ def evaluate(model: Model, name: str, options: dict[str, str], shape: str) -> di
                 where.spread(p, w)
                 keep(f"{kind} spread", "change")
     d = compiled.jacobian(w)
-    flag = law.rhs(t, y.copy(), p, w, iw, rate)
-    found["rhs"], found["rhs flag"] = rate.copy(), np.array([float(bool(flag))])
+    law.rhs(t, y.copy(), p, w, iw, rate)  # a pivot that is suspicious in one order need not be so in another
+    found["rhs"] = rate.copy()
     found["rhs D^T lambda"] = d.T @ compiled.section(w, "multipliers")
     if hasattr(law, "confirm"):
         law.confirm(t, y.copy(), p, w, iw, rate)
