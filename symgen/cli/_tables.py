@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import click
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -122,6 +123,28 @@ def show_quantities(quantities: Mapping[str, Mapping[str, Any]], tables: Iterabl
         rows.append((name, *("" if x is None else digits(x, scale) for x in values), entry["unit"]))
     headings = ("quantity", "final", "smallest", "largest", "unit")
     show_rows(console(), headings, rows, left=("quantity", "unit"))
+
+
+def show_sensitivities(result: Result, quantities: Sequence[str], most: int = 40) -> None:
+    """Print the derivatives of quantities at the end, by default of coordinates, velocities and outputs."""
+    found = result.sensitivities
+    assert found is not None, "the run had sensitivities"
+    names = quantities or [name for table in found.saved(result) for name in getattr(result, table).names]
+    tables = [(name, result.gradient(name)) for name in names]
+    rows = [
+        (name, by, digits(value, max(map(abs, table.row().values()))), unit)
+        for name, table in tables
+        for (by, value), unit in zip(table.row().items(), table.units, strict=True)
+    ]
+    first = fitting(len(rows), most)
+    show_rows(
+        console(),
+        ("final derivative of", "by", "value", "unit"),
+        rows[:first],
+        left=("final derivative of", "by", "unit"),
+    )
+    if len(rows) > first:
+        click.echo(f"... {len(rows) - first} more; --quantity chooses, --json has all")
 
 
 def _final(result: Result, most: int = 12) -> tuple[list[str], list[tuple[str, ...]]]:

@@ -12,6 +12,7 @@ from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
 from symgen.cli._options import (
+    column_names,
     examples,
     json_option,
     output_file,
@@ -52,6 +53,14 @@ if TYPE_CHECKING:
     "Columns, bodies, joints or forces, such as motor.effort,knee.F: shown, drawn, and all that --save FILE.csv holds.",
     "these quantities, or an overview,",
 )
+@click.option(
+    "--sensitivity",
+    "sensitivities",
+    multiple=True,
+    metavar="NAME,NAME",
+    help="Differentiate the motion by parameters, by values of the start, such as crank.omega, and by method.NAME.",
+    callback=lambda context, parameter, value: column_names("--sensitivity", value),
+)
 @units_option
 @json_option
 def command(
@@ -59,6 +68,7 @@ def command(
     whence: str | None,
     save: str | None,
     quantities: tuple[str, ...],
+    sensitivities: tuple[str, ...],
     units: bool,
     plot: str | None,
     over: str | None,
@@ -96,7 +106,7 @@ def command(
     _prepare(loaded, settings, quantities, over or "t")
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
-        result = loaded.simulate(settings, progress=bar)
+        result = loaded.simulate(settings, bar, sensitivities)
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
     chosen = extremes(result.select(quantities)) if quantities else {}
     if as_json:
@@ -104,9 +114,11 @@ def command(
             result.to_json() | {"proposals": list(result.proposals)} | ({"quantities": chosen} if quantities else {})
         )
     else:
-        from symgen.cli._tables import show_quantities, show_result
+        from symgen.cli._tables import show_quantities, show_result, show_sensitivities
 
         show_result(result)
+        if sensitivities:
+            show_sensitivities(result, quantities)
         if quantities:
             show_quantities(chosen, (result.q, result.v, result.a, result.lam))
     files = {

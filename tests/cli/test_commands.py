@@ -130,6 +130,19 @@ def test_generate_refuses_what_is_wrong_and_writes_nothing(cli, tmp_path):
 # -- run ---------------------------------------------------------------------------------------------------------------
 
 
+def test_sensitivities_of_a_run(cli):
+    words = ("run", "four-bar", "--integrator", "rk4", "--step", "1e-2", "--until", "0.2")
+    code, out, _ = cli(*words, "--sensitivity", "crank_mass,coupler_mass", "--quantity", "crank.theta")
+    assert code == 0
+    shown = [line.split() for line in out.splitlines() if line.startswith("crank.theta ") and "_mass" in line]
+    found = json.loads(cli(*words, "--sensitivity", "crank_mass,coupler_mass", "--json")[1])["sensitivities"]
+    assert [(row[1], row[3]) for row in shown] == [("crank_mass", "rad/kg"), ("coupler_mass", "rad/kg")]
+    assert [float(row[2]) for row in shown] == pytest.approx([*found["final"]["crank.theta"].values()], rel=1e-4)
+    code, _, err = cli(*words, "--sensitivity", "crank_mas")
+    assert code == 2
+    assert "did you mean 'crank_mass'?" in err
+
+
 def test_run_json_is_alone_on_standard_output(cli):
     code, out, err = cli("run", "four-bar", "--integrator", "rk4", "--until", "0.2", "--json")
     assert code == 0 and err == ""
