@@ -22,9 +22,11 @@ from symgen.loopcode.loop_instances import loop as compiled_loop
 from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching
-from symgen.loops.frame_parts import LOOK, TRY
+from symgen.loops.frame_parts import LOOK, NOTHING, REMEMBER, TRY
 from symgen.loops.frame_parts import correct as plain_correct
 from symgen.loops.frame_parts import opened as plain_opened
+from symgen.loops.searching import remember
+from symgen.loops.switching import is_quiet
 from symgen.native import types
 
 Array = NDArray[np.float64]
@@ -83,6 +85,8 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
 def located(system: Any, run: Any, following: float, h: float, search: int) -> int:
     """Search an acceptable step for events; return the decision of `decide`."""
     evaluate_events(system, run, following, run.trial)
+    if search == NOTHING and is_quiet(run.hunt, int(run.hunt[searching.COUNT])) == 1:
+        return NOTHING
     return decided(system, run, following, h, search, run.trial)
 
 
@@ -91,6 +95,10 @@ def prepare_search(system: Any, run: Any, doing: int) -> int:
 
     Or save the memory of emitted functions at the beginning of a step (`REMEMBER`), or restore it (`RECALL`).
     """
+    if doing == REMEMBER:
+        hunt, w = run.hunt, run.w
+        n, width, t = int(hunt[searching.COUNT]), system.sizes.width, run.clock[abi.TIME]
+        return int(remember(hunt, n, t, width, run.y, w.shape[0], w, run.iw))
     if doing == LOOK:
         evaluate_events(system, run, run.clock[abi.TIME], run.y)
     return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)

@@ -25,7 +25,6 @@ from symgen.loops.frame_parts import (
     LOW,
     MEET,
     NOTHING,
-    REMEMBER,
     RESTART,
     SEEK,
     TAKE,
@@ -243,13 +242,18 @@ def keep(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
 
 
 @plain
-def begin_step(hunt: A, t: float, width: int, y: A) -> int:
-    """Save time and state at the beginning of a step, from which rows that may jump are examined."""
+def remember(hunt: A, n: int, t: float, width: int, y: A, nw: int, w: A, iw: A) -> int:
+    """Save the memory of emitted functions at the beginning of a step; notes of a refused attempt are dropped.
+
+    Time and state are saved where rows that may jump are examined.
+    """
+    hunt[NOTED] = hunt[ACCEPTED]
     at = int(hunt[BEGINNING])
-    hunt[at] = t
-    for j in range(width):
-        hunt[at + 1 + j] = y[j]
-    return 0
+    if at != 0:
+        hunt[at] = t
+        for j in range(width):
+            hunt[at + 1 + j] = y[j]
+    return int(keep(hunt, N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width, nw, w, iw))
 
 
 @plain
@@ -302,7 +306,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
     following, h : float
         End and length of the trial step [s].
     search : int
-        Purpose of the trial step; or another task: `LOOK`, `REMEMBER` at the beginning of a step and `RECALL`, `KEEP`
+        Purpose of the trial step; or another task: `LOOK`, `RECALL` at the beginning of a step, `KEEP`
         at an examined state and `GIVE_BACK`, `AIM` before a step of `h`.
     width, y : int, Array
         The state at its end.
@@ -318,14 +322,10 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             return int(look(hunt, n))
         if search == AIM:
             return int(aim(hunt, n, h))
-        if search == REMEMBER:
-            hunt[NOTED] = hunt[ACCEPTED]  # notes of a refused attempt are dropped
-            if hunt[BEGINNING] != 0.0:
-                begin_step(hunt, following, width, y)
         first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
         size = (notes - first) // 2
         first += size if search == KEEP or search == GIVE_BACK else 0
-        if search == REMEMBER or search == KEEP:
+        if search == KEEP:
             return int(keep(hunt, first, size - _COUNTERS, w, iw))
         return int(give_back(hunt, first, size - _COUNTERS, w, iw))
     if search == TAKE and hunt[DOING] != _TO_EVENT:

@@ -7,6 +7,7 @@ from typing import Any
 
 from symgen.loops.frame_parts import LOW
 from symgen.loops.search_records import (
+    ACCEPTED,
     ACTION,
     ANEW,
     BLUR,
@@ -14,15 +15,21 @@ from symgen.loops.search_records import (
     D_LOW,
     D_START,
     DIRECTION,
+    FIRED,
     G_HIGH,
     G_LOW,
     G_START,
+    GRAZING,
     HIGH,
     LOCAL,
+    N_COLUMNS,
     N_HEAD,
+    NOTED,
     PROBES,
     RESOLUTION,
     ROUNDS,
+    SIDE,
+    SIZE,
     WHOLE,
     WIDTH,
 )
@@ -199,3 +206,25 @@ def concealed(hunt: A, n: int) -> float:
             if is_finite(d0 + d1) == 1 and passes(hunt, n, k, G_HIGH) == 0:
                 x = min(x, dip(g0, d0, g1, d1, hunt[at + LOCAL * n + k]))
     return float(low + x * (high - low)) if x < 1.0 else float(high)
+
+
+@plain
+def is_quiet(hunt: A, n: int) -> int:
+    """Return 1 where no event can lie in a whole step, and make its end the beginning of the next one; else 0.
+
+    All functions end on the sides on which they begin, and none dips in between (`dip`). Most
+    steps of most runs are such: this one pass replaces the brackets and the search.
+    """
+    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
+    for k in range(n):
+        side, rate = hunt[at + SIDE * n + k], hunt[at + D_START * n + k]
+        if hunt[at + ACTION * n + k] >= float(ANEW) or hunt[at + GRAZING * n + k] != 0.0:
+            return 0
+        if not (side * hunt[out + k] > 0.0 and (side * rate >= 0.0 or side * hunt[out + n + k] <= 0.0)):
+            return 0
+    for k in range(n):
+        hunt[at + FIRED * n + k] = 0.0
+        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(hunt[out + k]))
+        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = hunt[out + k], hunt[out + n + k]
+    hunt[ACCEPTED] = hunt[NOTED]
+    return 1

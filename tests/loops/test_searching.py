@@ -68,3 +68,29 @@ def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_c
     assert told(1.0, 1.0 - t, frame_parts.NOTHING) == frame_parts.NOTHING
     assert columns[search_records.GRAZING] == 0.0 and columns[search_records.SIDE] == 1.0
     assert told(2.0, 1.0, frame_parts.NOTHING) == frame_parts.NOTHING
+
+
+def test_a_quiet_step_is_one_in_which_the_search_finds_nothing():
+    """Whatever values and rates both ends have: where one pass is enough, the search gives the same sides and ends."""
+    rng, quiet, heads = np.random.default_rng(3), 0, search_records.N_HEAD
+    kept = ("SIDE", "FIRED", "GRAZING", "SIZE", "G_START", "D_START")
+    columns = [getattr(search_records, name) for name in kept]
+    for _ in range(2000):
+        ends = [
+            [tuple(rng.choice([-1.0, -0.1, 0.0, 0.1, 1.0, np.nan], 2, p=[0.23] * 4 + [0.04] * 2)) for _ in range(2)]
+            for _ in range(2)
+        ]
+        hunt, told = hunted(*(lambda t, at=at: at[int(t > 0.0)] for at in ends))
+        direction = heads + search_records.DIRECTION * 2
+        hunt[direction : direction + 2] = rng.integers(-1, 2, 2)
+        told(0.0, 0.0, frame_parts.LOOK)
+        once = hunt.copy()
+        doing = told(0.3, 0.3, frame_parts.NOTHING)
+        values = heads + search_records.N_COLUMNS * 2
+        once[values : values + 4] = hunt[values : values + 4]
+        if plain_form(switching.is_quiet)(once, 2) == 1:
+            quiet += 1
+            assert doing == frame_parts.NOTHING and once[search_records.NOTED] == hunt[search_records.NOTED] == 0.0
+            both = (h[heads:values].reshape(-1, 2)[columns] for h in (once, hunt))
+            np.testing.assert_array_equal(*both)
+    assert 100 < quiet < 1000

@@ -12,7 +12,7 @@ from native import printed
 from symgen.layout import abi
 from symgen.loopcode.loop_instances import Instances
 from symgen.loops import event_loop, search_records, searching
-from symgen.loops.frame_parts import FAIL, HOLD, LOOK, MEET, NOTHING, REMEMBER, SEEK, TAKE, TRY
+from symgen.loops.frame_parts import FAIL, HOLD, LOOK, MEET, NOTHING, SEEK, TAKE, TRY
 
 ARGUMENTS = abi.DECIDE.signature.arguments
 #: `decide` and its callees as plain Python, whose operations are not contracted.
@@ -46,7 +46,7 @@ def search(decide: Callable[..., int], steps: int = 80) -> list[float]:
     task(t, 0.0, LOOK)
     for i in range(steps):
         doing, h = NOTHING, 0.05 + 0.03 * (i % 5)
-        task(t, 0.0, REMEMBER)
+        searching.remember.py_func(hunt, n, t, width, y, 1, w, iw)
         while (doing := task(t + h, h, doing)) in (SEEK, TAKE):
             h = float(hunt[TRY])
         assert doing not in (FAIL, HOLD)
