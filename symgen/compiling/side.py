@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Sections of ``w`` that formulas of a run may read, at the places of a model of either shape.
-READ = ("status", "winding", "multipliers")
+READ = ("status", "winding", "modes", "multipliers")
 
 
 @dataclass(frozen=True)

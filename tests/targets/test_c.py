@@ -13,6 +13,7 @@ from support.locks import LOCKED, parts
 from symgen import Settings, load
 from symgen.base.errors import InputError
 from symgen.catalogue import MACHINES, entries
+from symgen.describe.switching import with_switchable
 from symgen.native.c99 import c_functions
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
@@ -290,3 +291,11 @@ def test_javascript_is_a_module(tmp_path):
     text = (tmp_path / "four-bar.mjs").read_text()
     assert "export const model = makeLive(" in text
     assert "function rhs(t, y, p, w, iw, ydot)" in text
+
+
+def test_a_program_holds_joints_that_may_be_off(tmp_path):
+    """It has no transitions: rows that may be off are in force, as `run` begins."""
+    whole = load("four-bar").mechanism
+    switched = with_switchable(whole, whole.joints[-1].name)
+    rows = [rows_of(compiled(written(x, tmp_path / n)), "0.5")[1] for x, n in ((switched, "a"), (whole, "b"))]
+    np.testing.assert_allclose(rows[0][-1], rows[1][-1], rtol=1e-9, atol=1e-9)
