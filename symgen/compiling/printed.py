@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.compiling.checked import read
 from symgen.effects.applying import apply_effects
-from symgen.layout.start_records import Instant
+from symgen.layout import abi
+from symgen.layout.ensemble_abi import N_SUMMARY
+from symgen.layout.start_records import Instant, StartConditions
 from symgen.loopcode.exact import compiled_form
 from symgen.native import language as lang
 from symgen.native import types
@@ -17,9 +21,11 @@ from symgen.native.binding import BoundFunctions, ConstantTable, Elements, Meani
 from symgen.native.loop_values import laid_out
 from symgen.native.loops import read_loop
 from symgen.native.read_values import Foreign
+from symgen.starts.starting import close_row
 
 if TYPE_CHECKING:
     from symgen.effects.effects import Effects
+    from symgen.starts.assembler import Assembly
 
 #: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
 Naming = Callable[[str], str | None]
@@ -86,7 +92,7 @@ def _meaning(
         number = float(value) if parameter.type == "float" else int(value)
         return lang.Constant(parameter.type, number)
     name, values = room(parameter.name), np.ravel(value)
-    if name is not None and len(values):
+    if name is not None:
         return Room(name, len(values)) if name else Elements(len(values))
     table = tuple(values.tolist())
     return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
@@ -98,13 +104,13 @@ class Printed:
 
     Attributes
     ----------
-    emitted : mapping of str to Function
-        Emitted functions by their names in the text.
+    emitted : dict of str to Function
+        Emitted functions by their names in the text; those that starts need further are added.
     entries : dict
         Functions of the runtime by their names in the text, with the meanings of their parameters.
     """
 
-    emitted: Mapping[str, lang.Function]
+    emitted: dict[str, lang.Function]
     entries: dict[str, tuple[lang.Function, dict[str, Meaning]]] = field(default_factory=dict)
 
     def bound(self) -> BoundFunctions:
@@ -139,3 +145,37 @@ class Printed:
         model = layout, geometry, of_formulas, of_bodies, changes
         meanings = meanings_of(apply_effects, (model, None, now, chosen, work), functions, room)
         self.entries["apply_effects"] = source_of(apply_effects), meanings
+
+    def add_start(self, assembly: Assembly) -> None:
+        """Add ``close_row()``, which makes the start of the model consistent; see `symgen.starts.starting`.
+
+        Parameters
+        ----------
+        assembly : Assembly
+            The start, in which no joint coordinates are held.
+        """
+        joints, work = assembly.memory()
+        *own, observe = map(compiled_form, assembly.own)
+        compiled, functions = assembly.compiled, dict[int, lang.Function]()
+        for name, kind, function in zip(_NAMES, _KINDS, own, strict=True):
+            if kind is not None and getattr(compiled.model, name, None) is function:
+                if name not in self.emitted:
+                    self.emitted[name] = read(function, kind)
+                functions[id(function)] = self.emitted[name]
+        functions[id(own[-1])] = self.emitted["rhs"]
+        scratch = compiled.scratch()
+        now = Instant(np.zeros(compiled.info.ny), compiled.parameter_array(defaultdict(float), {}), scratch)
+        conditions = StartConditions(np.zeros(assembly.layout.nv), np.zeros(0), np.zeros(N_SUMMARY))
+
+        def room(name: str) -> str | None:
+            owner, _, own = name.partition(".")
+            return own if owner == "now" else f"start_{own}" if owner in ("work", "conditions") else None
+
+        model = (assembly.layout, *own), observe, joints
+        meanings = meanings_of(close_row, (model, now, conditions, work), functions, room)
+        self.entries["close_row"] = source_of(close_row), meanings
+
+
+#: Functions that a start calls, by their names in models, and their types.
+_NAMES = ("geometry", "measure", "move", "spread", "solve", "turns", "rhs")
+_KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None)

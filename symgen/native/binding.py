@@ -239,7 +239,7 @@ class _Specialised(Folding):
             if name in arrays and isinstance(meaning, ConstantTable):
                 binder.tables[name] = meaning
             elif name in arrays:
-                binder.rooms[name] = kind, max(meaning.size, binder.rooms.get(name, (kind, 0))[1])
+                binder.rooms[name] = kind, max(meaning.size, binder.rooms.get(name, (kind, 1))[1])
         if any(name.startswith(MEMORY) for name in arrays) or not binder.with_memory.isdisjoint(called):
             binder.with_memory.add(bound.key)
         return bound
@@ -287,6 +287,9 @@ class _Specialised(Folding):
         meaning = self.meaning(s.array)
         if whole and known is not None and isinstance(meaning, Room):
             self.views[s.name] = replace(meaning, size=known)
+            return []
+        if known == 0 and isinstance(meaning, Room):
+            self.views[s.name] = replace(meaning, size=0)
             return []
         if known == 0:
             self.views[s.name] = ConstantTable("nothing", self.kinds[s.name], ())

@@ -94,7 +94,7 @@ def c_functions(functions: Mapping[str, lang.Function], bound: BoundFunctions | 
 def _table(table: ConstantTable) -> str:
     """Return the definition of a table of numbers."""
     kind = "real" if table.type == "float" else "int"
-    numbers = ", ".join(c_number(x) if kind == "real" else str(int(x)) for x in table.values)
+    numbers = ", ".join(c_number(x) if kind == "real" else str(int(x)) for x in table.values or (0.0,))
     return broken(f"static const {kind} {word(table.name, RESERVED)}[] = {{{numbers}}};")
 
 

@@ -14,19 +14,23 @@ from symgen.compiling.checked import checked, read
 from symgen.compiling.events import DIRECTIONS, effects_of
 from symgen.compiling.printed import Printed
 from symgen.compiling.side import Side, compile_side
+from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import RESET, STOP
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
-from symgen.layout.model_arrays import lengths_of
+from symgen.layout.model_arrays import lengths_of, velocity_of
 from symgen.native.c99 import broken, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
-from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
+from symgen.running.start_lines import derived_lines, independent_places, lines_for, start_lines
+from symgen.running.starts import held_of
+from symgen.starts.assembler import Assembly
+from symgen.starts.held import Held
 from symgen.targets._c_names import prefix_of
 
 if TYPE_CHECKING:
@@ -178,11 +182,10 @@ class CModel:
             **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
             "row_lengths": _list(int(row.unit == "m") for row in info.rows),
             "angular": _list(int(q.unit != "m/s") for q in info.velocities),
-            "datum": _list(map(c_number, start.datum or np.zeros(info.nq))),
             "lengths": _list(int(x) for x in lengths_of(info)),
             "at": {
-                **{name: info.sections[name][0] for name in ("residual", "nu", "change", "gauge", "mass")},
-                **{"length": abi.LENGTH, "step": abi.STEP_STATUS},
+                **{name: info.sections[name][0] for name in ("residual", "nu", "gauge", "pivot", "mask", "row_weight")},
+                **{"length": abi.LENGTH, "speed": abi.SPEED, "mass": abi.MEAN_MASS, "step": abi.STEP_STATUS},
             },
             "functions": self.text,
             "confirm": "confirm" in self.functions,
@@ -224,40 +227,51 @@ class CModel:
     @cached_property
     def bound(self) -> BoundFunctions:
         """Functions of the runtime."""
-        printed = Printed(self.functions)
+        printed, start, described = Printed(self.functions), self.run.start, self._is_described
+        held = self._held if described else Held()
+        turns = [] if described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
+        printed.add_start(Assembly(self.compiled, held, branches=turns, datum=start.datum or ()))
         if self.effects:
             printed.add_effects(self.effects, "formulas_of_effects")
         return printed.bound()
 
-    def _start(self) -> dict[str, str]:
-        """Return lines for the derived parameters and for the start.
+    @property
+    def _is_described(self) -> bool:
+        """Whether a start is closed from the described one.
 
-        A start that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
+        One that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
         """
-        mechanism, info = self.mechanism, self.compiled.info
-        columns = {*(q.name for q in self.columns), *(f"{b.name}.{ORIENTATION}" for b in mechanism.bodies)}
-        is_described = not self.joint and all(hold.name in columns for hold in holds_of(mechanism))
+        columns = {*(q.name for q in self.columns), *(f"{b.name}.{ORIENTATION}" for b in self.mechanism.bodies)}
+        return not self.joint and all(hold.name in columns for hold in holds_of(self.mechanism))
+
+    @property
+    def _held(self) -> Held:
+        """The coordinates that a start does not change, and the velocities that no projection changes."""
+        info = self.compiled.info
+        held = held_of(info, holds_of(self.mechanism), scalars(parameter_values(self.mechanism)), [None] * info.nv)
+        fixed = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
+        return Held(velocities=held.velocities, fixed=tuple(sorted(fixed)))
+
+    def _start(self) -> dict[str, str]:
+        """Return lines for the derived parameters and for the start."""
+        mechanism = self.mechanism
         following, written, lines = list[str](), list[str](), lines_for(mechanism, C)
         try:
             for place, texts in derived_lines(mechanism, C):
                 following += [f"    if (!model->set[{place}]) {{", *(f"        {text}" for text in texts), "    }"]
-            if is_described:
+            if self._is_described:
                 q, v = start_lines(mechanism, lines)
                 written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
-                for j, x in enumerate(v):
-                    written.append(f"v[{j}] = {lines.result(0.0 if x is None else x)};")
-                    written += [f"is_free[{j}] = 1;"] if x is None else []
+                written += [f"v[{j}] = {'NAN' if x is None else lines.result(x)};" for j, x in enumerate(v)]
             for i, state in enumerate(mechanism.states):
                 written.append(f"own[{i}] = {lines.result(lines.value(state.start, f'states.{state.name}.start'))};")
         except NotInLines as error:
             raise InputError(f"--target {self.target}", "a start by formulas that C has", str(error)) from None
         text = " ".join(written)
-        unused = [f"(void){name};" for name in ("q", "v", "own", "is_free") if f"{name}[" not in text]
-        fixed = set(fixed_velocities(mechanism, info)) if is_described else set()
+        unused = [f"(void){name};" for name in ("q", "v", "own") if f"{name}[" not in text]
         return {
             "derived": "\n".join(following),
             "described": "\n".join(f"    {line}" for line in (*unused, *lines.lines_of(written), *written)),
-            "fixed": _list(int(j in fixed) for j in range(info.nv)),
         }
 
 
