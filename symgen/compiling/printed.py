@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from symgen.compiling.checked import read
 from symgen.effects.applying import apply_effects
+from symgen.effects.stepping import new_step_work, step_to_event
 from symgen.layout import abi
 from symgen.layout.ensemble_abi import N_SUMMARY
 from symgen.layout.start_records import Instant, StartConditions
@@ -21,10 +22,12 @@ from symgen.native.binding import BoundFunctions, ConstantTable, Elements, Meani
 from symgen.native.loop_values import laid_out
 from symgen.native.loops import read_loop
 from symgen.native.read_values import Foreign
+from symgen.starts.assembler import layout_of
 from symgen.starts.starting import close_row
 
 if TYPE_CHECKING:
     from symgen.effects.effects import Effects
+    from symgen.layout.compiled import CompiledModel
     from symgen.starts.assembler import Assembly
 
 #: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
@@ -145,6 +148,38 @@ class Printed:
         model = layout, geometry, of_formulas, of_bodies, changes
         meanings = meanings_of(apply_effects, (model, None, now, chosen, work), functions, room)
         self.entries["apply_effects"] = source_of(apply_effects), meanings
+
+    def add_steps(self, compiled: CompiledModel, functions: Any, switching: str, directions: Sequence[int]) -> None:
+        """Add ``step_to_event(t, h, y)``; see `symgen.effects.stepping`.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        functions : emitted function
+            Switching functions of all events.
+        switching : str
+            Name of their function in the text.
+        directions : sequence of int
+            Of each event, as in `symgen.effects.stepping.STEP_MODEL`.
+        """
+        law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
+        confirm = getattr(law, "confirm", law.rhs)
+        emitted = {id(law.rhs): "rhs", id(confirm): "confirm" if confirm is not law.rhs else "rhs"}
+        emitted |= {id(law.accept): "accept", id(functions): switching}
+        model = layout_of(compiled), law.rhs, confirm, law.accept, functions, np.array(directions, dtype=np.int64)
+        now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
+        work = new_step_work(ny, len(scratch), len(directions))
+
+        def room(name: str) -> str | None:
+            if name == "work.chosen" or name.startswith("now."):
+                return name.partition(".")[2].replace("y", "")
+            own = name.removeprefix("work.")
+            return f"step_{own}" if name != own else "iw" if name == "iw" else None
+
+        arguments = model, None, None, now, np.zeros(abi.N_COUNTERS, dtype=np.int64), work
+        meanings = meanings_of(step_to_event, arguments, {k: self.emitted[n] for k, n in emitted.items()}, room)
+        self.entries["step_to_event"] = source_of(step_to_event), meanings
 
     def add_start(self, assembly: Assembly) -> None:
         """Add ``close_row()``, which makes the start of the model consistent; see `symgen.starts.starting`.

@@ -254,7 +254,8 @@ class _Specialised(Folding):
         """Return the name of an array: its own, or that of memory or of a table."""
         meaning = self.meaning(name)
         if isinstance(meaning, ConstantTable | Room):
-            self.used[meaning.name] = self.kinds[name], meaning
+            _, other = self.used.get(meaning.name, ("", meaning))
+            self.used[meaning.name] = self.kinds[name], max(meaning, other, key=lambda each: each.size)
             return meaning.name
         return name
 

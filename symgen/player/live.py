@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.compiling.checked import checked
+from symgen.compiling.checked import checked, read
+from symgen.compiling.events import DIRECTIONS, effects_of
+from symgen.compiling.printed import Printed
+from symgen.compiling.side import compile_side
+from symgen.describe.events import RESET
 from symgen.drawing.scene import Array
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of
 from symgen.native.formula_lines import JAVASCRIPT, NotInLines
-from symgen.native.javascript import HELPERS, javascript
+from symgen.native.javascript import HELPERS, LOOP_HELPERS, javascript
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
@@ -57,6 +61,7 @@ def live_part(
     step: float,
     begun: Array | None = None,
     still: Collection[str] = (),
+    acting: Mechanism | None = None,
 ) -> tuple[Live | None, str]:
     """Return the live part of a page, or None and the reason.
 
@@ -74,6 +79,8 @@ def live_part(
         Initial coordinates and velocities of bodies, if other than the described ones.
     still : collection of str
         Parameters that keep their values: pages have no slider for them, nor for inputs that are formulas.
+    acting : Mechanism, optional
+        The mechanism of the code, with a tree in joint coordinates, whose events change the state.
     """
     spatial, law = mechanism.space == "spatial", compiled.law
     if compiled.shape != "straight":
@@ -85,7 +92,7 @@ def live_part(
         fewer = "" if hasattr(compiled.model, "bodies") else "; in joint coordinates they may be a tenth"
         return None, f"{NONE}: {operations} operations are more than the {limit} that a page {where} may have{fewer}"
     try:
-        code = javascript(checked(compiled))
+        code, memory = _code(acting or mechanism, compiled)
     except Foreign as error:
         return None, f"{NONE}: its code has {error}"
     if len(code) > MOST[spatial]:
@@ -99,7 +106,25 @@ def live_part(
     if begin is not None:
         start = replace(start, y=np.concatenate([begin, start.y[len(begin) :]]))
     constants = {*still, *dict(mechanism.input_formulas)}
-    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, begin, constants)), ""
+    spec = _spec(mechanism, compiled, start, step, joint, begin, constants) | {"memory": memory}
+    return Live(f"{HELPERS}{code}\n{script}", spec), ""
+
+
+def _code(mechanism: Mechanism, compiled: CompiledModel) -> tuple[str, list[tuple[str, int]]]:
+    """Return emitted functions, those of the runtime for events, and the memory of these: names and lengths."""
+    functions, effects = checked(compiled), effects_of(mechanism, compiled, mechanism.events)
+    if effects is None:
+        return javascript(functions), []
+    conditions = [(event.name, event.when) for event in mechanism.events]
+    side = compile_side(mechanism, compiled, "events", "Switching functions", conditions)
+    functions |= {"switching": read(side.function, abi.OBSERVE), "effects": read(effects.formulas, abi.OBSERVE)}
+    printed = Printed(functions)
+    printed.add_effects(effects, "effects")
+    directions = [DIRECTIONS[event.direction] if event.action == RESET else 2 for event in mechanism.events]
+    printed.add_steps(compiled, side.function, "switching", directions)
+    bound = printed.bound()
+    memory = [(name, size) for name, (_, size) in bound.memory.items() if name not in ("p", "w", "iw")]
+    return f"{LOOP_HELPERS}{javascript(functions, bound)}", memory
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.evaluate import independent_values, parameter_values
-from symgen.describe.events import DOES
+from symgen.describe.events import DOES, RESET
 from symgen.describe.inputs import are_words_of_data
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.player.live import NONE, Live, live_part
@@ -155,9 +155,10 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
         return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
+    own = {event.name for event in mechanism.events if event.action == RESET}
     for name, action in (*((event.name, event.action) for event in mechanism.events), *run["watched"]):
-        if action in DOES:
-            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages do not look for events"
+        if action in DOES and name not in own:
+            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for resets of the file"
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
@@ -169,7 +170,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
         return _live_on_tree(prepared, prepared.tree, step, begin)
-    live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin)
+    live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism)
     if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
@@ -201,7 +202,7 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
         of_bodies = replace(tree.body_start, y=y)
         carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
         start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
-    live, note = live_part(mechanism, run.compiled, start, step, still=moving)
+    live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
     return live, note

@@ -15,7 +15,8 @@ _MODULE = """\
 // {name} by the method {method}. Written by symgen; the same mechanism gives the same bytes.
 // model.start() returns the state y at t = 0, model.rates(t, y) its rates, model.step(t, y, h) advances y.
 {script}
-export const model = makeLive({spec}, Object.assign({{ confirm: null, move: null, bodies: null }}, emitted));
+const absent = {{ confirm: null, move: null, bodies: null, step_to_event: null }};
+export const model = makeLive({spec}, Object.assign(absent, emitted));
 """
 
 

@@ -4,9 +4,11 @@ import subprocess
 
 import numpy as np
 import pytest
+from fmpy import simulate_fmu
 from support.struck import STRUCK
 
 from symgen import load
+from symgen.targets import TARGETS, Request
 from targets.compilers import compiled, written
 
 #: Prints the time of the last event, then coordinates and velocities of bodies, at the end of steps of 1 ms.
@@ -61,3 +63,17 @@ def test_c_is_a_run(name, coordinates, tmp_path):
     assert len(times) >= 2
     assert sorted(set(found[:, 0]) - {0.0}) == pytest.approx(times, rel=0, abs=1e-9)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("name", STRUCK)
+def test_a_co_simulation_is_a_run(name, tmp_path):
+    (tmp_path / "struck.toml").write_text(STRUCK[name])
+    model = load(tmp_path / "struck.toml")
+    until = 3.0 if name == "four-bar" else 1.5
+    result, _ = run_of(model, until)
+    TARGETS.get("fmu").write(Request(model.mechanism, tmp_path / "struck.fmu"))
+    rows = simulate_fmu(
+        str(tmp_path / "struck.fmu"), stop_time=until, output_interval=0.01, fmi_type="CoSimulation", output=["hit"]
+    )  # fmt: skip
+    times = [event.t for event in result.events]
+    assert sorted(set(rows["hit"]) - {0.0}) == pytest.approx(times, rel=0, abs=1e-9)

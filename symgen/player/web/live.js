@@ -148,9 +148,27 @@ function makeLive(spec, code) {
 
   // -- steps ----------------------------------------------------------------------------------------------------------
 
-  // A step; whether it succeeds. `end` undoes it.
+  // What functions of the runtime take: parameters, scratch, counters and working memory.
+  const memory = { p, w, iw };
+  for (const [name, size] of spec.memory) memory[name] = new Float64Array(size);
+
+  // A step; whether it succeeds. `end` undoes it. Events in it happen at their times, and further steps follow.
   function step(t, y, h) {
     [y, w, iw].forEach((now, i) => kept[i].set(now));
+    return code.step_to_event ? stepWithEvents(t, y, h) : plainStep(t, y, h);
+  }
+
+  function stepWithEvents(t, y, h) {
+    for (const until = t + h; t < until;) {
+      const left = until - t, made = code.step_to_event(memory, t, left, y);
+      if (!(made > 0)) return false;
+      t = made === left ? until : t + made;
+      if (memory.chosen.some(Boolean) && code.apply_effects(memory, t, y) !== 0) return false;
+    }
+    return true;
+  }
+
+  function plainStep(t, y, h) {
     const [a, b, c, d] = stages;
     rhs(t, y, a);
     for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * a[i];
