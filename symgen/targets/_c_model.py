@@ -213,11 +213,16 @@ class CModel:
         sides, events = dict[str, Side](), self.mechanism.events
         if outputs := [(output.name, output.value) for output in self.mechanism.outputs]:
             sides["formulas_of_outputs"] = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
-        if conditions := [(event.name, event.when) for event in events]:
-            purpose = "Switching functions"
-            sides["formulas_of_events"] = compile_side(self.mechanism, self.compiled, "events", purpose, conditions)
+        if events:
+            sides["formulas_of_events"] = self._switching
         functions |= {name: read(side.function, abi.OBSERVE) for name, side in sides.items()}
         return functions | ({"formulas_of_effects": read(self.effects.formulas, abi.OBSERVE)} if self.effects else {})
+
+    @cached_property
+    def _switching(self) -> Side:
+        """Switching functions of events."""
+        conditions = [(event.name, event.when) for event in self.mechanism.events]
+        return compile_side(self.mechanism, self.compiled, "events", "Switching functions", conditions)
 
     @cached_property
     def effects(self) -> Effects | None:
@@ -231,6 +236,9 @@ class CModel:
         held = self._held if described else Held()
         turns = [] if described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
         printed.add_start(Assembly(self.compiled, held, branches=turns, datum=start.datum or ()))
+        if any(event.action in (STOP, RESET) for event in self.mechanism.events):
+            directions = [DIRECTIONS[e.direction] if e.action in (STOP, RESET) else 2 for e in self.mechanism.events]
+            printed.add_steps(self.compiled, self._switching.function, "formulas_of_events", directions)
         if self.effects:
             printed.add_effects(self.effects, "formulas_of_effects")
         return printed.bound()
