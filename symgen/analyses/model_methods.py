@@ -9,6 +9,7 @@ from symgen.base.keywords import takes
 
 if TYPE_CHECKING:
     from symgen.analyses.kinds import equilibrium as _equilibrium
+    from symgen.analyses.kinds import identify as _identify
     from symgen.analyses.kinds import inverse as _inverse
     from symgen.analyses.kinds import kinematics as _kinematics
     from symgen.analyses.kinds import linearise as _linearise
@@ -40,6 +41,7 @@ class Analysed:
         linearise = _linearise.linearise
         kinematics = _kinematics.kinematics
         inverse = _inverse.inverse
+        identify = _identify.identify
 
 
 for _, _analysis in ANALYSES.items():

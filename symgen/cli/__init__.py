@@ -40,7 +40,7 @@ FIRST = 100_000
 #: Commands in the order of the help; others come last.
 ORDER = (
     *("list", "new", "check", "draw", "view", "inspect", "generate", "run"),
-    *("equilibrium", "modes", "linearise", "kinematics", "inverse"),
+    *("equilibrium", "modes", "linearise", "kinematics", "inverse", "identify"),
     *("compare", "stress", "sweep", "schema", "cache", "completion"),
 )
 

@@ -7,6 +7,7 @@ linear in the state, stay as they are. Error control leaves directions out, so s
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -122,7 +123,7 @@ class DirectedModel:
         """
         if not isinstance(function, EmittedFunction):
             raise InputError("sensitivities", "compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
-        return TangentFunction(function, self.lanes, self.sizes | {"out": length})
+        return _directed(function, self.lanes, tuple(sorted((self.sizes | {"out": length}).items())))
 
     def longer(self, array: Array, name: str, directions: Array | None = None) -> Array:
         """Return an array with room for its directions, zeros if not given, shape (n, L)."""
@@ -154,6 +155,12 @@ class DirectedModel:
     def caller(name: str, function: TangentFunction) -> Callable[..., Any]:
         """Return a function of model or law for calls from Python."""
         return function.caller((_MODEL | _LAW)[name].signature.arguments)
+
+
+@functools.lru_cache(maxsize=256)
+def _directed(function: EmittedFunction, lanes: int, places: tuple[tuple[str, int], ...]) -> TangentFunction:
+    """Return the form of a function with directions, the same one for all runs."""
+    return TangentFunction(function, lanes, dict(places))
 
 
 @dataclass(frozen=True)

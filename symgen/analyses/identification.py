@@ -1,0 +1,486 @@
+"""Parameters from measured data: least squares over whole runs, with exact derivatives of the runs that are made.
+
+Before a fit, and after it, the singular values of the derivatives say which numbers the data cannot tell apart.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base import arguments
+from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
+from symgen.base.settings import Settings, is_set
+from symgen.describe.evaluate import parameter_values
+from symgen.layout import abi
+from symgen.result.build import build_result
+from symgen.result.saved import Recorded, read_recorded
+from symgen.result.sensitivities import Differentiated, place_of
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+
+Array = NDArray[np.float64]
+#: Bounds of a number.
+Bounds = tuple[float | None, float | None]
+
+#: Tolerances of runs whose derivatives are compared with data, unless they are set.
+_RTOL = _ATOL = 1e-10
+#: A direction is none below this part of the largest singular value, or behind a gap of this size.
+NONE, GAP = 1e-10, 1e-8
+#: Exponents in words have at most this denominator, and are right to this.
+_DENOMINATOR, _NEAR = 6, 1e-3
+#: Share of intervals that cover the value.
+_COVERED = 0.95
+
+
+@dataclass(frozen=True)
+class Data:
+    """Measured columns over time.
+
+    Attributes
+    ----------
+    whence : str
+        Where they are from, for messages.
+    t : Array, shape (k,)
+        Times [s], increasing.
+    columns : mapping of str to Array
+        Measured quantities by name.
+    """
+
+    whence: str
+    t: Array
+    columns: Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Parameters fitted to data.
+
+    Attributes
+    ----------
+    parameters : mapping of str to float
+        Fitted values by name; biases are called ``bias of QUANTITY``.
+    units : mapping of str to str
+        Their units.
+    errors : mapping of str to float
+        Standard errors; nan for a number that meets its bound.
+    intervals : mapping of str to (float, float)
+        95 % intervals; one-sided where a bound is met.
+    correlations : Array, shape (n, n)
+        Of the errors, in the order of `parameters`; nan where there are none.
+    null : tuple of str
+        Sentences on numbers that the data do not determine.
+    notes : tuple of str
+        Other remarks.
+    deviations : mapping of str to float
+        Root mean square of the residuals by quantity.
+    runs : int
+        Runs that were made, each with all derivatives.
+    result : Result
+        The run with the fitted values.
+    residuals : Array
+        Model less data over the scale of each quantity, all quantities one after the other.
+    """
+
+    parameters: Mapping[str, float]
+    units: Mapping[str, str]
+    errors: Mapping[str, float]
+    intervals: Mapping[str, tuple[float, float]]
+    correlations: Array
+    null: tuple[str, ...]
+    notes: tuple[str, ...]
+    deviations: Mapping[str, float]
+    runs: int
+    result: Result
+    residuals: Array
+
+    def __repr__(self) -> str:
+        return "<Fit: " + ", ".join(f"{name} = {x:.6g}" for name, x in self.parameters.items()) + ">"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the fit as JSON data; numbers that are not finite become None."""
+        from symgen.result.contract import finite
+
+        facts: dict[str, Any] = finite(
+            {
+                "parameters": dict(self.parameters),
+                "units": dict(self.units),
+                "errors": dict(self.errors),
+                "intervals": {name: list(pair) for name, pair in self.intervals.items()},
+                "correlations": self.correlations.tolist(),
+                "null": list(self.null),
+                "notes": list(self.notes),
+                "deviations": dict(self.deviations),
+                "runs": self.runs,
+            }
+        )
+        return facts
+
+
+def data_of(source: object, number: int = 0) -> Data:
+    """Return measured columns: of a file, of a mapping with ``t``, or of a result.
+
+    Raises
+    ------
+    InputError
+        If they are no columns over increasing times, or hold numbers that are not finite.
+    """
+    if isinstance(source, str | Path):
+        record = read_recorded("identify: data", Path(source))
+        whence, t, columns = record.whence, record.t, dict(record.columns)
+    elif isinstance(source, Recorded):
+        whence, t, columns = source.whence, source.t, dict(source.columns)
+    elif isinstance(source, Mapping):
+        whence = f"identify: data {number + 1}"
+        columns = {str(name): np.asarray(values, dtype=np.float64) for name, values in source.items()}
+        if "t" not in columns:
+            raise InputError(whence, "a column 't' of times", "none")
+        t = columns.pop("t")
+    else:
+        raise InputError("identify: data", "files, or mappings with a column 't'", f"a {type(source).__name__}")
+    if len(t) == 0 or not np.all(np.diff(t) > 0.0) or not np.all(np.isfinite(t)):
+        raise InputError(whence, "increasing times", "others")
+    if t[0] < 0.0:
+        raise InputError(whence, "times from the start of the run at 0 s on", f"{t[0]:g} s")
+    for name, values in columns.items():
+        if values.shape != t.shape:
+            raise InputError(whence, f"{len(t)} numbers of {name}", f"an array of shape {values.shape}")
+        if not np.all(np.isfinite(values)):
+            raise InputError(whence, "finite numbers", f"others in {name}")
+    return Data(whence, t, columns)
+
+
+class Identification:
+    """Runs of a mechanism beside measured data, as functions of the numbers to be found.
+
+    Parameters
+    ----------
+    mechanism, settings : Mechanism, Settings
+        The model and how it runs.
+    data : sequence of Data
+        Measurements, each from a run of its own.
+    free : mapping of str to (float or None, float or None)
+        Numbers to be found, with their bounds.
+    quantities : sequence of str
+        Measured columns that count; all that the model has by default.
+    bias : sequence of str
+        Quantities measured with a constant error, which is found too.
+    weights : mapping of str to float
+        Factor of the residuals of a quantity; one over its deviation by default.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        settings: Settings,
+        data: Sequence[Data],
+        free: Mapping[str, Bounds],
+        quantities: Sequence[str],
+        bias: Sequence[str],
+        weights: Mapping[str, float],
+    ) -> None:
+        if not is_set(settings, "step"):
+            rtol, atol = settings.rtol or _RTOL, settings.atol or _ATOL
+            settings = replace(settings, rtol=rtol, atol=atol)
+        self.mechanism, self.settings, self.data, self.bias = mechanism, replace(settings, verify=False), data, bias
+        self.names, self.runs = tuple(free), 0
+        self._last: tuple[bytes, Array, Array] | None = None
+        first = self._differentiated(settings, data[0])
+        result = self._run(first)
+        self.start = np.array([*(self._value(first, result, i) for i in range(len(free))), *(0.0 for _ in bias)])
+        self.units = {d.name: d.unit for d in first.directions}
+        self.quantities = self._chosen(result, quantities)
+        self.scales = {name: weights.get(name) or 1.0 / self._deviation(name) for name in self.quantities}
+        for name in (*bias, *weights):
+            if name not in self.quantities:
+                raise InputError("identify", "a measured quantity", quoted(name), nearest(name, self.quantities))
+            self.units[f"bias of {name}"] = self._unit(result, name)
+        self.labels = (*self.names, *(f"bias of {name}" for name in bias))
+        self.bounds = self._bounds([*free.values(), *((None, None) for _ in bias)])
+        count = sum(len(d.t) for d in data for name in self.quantities if name in d.columns)
+        if count < len(self.labels):
+            got = f"{count} for {len(self.labels)} unknowns"
+            raise InputError("identify: data", "at least as many numbers as unknowns", got)
+
+    @property
+    def sizes(self) -> Array:
+        """What a change of each number is measured by: its value at the start, or what there is of its kind."""
+        spread = [1.0] * len(self.names) + [self._deviation(name) for name in self.bias]
+        return np.where(self.start != 0.0, np.abs(self.start), spread)
+
+    def _differentiated(self, settings: Settings, data: Data) -> Differentiated:
+        own = replace(settings, times=data.t.tolist(), until=float(data.t[-1]))
+        return Differentiated(self.mechanism, own, self.names)
+
+    def _run(self, run: Differentiated) -> Result:
+        self.runs += 1
+        return run.result(build_result(run.run, run.integrate()))
+
+    def _value(self, run: Differentiated, result: Result, i: int) -> float:
+        d = run.directions[i]
+        if d.kind == "parameter":
+            return float(parameter_values(self.mechanism, self.settings.parameters)[d.key])
+        if d.kind == "method":
+            p, law = run.run.start.p, run.run.compiled.law
+            return float(p[law.parameter_offset + [name for name, _ in law.parameters].index(d.key)])
+        if d.key in self.settings.start:
+            return float(self.settings.start[d.key])
+        start = result.start["q"] | result.start["v"]
+        if d.key not in start:
+            expected = f"the value of {d.key} at the start, where the search begins"
+            raise InputError("identify: start", expected, "none", f"give start={{'{d.key}': VALUE}}")
+        return float(start[d.key])
+
+    def _chosen(self, result: Result, quantities: Sequence[str]) -> tuple[str, ...]:
+        """Return the measured quantities that the model has."""
+        measured = dict.fromkeys(name for data in self.data for name in data.columns)
+        for name in quantities:
+            if name not in measured:
+                raise InputError("identify: quantities", "measured columns", quoted(name), nearest(name, measured))
+        chosen = tuple(quantities or (name for name in measured if name in result._places))
+        if not chosen:
+            expected = f"a column of {self.mechanism.name}, such as {result.q.names[0]}"
+            raise InputError(self.data[0].whence, expected, ", ".join(map(quoted, measured)) or "none")
+        for name in chosen:
+            place_of(result, name)
+        return chosen
+
+    def _deviation(self, name: str) -> float:
+        """Return the standard deviation of measured numbers, or their size where they do not change."""
+        values = np.concatenate([data.columns[name] for data in self.data if name in data.columns])
+        return float(np.std(values)) or float(np.abs(values).max(initial=0.0)) or 1.0
+
+    @staticmethod
+    def _unit(result: Result, name: str) -> str:
+        return place_of(result, name)[2]
+
+    def _bounds(self, bounds: Iterable[Bounds]) -> tuple[Array, Array]:
+        pairs = [(-math.inf if a is None else float(a), math.inf if b is None else float(b)) for a, b in bounds]
+        for name, (low, high), x in zip(self.labels, pairs, self.start, strict=True):
+            if not low < high:
+                raise InputError(f"identify: free '{name}'", "a lower bound below the upper one", f"{low:g}, {high:g}")
+            if not low <= x <= high:
+                raise InputError(f"identify: free '{name}'", f"a start between {low:g} and {high:g}", f"{x:g}")
+        return np.array([low for low, _ in pairs]), np.array([high for _, high in pairs])
+
+    def settings_at(self, x: Array) -> Settings:
+        """Return the settings of a run with values of the free numbers."""
+        parameters, start = dict(self.settings.parameters), dict(self.settings.start)
+        options = dict(self.settings.options)
+        known = {p.name for p in self.mechanism.parameters}
+        for name, value in zip(self.names, x.tolist(), strict=False):
+            if name in known:
+                parameters[name] = value
+            elif name.startswith("method."):
+                options[name] = value
+            else:
+                start[name] = value
+        return replace(self.settings, parameters=parameters, start=start, options=options)
+
+    def at(self, x: Array) -> tuple[Array, Array]:
+        """Return residuals and their derivatives; infinite ones where the model has no motion."""
+        if self._last is None or self._last[0] != x.tobytes():
+            self._last = x.tobytes(), *self._both(x)
+        return self._last[1], self._last[2]
+
+    def residuals(self, x: Array) -> Array:
+        """Return residuals."""
+        return self.at(x)[0]
+
+    def slopes(self, x: Array) -> Array:
+        """Return the derivatives of residuals."""
+        return self.at(x)[1]
+
+    def result_at(self, x: Array, data: Data) -> Result:
+        """Return the run with values of the free numbers."""
+        return self._run(self._differentiated(self.settings_at(x), data))
+
+    def _both(self, x: Array) -> tuple[Array, Array]:
+        residuals, slopes = list[Array](), list[Array]()
+        for data in self.data:
+            try:
+                result = self.result_at(x, data)
+            except (InputError, AssemblyError):
+                result = None
+            whole = result is not None and len(result.t) == len(data.t) and result.outcome.code == abi.DONE
+            for name in self.quantities:
+                if name not in data.columns:
+                    continue
+                by = np.zeros((len(data.t), len(self.labels)))
+                if not whole or result is None:
+                    residuals.append(np.full(len(data.t), np.inf))
+                else:
+                    table, place, _ = place_of(result, name)
+                    values = getattr(result, table).values[:, place]
+                    by[:, : len(self.names)] = result.gradient(name).values
+                    if name in self.bias:
+                        k = len(self.names) + list(self.bias).index(name)
+                        by[:, k], values = 1.0, values + x[k]
+                    residuals.append(self.scales[name] * (values - data.columns[name]))
+                slopes.append(self.scales[name] * by)
+        return np.concatenate(residuals), np.concatenate(slopes)
+
+
+def null_directions(slopes: Array, sizes: Array, labels: Sequence[str]) -> tuple[str, ...]:
+    """Return sentences on changes of numbers that leave the data as they are.
+
+    Parameters
+    ----------
+    slopes : Array, shape (k, n)
+        Derivatives of the residuals.
+    sizes : Array, shape (n,)
+        What a change of each number is measured by.
+    labels : sequence of str
+        Their names.
+    """
+    _, singular, rows = np.linalg.svd(slopes * sizes, full_matrices=True)
+    values = np.zeros(len(labels))
+    values[: len(singular)] = singular
+    largest = values[0]
+    if largest == 0.0:
+        return tuple(f"{name} changes nothing that was measured" for name in labels)
+    none = values < NONE * largest
+    gaps = np.flatnonzero(values[1:] < GAP * values[:-1])
+    if len(gaps):
+        none[gaps[0] + 1 :] = True
+    return tuple(_in_words(row, labels) for row in rows[none])
+
+
+def _in_words(row: Array, labels: Sequence[str]) -> str:
+    """Return a sentence on one direction of relative changes."""
+    parts = row / row[int(np.argmax(np.abs(row)))]
+    moving = [(name, x) for name, x in zip(labels, parts, strict=True) if abs(x) > _NEAR]
+    if len(moving) == 1:
+        return f"{moving[0][0]} changes nothing that was measured"
+    powers = [Fraction(x).limit_denominator(_DENOMINATOR) for _, x in moving]
+    if any(abs(float(f) - x) > _NEAR for f, (_, x) in zip(powers, moving, strict=True)):
+        return f"{_listed([name for name, _ in moving])} can change together without a change of what was measured"
+    if all(f == 1 for f in powers):
+        return f"{_listed([name for name, _ in moving])} can be multiplied by one number"
+    said = [f"{name} by {_power(f)}" for (name, _), f in zip(moving, powers, strict=True)]
+    return f"{_listed(said)} can be multiplied together, for any number z"
+
+
+def _power(f: Fraction) -> str:
+    return "z" if f == 1 else f"z^{f}" if f.denominator == 1 and f > 0 else f"z^({f})"
+
+
+def _listed(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def identify(
+    mechanism: Mechanism,
+    settings: Settings,
+    data: object,
+    free: Mapping[str, Bounds] | Sequence[str],
+    quantities: Sequence[str] = (),
+    bias: Sequence[str] = (),
+    weights: Mapping[str, float] | None = None,
+) -> Fit:
+    """Fit numbers of a model to measured data; arguments as for `symgen.analyses.kinds.identify.identify`.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong, or the data leave some of the numbers undetermined.
+    AnalysisError
+        If the search finds no run.
+    """
+    from scipy.optimize import least_squares
+
+    several = isinstance(data, list | tuple)
+    sources: list[object] = list(data) if several else [data]  # type: ignore[call-overload]  # a list or a tuple
+    if not sources:
+        raise InputError("identify: data", "measured columns", "none")
+    if isinstance(free, str) or not isinstance(free, Mapping):
+        free = dict.fromkeys(arguments.words("identify: free", free), (None, None))
+    if not free:
+        raise InputError("identify: free", "numbers to be found", "none")
+    bounds = {name: pair if pair is not None else (None, None) for name, pair in free.items()}
+    columns = [data_of(source, k) for k, source in enumerate(sources)]
+    task = Identification(mechanism, settings, columns, bounds, quantities, bias, dict(weights or {}))
+    residuals, slopes = task.at(task.start)
+    if not np.all(np.isfinite(residuals)):
+        raise AnalysisError(
+            "identify: the model has no motion over the times of the data with the values it begins with"
+        )
+    before = null_directions(slopes, task.sizes, task.labels)
+    if before:
+        expected = "numbers that the data determine"
+        raise InputError("identify: free", expected, "; ".join(before), "leave one of them at a value that is known")
+    found = least_squares(
+        task.residuals,
+        task.start,
+        jac=task.slopes,
+        bounds=task.bounds,
+        method="trf",
+        x_scale=task.sizes,
+        xtol=1e-12,
+        ftol=1e-12,
+        gtol=1e-12,
+        max_nfev=100,
+    )
+    return _fit(task, found)
+
+
+def _fit(task: Identification, found: Any) -> Fit:
+    """Return a fit with its statistics."""
+    from scipy.stats import t as student
+
+    x, (residuals, slopes), labels = found.x, task.at(found.x), task.labels
+    sizes = np.where(x != 0.0, np.abs(x), task.sizes)
+    null, notes = null_directions(slopes, sizes, labels), list[str]()
+    if found.status == 0:
+        notes.append(f"the search ended after {found.nfev} steps before it was still")
+    active = found.active_mask != 0
+    free, count = np.flatnonzero(~active), len(residuals) - len(labels)
+    errors, correlations = np.full(len(x), np.nan), np.full((len(x), len(x)), np.nan)
+    variance = float(residuals @ residuals) / count if count > 0 else math.nan
+    if len(free) and not null:
+        scaled = slopes[:, free] * sizes[free]
+        covariance = np.linalg.pinv(scaled.T @ scaled) * variance * np.outer(sizes[free], sizes[free])
+        errors[free] = np.sqrt(np.diag(covariance))
+        spread = np.outer(errors[free], errors[free])
+        correlations[np.ix_(free, free)] = covariance / np.where(spread > 0.0, spread, np.nan)
+    factor = float(student.ppf(0.5 + 0.5 * _COVERED, count)) if count > 0 else math.nan
+    intervals = dict[str, tuple[float, float]]()
+    for i, name in enumerate(labels):
+        half = factor * errors[i]
+        intervals[name] = (float(x[i] - half), float(x[i] + half))
+        if active[i]:
+            low = found.active_mask[i] < 0
+            intervals[name] = (float(x[i]), math.nan) if low else (math.nan, float(x[i]))
+            notes.append(f"{name} meets its bound {x[i]:.6g}: its interval is one-sided")
+        elif half > abs(x[i]) > 0.0 and not name.startswith("bias of "):
+            notes.append(f"the data do not determine {name}: its interval is wider than its value")
+    deviations, first = dict[str, list[Array]](), 0
+    for data in task.data:
+        for name in task.quantities:
+            if name in data.columns:
+                part = residuals[first : first + len(data.t)] / task.scales[name]
+                deviations.setdefault(name, []).append(part)
+                first += len(data.t)
+    result = task.result_at(x, task.data[0])
+    return Fit(
+        parameters={name: float(value) for name, value in zip(labels, x, strict=True)},
+        units={name: task.units[name] for name in labels},
+        errors={name: float(value) for name, value in zip(labels, errors, strict=True)},
+        intervals=intervals,
+        correlations=correlations,
+        null=null,
+        notes=tuple(notes),
+        deviations={name: float(np.sqrt(np.mean(np.concatenate(p) ** 2))) for name, p in deviations.items()},
+        runs=task.runs,
+        result=result,
+        residuals=residuals,
+    )

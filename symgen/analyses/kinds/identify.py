@@ -1,0 +1,124 @@
+"""Find parameters from measured data."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Unpack
+
+from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option
+from symgen.base.errors import InputError
+from symgen.base.keywords import RunKeywords
+from symgen.base.settings import Settings, changed
+
+if TYPE_CHECKING:
+    from symgen.analyses.identification import Bounds, Fit
+    from symgen.analyses.model_methods import Analysed
+
+
+def identify(
+    model: Analysed,
+    data: object,
+    settings: Settings | None = None,
+    *,
+    free: Mapping[str, Bounds] | Sequence[str],
+    quantities: Sequence[str] = (),
+    bias: Sequence[str] = (),
+    weights: Mapping[str, float] | None = None,
+    **changes: Unpack[RunKeywords],
+) -> Fit:
+    """Fit numbers of the model to measured data by least squares, with exact derivatives of the runs.
+
+    Parameters
+    ----------
+    data : path, mapping or sequence of these
+        Files of columns over ``t``, or mappings with arrays: ``{"t": t, "crank.theta": angles}``. Several are
+        measurements of several runs.
+    settings : Settings, optional
+        All settings at once. Runs end with the data.
+    free : mapping of str to (float, float), or sequence of str
+        Numbers to be found: parameters, values of the start such as ``crank.omega``, ``method.NAME``. The bounds may
+        be None. The search begins with the values of the run.
+    quantities : sequence of str
+        Columns of the data that count; all that the model has by default.
+    bias : sequence of str
+        Quantities measured with a constant error, which is found too.
+    weights : mapping of str to float
+        Factors of the residuals of quantities; one over the deviation of the data by default.
+    **changes
+        Single settings by name, as listed above.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong, or the data do not determine the numbers: says which can change together.
+    AnalysisError
+        If the model has no motion with the values it begins with.
+    """
+    from symgen.analyses.identification import identify as fitted
+
+    return fitted(model.mechanism, changed(settings, changes), data, free, quantities, bias, weights)
+
+
+def command(
+    load: Callable[[], Analysed],
+    settings: Settings,
+    data: Sequence[str],
+    free: Sequence[str],
+    least: Mapping[str, float],
+    most: Mapping[str, float],
+    bias: Sequence[str],
+    quantities: Sequence[str],
+) -> AnalysisOutput:
+    """Find parameters of MODEL from measured data.
+
+    For example: symgen identify rod.toml --data angle.csv --free length,damping --least damping=0
+    """
+    if not data or not free:
+        missing = "--data" if not data else "--free"
+        raise InputError("identify", "--data FILE,... and --free NAME,...", f"no {missing}")
+    for option, bounds in (("--least", least), ("--most", most)):
+        for name in bounds:
+            if name not in free:
+                raise InputError(option, "a name that --free has", f"'{name}'")
+    pairs = {name: (least.get(name), most.get(name)) for name in free}
+    fit = identify(load(), list(data), settings, free=pairs, bias=bias, quantities=quantities)
+    return AnalysisOutput(fit.to_json(), _shown(fit), (*fit.null, *fit.notes))
+
+
+def _shown(fit: Fit) -> Iterator[str | AnalysisTable]:
+    """Yield values with errors and intervals, and how far the model is from the data."""
+    rows = [
+        (name, *(f"{v:.6g}" for v in (x, fit.errors[name], *fit.intervals[name])), fit.units[name])
+        for name, x in fit.parameters.items()
+    ]
+    headings = ("parameter", "value", "error", "95 % from", "to", "unit")
+    yield AnalysisTable(headings, rows, left=("parameter", "unit"))
+    yield AnalysisTable(
+        ("quantity", "root mean square of residuals"),
+        [(name, f"{x:.3g}") for name, x in fit.deviations.items()],
+        left=("quantity",),
+    )
+
+
+KIND = Analysis(
+    methods=(identify,),
+    command=command,
+    options=(
+        Option(
+            "--data", "Measured columns over t: .csv, .parquet or .nc; several for several runs.", "words", "FILE,..."
+        ),
+        Option("--free", "Numbers to be found: parameters, values of the start, method.NAME.", "words", "NAME,..."),
+        Option("--least", "Lower bound of one of them.", "numbers", "NAME=VALUE"),
+        Option("--most", "Upper bound of one of them.", "numbers", "NAME=VALUE"),
+        Option("--bias", "Quantities measured with a constant error, which is found too.", "columns", "NAME,..."),
+        Option(
+            "--quantity",
+            "Columns of the data that count.  [default: all that MODEL has]",
+            "columns",
+            "NAME,NAME",
+            "quantities",
+        ),
+        *(Option(name) for name in ("parameters", "start", "method", "integrator", "options", "rtol", "coordinates")),
+    ),
+    examples=("symgen identify rod.toml --data angle.csv --free length,damping",),
+)
