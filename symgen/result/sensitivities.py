@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.compiling.side import compile_side
+from symgen.describe.events import RESET, STOP
 from symgen.describe.readings import TABLES as FORMULAS
 from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
@@ -74,9 +75,13 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
             hint = f"take {works[0]}"
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
     watched = run.spec.events
-    if watched is not None and (watched.names or watched.jumps or watched.rows is not None):
-        what = f"the event '{watched.names[0]}'" if watched.names else "formulas that jump where the state passes zero"
-        raise InputError("sensitivities", "a run without events", what)
+    if watched is not None:
+        resets = [name for name, action in zip(watched.names, watched.actions, strict=True) if action == RESET]
+        if resets or watched.jumps or watched.rows is not None:
+            what = (
+                f"the event '{resets[0]}', which does" if resets else "formulas that jump where the state passes zero"
+            )
+            raise InputError("sensitivities", "a run whose events change no state", what)
     return run, tuple(notes)
 
 
@@ -207,6 +212,25 @@ class Evaluated:
         """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
         return self.gathered(lambda x: x.observed(function, length)[1])
 
+    def end(self) -> Array | None:
+        """Return the directions of the time at which an event ended the run, shape (n,); None where none did."""
+        watched, outcome = self.run.spec.events, self.course.outcome
+        stops = [x.name for x in outcome.happened if x.action == STOP and x.t == outcome.end]
+        if watched is None or not stops or outcome.code != abi.DONE:
+            return None
+        count, at = len(watched.names) + len(watched.switches), watched.names.index(stops[0])
+        found = list[Array]()
+        for part in self.course.parts:
+            state, info = part.outcome.simulation.state, part.model.whole.info
+            windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.windings]
+            here = np.array([outcome.end]), state.y[np.newaxis, : info.ny], windings
+            observer = Observer(part.model, *here, ((np.inf, state.p),), state.w)
+            values, slopes = observer.observed(watched.function, 3 * count)
+            # at an event that grazes, its time has no derivative
+            with np.errstate(divide="ignore", invalid="ignore"):
+                found.append(-slopes[0, at] / values[0, count + at])
+        return np.concatenate(found)[: self.course.count]
+
     def apart(self) -> Array:
         """Return by how much directions leave the constraints, over their size, shape (n,)."""
         parts = [(part.model, self._own(part)) for part in self.course.parts]
@@ -246,13 +270,23 @@ class Sensitivities:
     def __getstate__(self) -> dict[str, Any]:
         for name in ("q", "v"):
             self.table(name)
-        _ = self.violation, self.moves
+        _ = self.violation, self.moves, self.end
         return {**self.__dict__, "_evaluated": None, "_outcome": None}
 
     @cached_property
     def violation(self) -> float:
         """How far directions leave the constraints: the largest derivative of a row over that of a coordinate."""
         return float(self._evaluated.apart().max(initial=0.0))
+
+    @cached_property
+    def end(self) -> dict[str, float] | None:
+        """Derivatives of the time of the event that ended the run, by name; None where none did.
+
+        Derivatives of quantities are those at the same time; a quantity at the event changes by its rate times
+        these as well.
+        """
+        times = self._evaluated.end()
+        return None if times is None else dict(zip(self.names, times.tolist(), strict=True))
 
     @cached_property
     def moves(self) -> tuple[bool, ...]:
@@ -317,7 +351,7 @@ class Sensitivities:
             for column, row in zip(getattr(result, table).names, self.table(table)[-1].tolist(), strict=True):
                 final[column] = dict(zip(self.names, row, strict=True))
         by = dict(zip(self.names, self.units, strict=True))
-        return {"by": by, "violation": self.violation, "final": final}
+        return {"by": by, "violation": self.violation, "end": self.end, "final": final}
 
     def doubt(self, result: Result) -> str | None:
         """Return why the sensitivities of a run are in doubt, None where they are not."""
@@ -326,6 +360,8 @@ class Sensitivities:
             return f"the motion passes near a singular position at t = {first:.6g} s, where sensitivities may jump"
         if result.outcome.counters["dense_solves"]:
             return "accelerations were solved with another rank on the way, which sensitivities do not follow"
+        if self.end is not None and not np.all(np.isfinite([*self.end.values()])):
+            return "the event that ended the run is met without speed: its time has no derivative"
         if self.violation > CONSISTENT:
             return f"sensitivities leave the constraints by {self.violation:.1g} of their size"
         return None

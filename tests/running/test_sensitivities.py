@@ -18,6 +18,7 @@ from .lengths import (
     MASSES,
     ROD,
     ROD_BY,
+    ROD_PERIOD,
     ROD_STATE,
     SLIDER_CRANK,
     STATE,
@@ -107,6 +108,51 @@ def test_the_rod_on_a_pin(rod):
     for name, (of_angle, of_speed) in ROD_BY.items():
         assert run.gradient("rod.theta").row()[name] == pytest.approx(of_angle, rel=1e-11)
         assert run.gradient("rod.omega").row()[name] == pytest.approx(of_speed, rel=1e-11)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_the_time_of_an_event_that_ends_the_run(rod, coordinates):
+    # the rod passes the vertical after a quarter of its period
+    run = rod.simulate(
+        until=3.0, stop_when="rod.theta < -pi/2", sensitivities=tuple(ROD_BY), coordinates=coordinates, **TIGHT
+    )
+    period, by = ROD_PERIOD
+    assert run.status == "ok"
+    assert run.end == pytest.approx(period / 4.0, rel=1e-12)
+    assert run.sensitivities.end == pytest.approx({name: value / 4.0 for name, value in by.items()}, rel=1e-11)
+    # its angle there stays what it is
+    for name, value in run.gradient("rod.theta").row().items():
+        assert value + run.v.row()["rod.omega"] * run.sensitivities.end[name] == pytest.approx(0.0, abs=1e-11)
+
+
+def test_events_that_are_only_recorded_change_nothing(rod):
+    plain, noted = (
+        rod.simulate(until=1.0, sensitivities="length", record_when=when, **TIGHT) for when in ((), "rod.theta < -pi/2")
+    )
+    assert len(noted.events) == 1
+    assert noted.sensitivities.end is None
+    for name, value in plain.gradient("rod.omega").row().items():
+        assert noted.gradient("rod.omega").row()[name] == pytest.approx(value, rel=1e-11)
+
+
+def test_resets_are_refused(tmp_path):
+    ball = """
+[mechanism]
+name = "ball"
+gravity = [0.0, -9.81]
+[parameters]
+e = 0.7
+[bodies.ball]
+type = "point"
+mass = 1.0
+position = [0.0, 1.0]
+[events.bounce]
+when = "ball.y"
+direction = "falling"
+reset = { "ball.vy" = "-e*ball.vy" }
+"""
+    with pytest.raises(InputError, match="events change no state, got the event 'bounce', which does"):
+        model(tmp_path, ball).simulate(until=1.0, sensitivities="e", integrator="dop853")
 
 
 @pytest.mark.parametrize(("integrator", "order", "step"), [("rk4", 4, 2e-2), ("dopri5", 5, 1e-2), ("dop853", 8, 0.1)])
