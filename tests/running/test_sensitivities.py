@@ -9,6 +9,7 @@ import pytest
 
 import symgen
 from symgen import InputError
+from symgen.methods import METHODS
 
 from .lengths import (
     BY_NAME,
@@ -287,3 +288,21 @@ def test_a_length_that_destroys_mobility_is_refused(tmp_path):
         text += joint.format(f"high{k}", f'["crank{k}", "top"]', f"[{end}, [{k - 1}.0, 0.0]]")
     with pytest.raises(InputError, match="in whose direction the mechanism stays closed, got one by which the row"):
         model(tmp_path, text).simulate(until=0.1, sensitivities="length", integrator="dop853")
+
+
+ODE = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name, "method").forms)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ODE)
+def test_every_method_that_explicit_schemes_solve(method):
+    four_bar = symgen.load("four-bar")
+    limits = {"max_violation": 1.0, "max_energy_error": 1e3}
+    settings = {"method": method, "integrator": "rk4", "step": 1e-2, "until": 0.3, "times": [0.3], **limits}
+    run = four_bar.simulate(sensitivities=("crank_mass", "rocker_mass"), **settings)
+    for name, mass in (("crank_mass", 2.0), ("rocker_mass", 5.0)):
+        for quantity in ("crank.theta", "coupler.vx"):
+            expected = differences(four_bar, name, mass, 3e-2, quantity, **settings)
+            found = run.gradient(quantity).row()[name]
+            # penalties multiply the rounding of what they hold back
+            assert found == pytest.approx(expected, rel=1e-5 if method == "penalty" else 1e-8), quantity
