@@ -85,5 +85,7 @@ def _named(run: Prepared, name: str) -> Direction:
         return Direction(name, laws[key], "method", key)
     candidates = (*parameters, *(q for q in quantities if q not in euler), *joints, *states)
     candidates += tuple(f"method.{key}" for key in laws)
-    expected = f"parameters, values of the start or numbers of the file of {mechanism.name}"
-    raise InputError(where, expected, quoted(name), nearest(name, candidates))
+    expected, hint = f"parameters or values of the start of {mechanism.name}", nearest(name, candidates)
+    if "[" in name:
+        hint = "make the number of the file a parameter: a name in its place, its value in [parameters]"
+    raise InputError(where, expected, quoted(name), hint)

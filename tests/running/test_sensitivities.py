@@ -220,6 +220,37 @@ def test_parameters_of_the_method():
     assert run.gradient("crank.x").row()["method.alpha"] == pytest.approx(expected, rel=1e-6)
 
 
+def test_inputs(tmp_path):
+    text = """
+[mechanism]
+name = "pushed"
+[parameters]
+m = 2.0
+[inputs]
+push = { default = 1.5, unit = "N" }
+other = { default = 0.0, unit = "N" }
+[bodies.p]
+type = "point"
+mass = "m"
+velocity = [0.0, 0.0]
+[forces.f]
+type = "force"
+body = "p"
+force = ["push + other", 0.0]
+"""
+    pushed = model(tmp_path, text)
+    run = pushed.simulate(until=2.0, sensitivities=("push", "m"), inputs={"other": "3*t"}, **TIGHT)
+    # x = (push t^2/2 + t^3/2) / m
+    assert run.gradient("p.x").row() == pytest.approx({"push": 1.0, "m": -(3.0 + 4.0) / 4.0}, rel=1e-11)
+    table = {"t": [0.0, 1.0, 3.0], "u": [0.0, 2.0, 1.0], "interpolation": "hold"}
+    # nothing for a second, then x = 2 (t - 1)^2 / (2 m)
+    held = pushed.simulate(until=2.0, sensitivities="m", inputs={"push": table}, times=[0.5, 2.0], **TIGHT)
+    assert held.gradient("p.x")["m"] == pytest.approx([0.0, -0.25], rel=1e-11, abs=1e-15)
+    assert held.gradient("p.ax")["m"] == pytest.approx([0.0, -0.5], rel=1e-11, abs=1e-15)
+    with pytest.raises(InputError, match="the input 'push', which varies"):
+        pushed.simulate(until=2.0, sensitivities="push", inputs={"push": table}, **TIGHT)
+
+
 def test_files_pickles_and_json(four_bar, tmp_path):
     run = four_bar.simulate(until=0.2, sensitivities=("a", "m1"), integrator="dop853")
     again = pickle.loads(pickle.dumps(run))
@@ -268,6 +299,8 @@ def test_a_number_that_changes_nothing_is_named(tmp_path):
         ({"sensitivities": "a", "integrator": "rkmk4"}, "got 'rkmk4'"),
         ({"sensitivities": "a", "shape": "looped"}, "code of the shape 'straight', got shape 'looped'"),
         ({"sensitivities": 3}, "a list of names"),
+        ({"sensitivities": "bodies.crank.points.B[0]"}, "make the number of the file a parameter"),
+        ({"sensitivities": ["a"] * 65}, "at most 64 names, got 65"),
     ],
 )
 def test_what_has_no_sensitivities_is_refused(four_bar, settings, said):
