@@ -82,7 +82,8 @@ def test_a_law_that_closes_coordinates_has_both_right_hand_sides():
 
 
 def test_a_law_with_a_metric_of_its_own_calls_the_models_functions_by_another_name():
-    source = emitted("four-bar")["direct_correction"]
+    assert "from model import geometry, measure\n" in emitted("four-bar")["direct_correction"], "it has no factor"
+    source = emitted("four-bar")["mass_orthogonal_projection"]
     assert "from model import geometry as geometry_of_model, measure\n" in source
     assert "w[POSITION_MEASURE]" in source and "iw[ITERATIONS] += 1" in source and "p[TOLERANCE]" in source
 
