@@ -259,7 +259,7 @@ def test_numbers_of_32_bits(tmp_path):
 
 
 def test_long_functions_are_divided(tmp_path):
-    run = prepare(load("bricard").mechanism, Settings("lagrange", shape="straight"), Purpose.STATE)
+    run = prepare(load("front-suspension").mechanism, Settings("lagrange", shape="straight"), Purpose.STATE)
     from symgen.compiling.checked import checked
 
     text = c_functions(checked(run.compiled, ("rhs",)))
