@@ -244,7 +244,7 @@ def test_what_is_too_large_in_coordinates_of_bodies_is_live_in_those_of_joints(
         for c in ("absolute", "joint")
     )
     assert on_tree["ny"] < own["ny"] and not own["joint"]
-    monkeypatch.setattr(live, "MOST", {False: 12_000, True: 12_000})
+    monkeypatch.setattr(live, "MOST", {False: 8_000, True: 8_000})
     page = run.view()
     assert page.live and data_of(page.html)["live"] == on_tree
 
