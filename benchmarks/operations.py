@@ -3,15 +3,13 @@
     python -m benchmarks.operations [MODEL ...]
 
 Operations of the emitted right-hand side of `direct-correction` and of a round of its correction, in coordinates of
-bodies and of joints; and what CasADi, if it is installed, makes of the right-hand side by elimination of common
-subexpressions.
+bodies and of joints.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from contextlib import suppress
 from unittest.mock import patch
 
 from rich.table import Table
@@ -44,35 +42,6 @@ def blocks(equations: Equations, plan: EliminationPlan) -> dict[str, Block]:
     return {block.name: block for block in (*model.blocks, *law.blocks)}
 
 
-def by_casadi(block: Block) -> int | None:
-    """Return the operations of a function after CasADi's elimination of common subexpressions, None without CasADi."""
-    with suppress(ImportError):
-        import casadi
-
-        g, images, inputs = block.graph, dict[int, object](), list[object]()
-        names = {"max": "fmax", "min": "fmin", "or": "logic_or", "and": "logic_and", "abs": "fabs"}
-        signs = {"add": "__add__", "sub": "__sub__", "mul": "__mul__", "div": "__truediv__", "neg": "__neg__"}
-        for node in block.needed:
-            op, args, payload = g.nodes[node]
-            operands = [images[a] for a in args]
-            if op == "const":
-                images[node] = casadi.SX(payload)
-            elif op == "input":
-                images[node] = casadi.SX.sym(f"x{node}")
-                inputs.append(images[node])
-            elif op in signs:
-                images[node] = getattr(operands[0], signs[op])(*operands[1:])
-            elif op == "step":
-                images[node] = casadi.gt(*operands)
-            else:
-                images[node] = getattr(casadi, names.get(op, op))(*operands)
-        ends = casadi.cse(casadi.vertcat(*(images[n] for n in block.nodes)))
-        function = casadi.Function("f", [casadi.vertcat(*inputs)], [ends])
-        free = (casadi.OP_INPUT, casadi.OP_OUTPUT, casadi.OP_CONST, casadi.OP_PARAMETER)
-        return sum(function.instruction_id(k) not in free for k in range(function.n_instructions()))
-    return None
-
-
 def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
     """Yield the rows of the table."""
     for name in names:
@@ -81,13 +50,11 @@ def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
             equations = formulate(described)
             plan = cheapest_plan(equations)
             old, new = blocks(equations, EliminationPlan()), blocks(equations, plan)
-            least = by_casadi(new["rhs"])
             yield [
                 name,
                 coordinates,
                 f"{len(plan.rows)} of {equations.m}",
                 *(str(each["rhs"].operations) for each in (old, new)),
-                "" if least is None else str(least),
                 *(str(sum(each[x].operations for x in CORRECTION if x in each)) for each in (old, new)),
             ]
 
@@ -95,7 +62,7 @@ def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
 def main(names: tuple[str, ...] = MODELS) -> None:
     """Print the table."""
     table = Table("", "coordinates", "rows that fix", title="Operations")
-    for head in ("`rhs` by S", "`rhs`", "by CasADi's cse", "correction by S", "correction"):
+    for head in ("`rhs` by S", "`rhs`", "correction by S", "correction"):
         table.add_column(head, justify="right")
     for row in rows(names):
         table.add_row(*row)
