@@ -18,6 +18,7 @@ from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.friction import refuse_friction
 from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
@@ -246,6 +247,7 @@ class Model(Analysed, Shown):
         from symgen.targets import TARGETS, Request
 
         kind = TARGETS.get(arguments.text("target", target, "the name of a target"), "target")
+        refuse_friction(f"target '{target}'", self.mechanism)
         texts = {
             name: arguments.text(f"option '{name}'", value)
             for name, value in arguments.mapping("options", options, "texts by the names of options").items()

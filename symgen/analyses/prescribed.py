@@ -14,6 +14,7 @@ from symgen.analyses.algebra import apart
 from symgen.base.errors import AssemblyError, InputError, nearest
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.friction import without_friction
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
 from symgen.layout import abi
@@ -92,7 +93,8 @@ def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def instantaneous(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism without what a run alone determines: outputs that are integrals, events, and velocities."""
+    """Return a mechanism without what a run alone determines: integrals, events, velocities, dry friction."""
+    mechanism = without_friction(mechanism)
     outputs = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
     bodies = list[AnyBody]()
     for body in mechanism.bodies:

@@ -15,6 +15,7 @@ from symgen.base.errors import InputError, nearest
 from symgen.base.settings import Settings
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.side import compile_side
+from symgen.describe.friction import without_friction
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
@@ -294,7 +295,7 @@ class Subject(Yardsticks):
 
 
 def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
-    """Make a mechanism with its start ready to be analysed.
+    """Make a mechanism with its start ready to be analysed, without dry friction.
 
     Parameters
     ----------
@@ -310,6 +311,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
+    mechanism = without_friction(mechanism)
     placed, inputs = inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":

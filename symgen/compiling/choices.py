@@ -154,7 +154,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    if mechanism.states or mechanism.rotors or mechanism.switchable:
+    if mechanism.states or mechanism.rotors or mechanism.has_modes:
         if shape == "looped":
             refuse_loops(mechanism)
         return Taken("straight", "loops have no states of a file, no rotors and no rows that may be off")

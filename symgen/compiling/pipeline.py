@@ -131,12 +131,13 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, or rotors on joints, or if rows may be off.
+        If the file has states of its own, rotors on joints or dry friction, or if rows may be off.
     """
     for what, some in (
         ("states of its own", mechanism.states),
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
+        ("dry friction", mechanism.frictions),
     ):
         if some:
             raise InputError("shape", f"straight code where a file has {what}", "looped")
@@ -363,6 +364,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         alone=_alone(program, len(equations.rows)),
         states=equations.states,
         switchable=tuple(i for i, row in enumerate(equations.rows) if row.held is not None),
+        bounded=tuple(i for i, row in enumerate(equations.rows) if row.bounded),
     )
 
 

@@ -51,6 +51,8 @@ def canonical(mechanism: Mechanism) -> str:
         parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
     if mechanism.switchable:
         parts.append(["switchable", sorted(mechanism.switchable)])
+    if mechanism.frictions:
+        parts.append(["frictions", [_text(friction) for friction in mechanism.frictions]])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -81,6 +83,7 @@ def identity(mechanism: Mechanism) -> str:
         ", rotors=()",
         ", beams=b''",
         ", switchable=()",
+        ", frictions=()",
     ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()

@@ -105,6 +105,10 @@ Held = Annotated[
 JointStart = Annotated[
     dict[str, float | str], Meta(description="a table of the joint's coordinates at the start, such as { angle = 0.5 }")
 ]
+FrictionTable = Annotated[
+    dict[str, float | str | dict[str, float | str]],
+    Meta(description="a table of bounds such as { sliding = 4.0 }, or one for each coordinate"),
+]
 Condition = Annotated[
     str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
 ]
@@ -127,7 +131,10 @@ BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_l
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 #: Keys, with their types, that joints of any kind may have besides their own.
-OF_ANY_JOINT: Mapping[str, Any] = {"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar}
+OF_ANY_JOINT: Mapping[str, Any] = {
+    **{"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar},
+    "friction": FrictionTable,
+}
 
 T = TypeVar("T")
 

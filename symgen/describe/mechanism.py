@@ -270,6 +270,45 @@ class Rotor(msgspec.Struct, frozen=True):
     axes: tuple[Direction, ...] = ()
 
 
+class Friction(msgspec.Struct, frozen=True):
+    """Dry friction along a coordinate of a joint, with a bound that does not depend on reactions.
+
+    At rest the force is what keeps it at rest, up to `static`; in motion it is `sliding` against the rate. Where
+    `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^2).
+
+    Parameters
+    ----------
+    name : str
+        Of the joint where it has one coordinate, else ``JOINT.COORDINATE``.
+    joint : str
+        The joint.
+    measure : Measure
+        The coordinate.
+    unit : str
+        Unit of the coordinate.
+    sliding, static : Expr
+        Bounds [N or N m].
+    viscous : Expr
+        Force over rate [N s/m or N m s].
+    stribeck_speed : Expr or None
+        A rate [m/s or rad/s].
+    """
+
+    name: str
+    joint: str
+    measure: Measure
+    unit: str
+    sliding: Expr
+    static: Expr
+    viscous: Expr = ZERO
+    stribeck_speed: Expr | None = None
+
+    @property
+    def row(self) -> str:
+        """Name of the row that is in force at rest."""
+        return f"{self.name}.friction"
+
+
 class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):
     """A force element of any kind, resolved to efforts along measures and to beam elements."""
 
@@ -375,6 +414,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     rotors: tuple[Rotor, ...] = ()
     beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
     switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
+    frictions: tuple[Friction, ...] = ()
 
     def __repr__(self) -> str:
         counted = (
@@ -390,6 +430,11 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     def inputs(self) -> tuple[str, ...]:
         """Names of the inputs, which stand behind the other parameters."""
         return tuple(p.name for p in self.parameters if p.input)
+
+    @property
+    def has_modes(self) -> bool:
+        """Whether rows may be off in a part of a run."""
+        return bool(self.switchable or self.frictions)
 
     @property
     def has_massless(self) -> bool:

@@ -15,12 +15,14 @@ from symgen.describe.columns import check_columns
 from symgen.describe.evaluate import evaluate, in_order
 from symgen.describe.events import read_event
 from symgen.describe.fields import OF_ANY_JOINT, Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
+from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
     Force,
+    Friction,
     Hold,
     Joint,
     Mechanism,
@@ -83,6 +85,7 @@ class _Validator:
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
+        self._frictions: dict[str, tuple[Friction, ...]] = {}
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
@@ -142,6 +145,7 @@ class _Validator:
             forces=forces,
             defaults=self.defaults(line(head.source)),
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
+            frictions=tuple(friction for joint in joints for friction in self._frictions.get(joint.name, ())),
             states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
@@ -151,7 +155,9 @@ class _Validator:
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
+        mechanism = with_friction_outputs(mechanism)
         check_columns(mechanism, self.source)
+        check_frictions(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
 
@@ -346,6 +352,8 @@ class _Validator:
                 raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
             self._cuts.append(name)
         self.rotor(scope, joint, self.raw["joints"][name])
+        if "friction" in self.raw["joints"][name]:
+            self._frictions[name] = read_friction(scope, joint, self.raw["joints"][name]["friction"])
         self._joints[name] = joint
         self._open -= 1
         return joint

@@ -9,6 +9,7 @@ import numpy as np
 
 from symgen.effects.impulse import IMPULSE, new_impulse, smallest_impulse
 from symgen.layout import abi
+from symgen.layout.redundancy import is_off
 from symgen.layout.scales import entry_of
 from symgen.layout.start_records import INSTANT, LAYOUT, record_type
 from symgen.loopcode.exact import exact
@@ -165,6 +166,10 @@ def struck_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) ->
         rows[layout.entries[3 * e] * n + layout.entries[3 * e + 1]] = entry_of(layout, work.scratch, e)
     for i in range(m):
         impulse.values[i] = work.scratch[layout.nu + i]
+        if is_off(layout, i, work.scratch):
+            impulse.values[i] = 0.0
+            for j in range(n):
+                rows[i * n + j] = 0.0
     probe_velocities(model, t, now, chosen, work)
     fill_masses(model, work.scratch, work)
     for j in range(n):

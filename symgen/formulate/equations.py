@@ -20,6 +20,7 @@ class ConstraintRow:
     `stiffness` is the node of a stiffness specified in the file [N/m]. `held` is the node of 1 where a row that may be
     off is in force, and of 0 where it is off; None for a row that is always in force. `axes` marks the two rows of a
     joint that keep an axis of one body parallel to one of another, over the velocities of bodies.
+    The forces of `bounded` rows have bounds.
     """
 
     name: str
@@ -33,6 +34,7 @@ class ConstraintRow:
     stiffness: int | None = None
     held: int | None = None
     axes: bool = False
+    bounded: bool = False
 
 
 @dataclass(frozen=True)

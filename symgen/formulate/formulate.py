@@ -6,16 +6,17 @@ inverted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 from symgen.base.errors import finite_numbers
-from symgen.describe.mechanism import Joint, Mechanism, Rotor, SpatialBody
+from symgen.describe.friction import effort_in_motion, first_modes
+from symgen.describe.mechanism import Friction, Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import UNITS, quantities
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
 from symgen.formulate.flexure import exertions
-from symgen.formulate.measures import DerivedMeasure, ModelNodes
+from symgen.formulate.measures import DerivedMeasure, ModelNodes, exertion
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import MODE_NUMBERS, of_table
@@ -46,11 +47,13 @@ def formulate(mechanism: Mechanism) -> Equations:
     mechanism, repeats = without_repeats(mechanism)
     with finite_numbers("mechanism"):
         model = ModelNodes(mechanism)
+    modes = dict(first_modes(mechanism))
     rows = tuple(
-        row if joint.name not in mechanism.switchable else _switched(model, row, first + MODE_NUMBERS * i)
-        for joint, first in _first_modes(mechanism)
+        row if joint.name not in modes else _switched(model, row, modes[joint.name] + MODE_NUMBERS * i)
+        for joint in mechanism.joints
         for i, row in enumerate(_row(model, joint.name, row) for row in joint.rows)
     )
+    rows += tuple(_friction_row(model, friction, modes[friction.row]) for friction in mechanism.frictions)
     forces, power, potential = _forces(model)
     driving = None
     if model.tree is None:
@@ -148,12 +151,10 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     return ConstraintRow(name, joint, row.unit, phi, ordered, nu, gamma, size, stiffness, axes=axes)
 
 
-def _first_modes(mechanism: Mechanism) -> Iterator[tuple[Joint, int]]:
-    """Yield each joint with the place of its first row in the section ``modes``."""
-    first = 0
-    for joint in mechanism.joints:
-        yield joint, first
-        first += MODE_NUMBERS * len(joint.rows) if joint.name in mechanism.switchable else 0
+def _friction_row(model: ModelNodes, friction: Friction, first: int) -> ConstraintRow:
+    """Return the row of a coordinate with dry friction, in force where the coordinate rests."""
+    row = _row(model, friction.joint, Holonomic("friction", friction.measure, unit=friction.unit))
+    return replace(_switched(model, row, first), name=friction.row, bounded=True)
 
 
 def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
@@ -189,6 +190,12 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
                     forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
                 power = g.add(power, exerted.power)
                 potential = g.add(potential, exerted.energy)
+    for friction in model.mechanism.frictions:
+        with finite_numbers(f"joints.{friction.joint}.friction"):
+            exerted = exertion(model, effort_in_motion(friction))
+            for i, entry in sorted(exerted.row.items()):
+                forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
+            power = g.add(power, exerted.power)
     return forces, power, potential
 
 

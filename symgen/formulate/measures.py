@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
+from symgen.describe.friction import mode_names
 from symgen.describe.mechanism import is_speed
 from symgen.formulate.euler_parameters import matrix_of, turning
 from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
@@ -75,6 +76,7 @@ class ModelNodes(Formulas):
             self.tree = SpatialTree(self) if self.spatial else PlanarTree(self)
             self.velocities = self.tree.velocities
             self.names |= self.tree.names
+        self.names |= {name: self.graph.input("modes", i) for name, i in mode_names(self.mechanism).items()}
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures with counted turns, in the order of their slots in the section ``winding``.

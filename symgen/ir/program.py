@@ -81,8 +81,9 @@ SECTIONS = (
 )
 
 #: Numbers in the section ``modes`` of each row that may be off: 1 where it is in force and 0 where it is off; the value
-#: that its measure is held at, beyond the described one; the sign of its rate or effort.
-MODES = ("held", "constant", "sign")
+#: that its measure is held at, beyond the described one; the sign of its rate or effort where it is off; its largest
+#: effort where it is in force.
+MODES = ("held", "constant", "sign", "limit")
 MODE_NUMBERS = len(MODES)
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.

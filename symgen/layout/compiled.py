@@ -40,7 +40,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     holds, for each body with Euler parameters, the index of these in q and of its angular velocity in v; `inputs` are
     parameters that may change during a run; `states` are states of the file's own, after the work, and `integrals` is
     the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
-    never left out, so nothing reads their mask; `switchable` are rows that may be off;
+    never left out, so nothing reads their mask; `switchable` are rows that may be off,
+    and `bounded` those of them with forces within bounds, which are off at a start;
     `shadows` is the number of elements behind the state without error control, directions (`symgen.runs.directions`).
     """
 
@@ -65,6 +66,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     states: tuple[Quantity, ...] = ()
     switchable: tuple[int, ...] = ()
     shadows: int = 0
+    bounded: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
@@ -183,7 +185,7 @@ class CompiledModel(ABC):
             self.section(w, name)[:] = 1.0
         w[[STATUS.index(name) for name in SCALES]] = 1.0
         if self.info.switchable:
-            self.modes(w)[:, 0] = 1.0
+            self.modes(w)[:, 0] = [float(row not in self.info.bounded) for row in self.info.switchable]
         return w
 
     def modes(self, w: Array) -> Array:
@@ -196,6 +198,10 @@ class CompiledModel(ABC):
         """Return the names of the rows that are off in `w`."""
         held = self.modes(w)[:, 0]
         return tuple(self.info.rows[i].name for i, on in zip(self.info.switchable, held, strict=True) if on == 0.0)
+
+    def in_force(self, w: Array) -> int:
+        """Return the number of rows in force in `w`."""
+        return self.info.m - int(np.sum(self.modes(w)[:, 0] == 0.0))
 
     def section(self, w: Array, name: str) -> Array:
         """Return a view of one section of ``w``."""

@@ -56,11 +56,36 @@ class Switch:
     holds: bool = False
 
 
+class Formulas(Protocol):
+    """Formulas of a run, evaluated at one state."""
+
+    def __call__(self, t: float, y: Array, p: Array, w: Array, ydot: Array, /) -> Array:
+        """Return their values."""
+
+
 class ChangingRows(Protocol):
     """Rows whose formulas may jump or have kinks over the state (`symgen.runs.row_jumps`)."""
 
     def sentence(self, compiled: CompiledModel, state: Any) -> str:
         """Return the sentence on a row that jumps or has a kink in the last step of a run; empty without one."""
+
+
+@dataclass(frozen=True)
+class DryFrictions:
+    """Coordinates with dry friction (`symgen.runs.transitions`).
+
+    Attributes
+    ----------
+    names : tuple of str
+        Their names.
+    state, accelerations : callable
+        ``(t, y, p, w, rate)`` -> coordinates, their rates, bounds at rest, bounds at the beginning of a motion; second
+        derivatives of the coordinates.
+    """
+
+    names: tuple[str, ...]
+    state: Formulas
+    accelerations: Formulas
 
 
 @dataclass(frozen=True)
@@ -89,6 +114,8 @@ class Watched:
         Rows that change at a switch.
     adaptive : bool
         Whether steps are adaptive: these end at switches, constant ones behind them.
+    frictions : DryFrictions or None
+        Coordinates with dry friction.
     """
 
     names: tuple[str, ...]
@@ -101,6 +128,7 @@ class Watched:
     jumps: bool = False
     rows: ChangingRows | None = None
     adaptive: bool = True
+    frictions: DryFrictions | None = None
 
 
 @dataclass(frozen=True)

@@ -81,7 +81,7 @@ def until_stop(span: Any, until: float) -> Any:
 
 @jit(types.int64(_A))
 def by_caller(p: Any) -> int:
-    """Replace a ``prepare`` in plain Python, as of looped code: the caller of the loop calls that."""
+    """Replace a ``prepare`` that the caller of the loop calls."""
     return 1
 
 
@@ -171,5 +171,7 @@ def with_table(
         values=np.array([value for _, value in changes], dtype=np.float64),
     )
     modules = compiled.model, compiled.law_module
-    preparing = (by_caller, by_caller) if compiled.shape == "looped" else tuple(module.prepare for module in modules)
+    # in looped code nothing is prepared in the loop, and modes of friction are chosen behind it
+    left = compiled.shape == "looped" or compiled.info.bounded
+    preparing = (by_caller, by_caller) if left else tuple(module.prepare for module in modules)
     return system, table, loop, *preparing

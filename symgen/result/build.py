@@ -102,7 +102,7 @@ def build_result(
         work=work + start.work if start.work else work,
         energy_error=kinetic + potential - outcome.energy_start - work,
         smallest_pivot=status[:, abi.PIVOT],
-        rank=Rank(info.m, start.rank, len(info.dropped_rows), start.redundant_rows),
+        rank=Rank(compiled.in_force(start.w), start.rank, len(info.dropped_rows), start.redundant_rows),
         rank_events=outcome.rank_events,
         rank_event_count=outcome.rank_event_count,
         steps=outcome.steps,
@@ -178,13 +178,14 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
 def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:
     """Return sentences about rows that are redundant, and about rows that are off, in this run."""
     info, start, notes = compiled.info, outcome.start, list[str]()
-    if start.rank < info.m:
-        extra = info.m - start.rank
+    extra = compiled.in_force(start.w) - start.rank
+    if extra > 0:
         rows = f" ({', '.join(start.redundant_rows)})" if start.redundant_rows else ""
         subject = "1 constraint row depends" if extra == 1 else f"{extra} constraint rows depend"
         which = "shared like the stiffness of rows" if compiled.law.unique_multipliers else "those of minimum norm"
         notes.append(f"{subject} on the others at the start{rows}; multipliers are {which}")
-    if off := compiled.off(outcome.w):
+    bounded = {info.rows[row].name for row in info.bounded}
+    if off := [name for name in compiled.off(outcome.w) if name not in bounded]:
         notes.append(f"rows off at the end, which exert nothing: {', '.join(off)}")
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))

@@ -230,7 +230,7 @@ class Forces:
     @property
     def redundant(self) -> bool:
         """Whether some rows depend on others at the start."""
-        return self.outcome.start.rank < self.compiled.info.m
+        return self.outcome.start.rank < self.compiled.in_force(self.outcome.start.w)
 
     @cached_property
     def signals(self) -> SignalTables:
@@ -260,10 +260,12 @@ class Forces:
         ambiguous = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
         if self.redundant and not self.compiled.law.unique_multipliers:
             columns, _ = _weighed(self.outcome, self.outcome.start.t, self.outcome.start.y)
-            left, singular, _ = np.linalg.svd(columns.T, full_matrices=True)
+            off = self.compiled.off(self.outcome.start.w)
+            rows = [i for i, row in enumerate(info.rows) if row.name not in off]
+            left, singular, _ = np.linalg.svd(columns.T[rows], full_matrices=True)
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
             share = np.linalg.norm(left[:, rank:], axis=1)
-            ambiguous |= {row.joint for row, x in zip(info.rows, share, strict=True) if x > _SHARE}
+            ambiguous |= {row.joint for row, x in zip([info.rows[i] for i in rows], share, strict=True) if x > _SHARE}
         return tuple(joint for joint in self.seats if joint in ambiguous)
 
     # -- reactions -----------------------------------------------------------------------------------------------------
@@ -309,12 +311,12 @@ def jacobian(outcome: Motion, t: float, y: Array) -> Array:
 
 def _minimum_norm(outcome: Motion) -> Array:
     """Return the multipliers at all outputs, shape (k, m), of minimum norm where the law leaves a choice."""
-    m = outcome.compiled.info.m
     values = outcome.multipliers.copy()
     if outcome.compiled.law.unique_multipliers:
         return values
     held = _held(outcome)
-    dependent = (outcome.status_columns[:, abi.RANK] < held.sum(axis=1)) | (outcome.start.rank < m)
+    dependent = outcome.status_columns[:, abi.RANK] < held.sum(axis=1)
+    dependent |= outcome.start.rank < outcome.compiled.in_force(outcome.start.w)
     usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
     for k in np.flatnonzero(dependent & usable):
         columns, weights = _weighed(outcome, float(outcome.times[k]), outcome.states[k])

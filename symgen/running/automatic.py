@@ -219,7 +219,7 @@ def facts_of(mechanism: Mechanism, compiled: CompiledModel, start: Start, until:
     acceleration = float(np.abs(info.parts(rate)[1] * levers).max(initial=0.0))
     change = max(speed, np.sqrt(acceleration), 1.0 / until)
     return Facts(
-        rows=info.m,
+        rows=compiled.in_force(start.w),
         rank=start.rank,
         coordinates=info.nq,
         massless=bool(info.massless),

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 _PAST = [abi.KNOWN, abi.POINTS, abi.REFUSED]
 
 
-def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, float]]) -> None:
-    """Set modes of rows from the present state on; the scheme begins anew, the counts and the balance go on.
+def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, float, float]]) -> None:
+    """Set modes of rows from the present state on, see `begin_in_modes`.
 
     A row that is switched on has to hold at the present state: close it before. Rows that depend on others are chosen
     among the rows in force.
@@ -34,26 +34,39 @@ def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, fl
     ----------
     simulation : Simulation
         A run between two entries of its loop.
-    modes : mapping of str to (float, float, float)
-        By names of rows: 1 in force or 0 off, the value that the measure is held at beyond the described one, and a
-        sign.
+    modes : mapping of str to (float, float, float, float)
+        By names of rows: 1 in force or 0 off, the value that the measure is held at beyond the described one, a sign,
+        and the largest effort in force.
 
     Raises
     ------
     InputError
         If a row cannot be off, or a number is none of these.
     """
-    compiled, state = simulation.compiled, simulation.state
-    info, w = compiled.info, state.w
+    compiled, w = simulation.compiled, simulation.state.w
+    info = compiled.info
     places = {info.rows[row].name: k for k, row in enumerate(info.switchable)}
-    for name, (held, constant, sign) in modes.items():
+    for name, (held, constant, sign, limit) in modes.items():
         if name not in places:
             raise InputError("modes", "a row that may be off", name, nearest(name, places))
-        if held not in (0.0, 1.0) or sign not in (-1.0, 0.0, 1.0) or not np.isfinite(constant):
-            expected = "1 or 0, a finite value and a sign of -1, 0 or 1"
-            raise InputError(f"modes.{name}", expected, f"{held:g}, {constant:g}, {sign:g}")
+        if held not in (0.0, 1.0) or sign not in (-1.0, 0.0, 1.0) or not np.isfinite(constant + limit):
+            expected = "1 or 0, a finite value, a sign of -1, 0 or 1 and a finite effort"
+            raise InputError(f"modes.{name}", expected, f"{held:g}, {constant:g}, {sign:g}, {limit:g}")
     for name, mode in modes.items():
         compiled.modes(w)[places[name]] = mode
+    begin_in_modes(simulation)
+
+
+def begin_in_modes(simulation: Simulation) -> None:
+    """Have a run go on in the modes of its rows; the scheme begins anew, the counts and the balance go on.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        A run between two entries of its loop.
+    """
+    compiled, state = simulation.compiled, simulation.state
+    w = state.w
     now = float(state.clock[abi.TIME])
     geometry = direct(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, w)
     geometry(now)

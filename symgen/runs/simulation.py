@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from symgen.loops.integrator import Integrator
     from symgen.loops.run_spec import RunSpec, Stop, Watched
     from symgen.runs.events import Events
+    from symgen.runs.transitions import Transitions
     from symgen.starts.assembly import Start
 
 Array = NDArray[np.float64]
@@ -83,6 +84,7 @@ class Simulation:
         self.direct = True
         state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room, start.datum)
         self.events: Events | None = None
+        self.transitions: Transitions | None = None
         if spec.events is not None:
             state = event_state(spec.events, self.sizes, state)
             self._watch(spec.events)
@@ -104,6 +106,10 @@ class Simulation:
             self._take_up(start.saved, start.p)
         else:
             self.divide(spec)
+        if spec.events is not None and spec.events.frictions is not None:
+            from symgen.runs.transitions import Transitions
+
+            self.transitions = Transitions(self, spec.events.frictions)
         self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
 
     def set_limits(self) -> None:
@@ -179,6 +185,8 @@ class Simulation:
             If an event sets velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
+        if self.transitions is not None:
+            self.transitions.begin()
         entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
         while True:
             if entry is None:
@@ -202,6 +210,7 @@ class Simulation:
             out -= 1
             outputs.states[out] = self.state.y[: outputs.states.shape[1]]
             outputs.status[out, abi.KINETIC] = self.state.w[abi.KINETIC]
+            outputs.status[out, abi.N_STATUS :] = self.state.w[abi.WINDING :][: self.compiled.info.kept]
 
     def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
         """Run to the end as `enter` does; call `stop` after every `steps` steps, to end as `STOPPED`."""
@@ -271,6 +280,8 @@ class Simulation:
 
         The state before is saved, see `go_back`.
         """
+        if self.transitions is not None:
+            self.transitions.begin()
         entry, snapshot = self._entry, self.snapshot
         if entry is None or not self.direct:
             snapshot.take(self.scheme)
@@ -300,7 +311,12 @@ class Simulation:
             state: Any = self.state  # an `EventState` where there are events
             events = self.events.take(state)
             if code == abi.MET:
+                now = [event for _, event in events if event.t == self._clock[abi.TIME]]
+                if self.transitions is not None:
+                    self.transitions.release(now)
                 code = self.events.meet(state, events)
+                if self.transitions is not None:
+                    self.transitions.meet(now)
                 return None if code == abi.DONE else code
         if code == abi.NO_ROOM:
             self.scheme = _with_room(self.scheme)
@@ -314,6 +330,8 @@ class Simulation:
                 return abi.UNPREPARED
             if not np.isfinite(self.state.p).all():
                 return abi.UNPREPARED
+            if self.transitions is not None:
+                self.transitions.begin()
             return None if self.is_ahead(until) else abi.DONE
         elif code != abi.NOTED:
             return code

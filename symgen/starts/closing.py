@@ -12,7 +12,7 @@ from typing import Any
 from symgen.ir.numerics import SKIP
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.redundancy import choose_rows, farthest
+from symgen.layout.redundancy import choose_rows, farthest, is_off
 from symgen.layout.scales import (
     VANISHED,
     coarseness_of,
@@ -157,7 +157,7 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
     weigh_rows(layout, now)
     count = _mark(closing, layout, now, work)
     poor = m > 0 and layout.sparse == 0 and is_poor(_active_pivot(layout, now.w))
-    count = m - _rank(layout, now.w, work) if poor else count
+    count = _dependent(layout, now.w, work) if poor else count
     alone, same = count, not poor
     for k in range(decisions.PROBES):
         for j in range(layout.nv):
@@ -179,14 +179,14 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
             for i in range(m):
                 same = same and (now.w[layout.mask + i] != 0.0 or other.w[layout.mask + i] == 0.0)
             if layout.sparse == 0 and is_poor(_active_pivot(layout, other.w)):
-                near, same = m - _rank(layout, other.w, work), False
+                near, same = _dependent(layout, other.w, work), False
             count = near if near < count else count
     return int(_masked(closing, layout, now, other, work, count, alone, same))
 
 
 @exact()
 def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
-    """Mask the rows that depend on others or have vanished at a position; return their number.
+    """Mask the rows in force that depend on others or have vanished at a position; return their number.
 
     Vanished rows take no part in the elimination, where rounding divided by rounding would decide.
     """
@@ -194,7 +194,7 @@ def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
     square_rows(layout, w, squares)
     for i in range(layout.m):
         usual = row_weight(layout, w, i)
-        if squares[i] * usual * usual < VANISHED:
+        if squares[i] * usual * usual < VANISHED and not is_off(layout, i, w):
             w[layout.mask + i] = math.inf
             count += 1
     if count > 0:
@@ -202,16 +202,19 @@ def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
     for i in range(layout.m):
         if w[layout.mask + i] != 0.0:
             w[layout.pivot + i] = 0.0
-        elif is_dependent(w[layout.pivot + i]):
+        elif is_dependent(w[layout.pivot + i]) and not is_off(layout, i, w):
             w[layout.mask + i] = math.inf
             count += 1
     return count
 
 
 @exact()
-def _rank(layout: Any, w: Any, work: Any) -> int:
-    """Return the number of independent rows where small pivots have amplified rounding."""
-    return int(farthest(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers))
+def _dependent(layout: Any, w: Any, work: Any) -> int:
+    """Return the number of rows in force that depend on others, where small pivots have amplified rounding."""
+    count = -farthest(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers)
+    for i in range(layout.m):
+        count += 0 if is_off(layout, i, w) else 1
+    return int(count)
 
 
 @exact()

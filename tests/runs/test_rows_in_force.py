@@ -66,7 +66,7 @@ def moved(simulation: Simulation, y: np.ndarray, duration: float) -> np.ndarray:
 def switch(simulation: Simulation, held: float) -> None:
     """Set all rows that may be off to in force (1) or off (0)."""
     info = simulation.compiled.info
-    set_modes(simulation, {info.rows[i].name: (held, 0.0, 0.0) for i in info.switchable})
+    set_modes(simulation, {info.rows[i].name: (held, 0.0, 0.0, 0.0) for i in info.switchable})
 
 
 def released(run: Prepared, until: float, times=NOTHING):
@@ -150,7 +150,7 @@ def test_outputs_keep_the_modes() -> None:
     whole, _, joint = catalogued("four-bar")
     run = ready(with_switchable(whole, joint), 1.0)
     _, outputs, _, _ = released(run, 0.8, [0.1, 0.4, 0.6, 0.8])
-    held = outputs.status[:, abi.N_STATUS + run.compiled.info.windings :: 3]
+    held = outputs.status[:, abi.N_STATUS + run.compiled.info.windings :: 4]
     np.testing.assert_array_equal(held, [[1.0, 1.0], [1.0, 1.0], [0.0, 0.0], [0.0, 0.0]])
 
 
@@ -182,9 +182,9 @@ def test_a_row_is_held_at_its_constant() -> None:
     whole, _, joint = catalogued("four-bar")
     simulation = ready(with_switchable(whole, joint), 1.0).simulation()
     compiled, w = simulation.compiled, simulation.state.w
-    set_modes(simulation, {f"{joint}.x": (1.0, 0.1, 0.0), f"{joint}.y": (0.0, 0.3, 1.0)})
+    set_modes(simulation, {f"{joint}.x": (1.0, 0.1, 0.0, 0.0), f"{joint}.y": (0.0, 0.3, 1.0, 2.0)})
     np.testing.assert_allclose(compiled.section(w, "residual")[-2:], [-0.1, 0.0], rtol=0, atol=1e-14)
-    np.testing.assert_array_equal(compiled.modes(w), [[1.0, 0.1, 0.0], [0.0, 0.3, 1.0]])
+    np.testing.assert_array_equal(compiled.modes(w), [[1.0, 0.1, 0.0, 0.0], [0.0, 0.3, 1.0, 2.0]])
 
 
 @pytest.mark.parametrize(
@@ -206,9 +206,9 @@ def test_wrong_modes_and_shapes_are_refused() -> None:
         with_switchable(whole, "hinge")
     simulation = ready(mechanism, 1.0).simulation()
     with pytest.raises(InputError, match="a row that may be off"):
-        set_modes(simulation, {f"{joint}.z": (0.0, 0.0, 0.0)})
-    with pytest.raises(InputError, match="1 or 0, a finite value and a sign"):
-        set_modes(simulation, {f"{joint}.x": (0.5, 0.0, 0.0)})
+        set_modes(simulation, {f"{joint}.z": (0.0, 0.0, 0.0, 0.0)})
+    with pytest.raises(InputError, match="1 or 0, a finite value, a sign of"):
+        set_modes(simulation, {f"{joint}.x": (0.5, 0.0, 0.0, 0.0)})
 
 
 def test_without_switchable_rows_nothing_changes() -> None:

@@ -44,7 +44,11 @@ class IndependentEquations:
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
-        for what, some in (("states of its own", mechanism.states), ("rotors on joints", mechanism.rotors)):
+        for what, some in (
+            ("states of its own", mechanism.states),
+            ("rotors on joints", mechanism.rotors),
+            ("dry friction", mechanism.frictions),
+        ):
             if some:
                 expected = "a mechanism that is derived a second time, for references"
                 raise InputError(mechanism.name, expected, f"one with {what}", "symgen run --verify estimates errors")

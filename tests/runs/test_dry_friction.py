@@ -1,0 +1,303 @@
+"""Dry friction with constant bounds against closed forms and event-driven references."""
+
+import copy
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.base.settings import Settings
+from symgen.describe.load import parse_toml, read_raw
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.validate import validate
+from symgen.running.prepare import Prepared, prepare
+
+#: A mass of 1 kg at 1 m with a dry torque of 0.5 N m, from rest at 1 rad.
+PIN = """
+[mechanism]
+name = "dry-pendulum"
+gravity = [0.0, -9.81]
+
+[bodies.bob]
+mass = 1.0
+inertia = 0.5
+points = { pivot = [0.0, 1.0] }
+angle = 1.0
+
+[joints.pin]
+type = "revolute"
+between = ["ground", "bob"]
+at = [[0.0, 0.0], "pivot"]
+start = { angle = 1.0 }
+friction = { sliding = 0.5 }
+"""
+#: Angles where it turns round, from the energy: (cos x - cos y) m g l = M |x - y|, at 30 digits; it rests at the last.
+TURNS = (
+    *(0.881250748295449, 0.766732151685371, 0.655609990293531, 0.547205606673427, 0.440950245643447),
+    *(0.336353552604635, 0.23298085662412, 0.130436008136909, 0.0283477182464195),
+)
+
+BELT = """
+[mechanism]
+name = "belt-oscillator"
+
+[bodies.belt]
+mass = 1.0
+inertia = 1.0
+velocity = [0.1, 0.0]
+
+[joints.rail]
+type = "translational"
+between = ["ground", "belt"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+axis = [1.0, 0.0]
+
+[joints.motor]
+type = "driver"
+joint = "rail"
+value = "0.1*t"
+"""
+BLOCK = """
+[bodies.NAME]
+mass = 1.0
+inertia = 1.0
+velocity = [0.1, 0.0]
+
+[joints.on_NAME]
+type = "translational"
+between = ["belt", "NAME"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+axis = [1.0, 0.0]
+friction = { static = STATIC, sliding = SLIDING }
+
+[forces.spring_NAME]
+type = "force"
+body = "NAME"
+force = ["FORCE", 0.0]
+"""
+#: Period, and duration of a slip, of a block of 1 kg on a spring of 100 N/m: static 6 N, sliding 4 N.
+PERIOD, SLIDES, LOOSE = 0.8068887871591406, 0.4068887871591406, 0.6
+#: Transitions of two blocks, ground - 100 N/m - a - 60 N/m - b, static 6 and 5 N, sliding 4 and 3 N, by matrix
+#: exponentials with 34 digits: the first ones and the 39th.
+TWO = (
+    *((0.6, "on_a.slip"), (0.90788428598005780312, "on_a.stick"), (1.3078842859800578031, "on_a.slip")),
+    *((1.5456694645680470859, "on_b.slip"), (1.6199173686982691934, "on_a.stick")),
+    *((1.7641109426474493103, "on_a.slip"), (2.1072286814774374223, "on_a.stick")),
+    (2.3224956946429597024, "on_b.stick"),
+)
+LAST_OF_TWO = 11.765884035763298434
+
+WHEEL = """
+[mechanism]
+name = "dry-wheel"
+
+[inputs]
+torque = 0.0
+
+[bodies.wheel]
+mass = 1.0
+inertia = 2.0
+
+[joints.axle]
+type = "revolute"
+between = ["ground", "wheel"]
+at = [[0.0, 0.0], "centre"]
+friction = { static = 1.5, sliding = 1.0, viscous = 0.2 }
+
+[forces.motor]
+type = "torque"
+body = "wheel"
+torque = "torque"
+"""
+
+#: A block of 1 kg on a ramp; a coefficient of 0.5 times its constant normal force.
+RAMP = """
+[mechanism]
+name = "ramp"
+gravity = ["9.81*sin(slope)", "-9.81*cos(slope)"]
+
+[parameters]
+slope = 0.4
+
+[bodies.block]
+mass = 1.0
+inertia = 1.0
+
+[joints.ramp]
+type = "translational"
+between = ["ground", "block"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+axis = [1.0, 0.0]
+friction = { sliding = "0.5*9.81*cos(slope)" }
+"""
+
+
+@cache
+def described(text: str) -> Mechanism:
+    return validate(parse_toml(text, "file.toml"), "file.toml")
+
+
+@cache
+def blocks(*names: str) -> Mechanism:
+    bounds = {"a": ("6.0", "4.0"), "b": ("5.0", "3.0")}
+    forces = {"a": "-160*a.x + 60*b.x" if "b" in names else "-100*a.x", "b": "60*a.x - 60*b.x"}
+    parts = [
+        BLOCK.replace("NAME", name)
+        .replace("STATIC", bounds[name][0])
+        .replace("SLIDING", bounds[name][1])
+        .replace("FORCE", forces[name])
+        for name in names
+    ]
+    return described(BELT + "".join(parts))
+
+
+@cache
+def four_bar(torque: float) -> Mechanism:
+    """Return the four-bar of the catalogue with the same dry torque in all of its pins."""
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    for joint in raw["joints"].values():
+        joint["friction"] = {"sliding": torque}
+    return validate(raw, source)
+
+
+def ready(mechanism: Mechanism, until: float, integrator: str = "dop853", **settings: Any) -> Prepared:
+    steps = {"step": 4e-3} if integrator == "rk4" else {"rtol": 1e-12, "atol": 1e-12}
+    return prepare(mechanism, Settings(integrator=integrator, until=until, verify=False, **steps | settings))
+
+
+def changes(outcome: Any) -> list[tuple[float, str]]:
+    return [(event.t, event.name) for event in outcome.happened]
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(
+    ("integrator", "most"), [("dop853", 1e-11), ("picard", 1e-11), ("radau5", 1e-11), ("rk4", 1e-5)]
+)
+def test_a_pendulum_turns_round_and_rests_where_energies_say(integrator: str, most: float, coordinates: str) -> None:
+    run = ready(described(PIN), 14.0, integrator, coordinates=coordinates)
+    outcome = run.of_bodies(run.integrate())
+    assert outcome.reason == ""
+    assert [name for _, name in changes(outcome)] == ["pin.reverse"] * 8 + ["pin.stick"]
+    place = [c.name for c in outcome.compiled.info.coordinates].index("bob.theta")
+    signs = np.where(np.arange(9) % 2, 1.0, -1.0)
+    at_events = [event.state[place] for event in outcome.happened]
+    np.testing.assert_allclose(at_events, signs * TURNS, rtol=0, atol=most)
+    assert abs(outcome.states[-1][place] + TURNS[-1]) < most
+
+
+def test_at_rest_nothing_creeps() -> None:
+    mechanism = described(PIN)
+    ends = [ready(mechanism, until, "dop853").integrate().states[-1] for until in (14.0, 1000.0)]
+    np.testing.assert_allclose(ends[1][2], ends[0][2], rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize(("integrator", "most"), [("dop853", 1e-11), ("picard", 1e-11), ("radau5", 1e-11)])
+def test_a_block_on_a_belt_slips_and_sticks_with_its_period(integrator: str, most: float) -> None:
+    count = 10
+    outcome = ready(blocks("a"), count * PERIOD, integrator).integrate()
+    times = [LOOSE + i * PERIOD + more for i in range(count) for more in (0.0, SLIDES)][:-1]
+    assert [name for _, name in changes(outcome)] == (["on_a.slip", "on_a.stick"] * count)[:-1]
+    np.testing.assert_allclose([t for t, _ in changes(outcome)], times, rtol=0, atol=most)
+    assert outcome.energy_drift_max < 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5"])
+def test_a_hundred_periods_on_the_belt(integrator: str) -> None:
+    outcome = ready(blocks("a"), 100 * PERIOD, integrator).integrate()
+    times = [LOOSE + i * PERIOD + more for i in range(100) for more in (0.0, SLIDES)][:-1]
+    np.testing.assert_allclose([t for t, _ in changes(outcome)], times, rtol=0, atol=1e-11)
+
+
+def test_constant_steps_keep_their_order() -> None:
+    errors = []
+    for step in (1e-2, 5e-3, 2.5e-3):
+        outcome = ready(blocks("a"), 5 * PERIOD, "rk4", step=step).integrate()
+        times = [LOOSE + i * PERIOD + more for i in range(5) for more in (0.0, SLIDES)][:-1]
+        errors.append(np.abs(np.array([t for t, _ in changes(outcome)]) - times).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert ((orders > 3.8) & (orders < 4.2)).all()
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_two_blocks_with_static_bounds_above_sliding(coordinates: str) -> None:
+    outcome = ready(blocks("a", "b"), 11.8, coordinates=coordinates).integrate()
+    found = changes(outcome)
+    assert len(found) == 39
+    assert [name for _, name in found[: len(TWO)]] == [name for _, name in TWO]
+    np.testing.assert_allclose([t for t, _ in found[: len(TWO)]], [t for t, _ in TWO], rtol=0, atol=1e-11)
+    assert found[-1][1] == "on_a.slip"
+    assert abs(found[-1][0] - LAST_OF_TWO) < 1e-10
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_dry_pins_of_a_four_bar(coordinates: str) -> None:
+    """Four rows with one freedom: event-driven reference in minimal coordinates."""
+    run = ready(four_bar(4.0), 23.0, coordinates=coordinates)
+    outcome = run.of_bodies(run.integrate())
+    assert outcome.reason == ""
+    crank = np.array([(event.t, event.state[2]) for event in outcome.happened if event.name == "A.reverse"])
+    assert len(crank) == 14
+    np.testing.assert_allclose(crank[:3, 1], [-4.242432891245, -0.089570122007, -3.745894429012], rtol=0, atol=1e-10)
+    assert abs(crank[0, 0] - 2.77380012222) < 1e-10
+    rest = [event for event in outcome.happened if event.name == "A.stick"]
+    assert [round(event.t, 8) for event in rest] == [21.49132611]
+    assert abs(outcome.states[-1][2] + 2.07596285039) < 1e-10
+    assert np.abs(outcome.states[-1][9:18]).max() < 1e-9
+
+
+def test_the_threshold_of_a_four_bar_at_rest() -> None:
+    """Force along the crank -24.125 N m, rates 1, -1.188, 0.434, 0.246: 8.412707676783 N m in each pin hold it."""
+    for torque, moves in ((8.5, False), (8.41270768, False), (8.41270767, True), (8.4, True)):
+        outcome = ready(four_bar(torque), 0.5).integrate()
+        assert (outcome.states[-1][2] != outcome.states[0][2]) == moves
+        assert not outcome.happened
+
+
+def test_an_input_that_jumps_beyond_the_bound() -> None:
+    """Torque 2 N m from 0.3 to 0.31 s against 1 N m in motion and 0.2 N m s: slips at 0.3 s, then comes to rest."""
+    model = symgen.load(described(WHEEL))
+    torque = "piecewise(t < 0.3, 0.5, t < 0.31, 2.0, 0.5)"
+    result = model.simulate(
+        until=1.0, inputs={"torque": torque}, integrator="dop853", rtol=1e-12, times=[0.2, 0.305, 1.0]
+    )
+    fast = 5.0 * (1.0 - np.exp(-0.1 * 0.01))
+    rest = 0.31 + 10.0 * np.log((fast + 2.5) / 2.5)
+    assert [event.name for event in result.events] == ["axle.slip", "axle.stick"]
+    np.testing.assert_allclose([event.t for event in result.events], [0.3, rest], rtol=0, atol=1e-11)
+    np.testing.assert_array_equal(result.outputs["axle.mode"], [0.0, 1.0, 0.0])
+    rate = 5.0 * (1.0 - np.exp(-0.1 * 0.005))
+    np.testing.assert_allclose(result.outputs["axle.force"], [-0.5, -1.0 - 0.2 * rate, -0.5], rtol=1e-9)
+
+
+def test_inputs_of_steps_change_modes() -> None:
+    run = symgen.load(described(WHEEL)).start(integrator="dop853", step=0.01)
+    for _ in range(30):
+        run.step(0.01, {"torque": 0.5})
+    assert run.v["wheel.omega"] == 0.0
+    run.step(0.01, {"torque": 2.0})
+    assert abs(run.v["wheel.omega"] - 5.0 * (1.0 - np.exp(-0.1 * 0.01))) < 1e-9
+    for _ in range(30):
+        run.step(0.01, {"torque": 0.5})
+    assert [event.name for event in run.events] == ["axle.slip", "axle.stick"]
+    assert abs(run.events[0].t - 0.3) < 1e-14
+
+
+def test_the_critical_angle_of_a_ramp() -> None:
+    critical = float(np.arctan(0.5))
+    for slope, moves in ((critical - 1e-9, False), (critical + 1e-9, True)):
+        outcome = ready(described(RAMP), 1.0, parameters={"slope": slope}).integrate()
+        assert (outcome.states[-1][0] != 0.0) == moves
+
+
+def test_parameters_that_are_set_change_modes() -> None:
+    run = symgen.load(described(RAMP)).start(integrator="dop853", step=0.01)
+    run.step(0.01)
+    run.set(slope=0.5)
+    run.step(0.01)
+    down = 9.81 * (np.sin(0.5) - 0.5 * np.cos(0.5)) * 0.01
+    assert abs(run.v["block.vx"] - down) < 1e-12
+    assert [event.name for event in run.events] == ["ramp.slip"]
