@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.compiling.events import compile_events, effects_of
 from symgen.describe.events import RESET
+from symgen.describe.friction import MODE
 from symgen.effects.effects import Effects
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
@@ -202,12 +203,14 @@ class SingleRuns:
 def note_events(row: Array, outcome: Outcome, code: int) -> None:
     """Write the events of a run into its numbers (`symgen.layout.ensemble_abi`)."""
     watch = outcome.simulation.events
-    if watch is None:
+    if watch is None or not len(row):  # of modes alone, which are counted nowhere
         return
     numbers = {name: i for i, name in enumerate(watch.watched.names)}
     row[:] = np.nan
     row[e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
     for event in outcome.happened:
+        if event.action == MODE:
+            continue
         at = e.HEAD_OF_EVENTS + e.OF_EVENT * numbers[event.name]
         row[at] += 1.0
         row[at + 1] = event.t if np.isnan(row[at + 1]) else row[at + 1]

@@ -16,6 +16,7 @@ from symgen.compiling.looped import kernel_stems
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
+from symgen.describe.formula_text import to_text
 from symgen.describe.topology import state_names
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
@@ -181,6 +182,7 @@ def facts_of(whole: Mechanism, settings: Settings, with_method: bool) -> dict[st
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
+        **({"friction": _frictions(mechanism)} if mechanism.frictions else {}),
         "dropped_rows": list(equations.dropped_rows),
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
@@ -294,6 +296,20 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
     }
 
 
+def _frictions(mechanism: Mechanism) -> list[dict[str, Any]]:
+    """Return the dry friction of a mechanism: rows with bounds."""
+    return [
+        {
+            "name": x.name,
+            "row": x.row,
+            "unit": "N m" if x.unit == "rad" else "N",
+            **{key: to_text(getattr(x, key)) for key in ("static", "sliding", "viscous")},
+            "stribeck_speed": None if x.stribeck_speed is None else to_text(x.stribeck_speed),
+        }
+        for x in mechanism.frictions
+    ]
+
+
 def as_text(facts: dict[str, Any]) -> str:
     """Return the text of ``symgen inspect``."""
     sizes, lines = facts["sizes"], list[str]()
@@ -323,6 +339,11 @@ def as_text(facts: dict[str, Any]) -> str:
         ]
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
+    for x in facts.get("friction", ()):
+        viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
+        stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
+        at_rest = f"row {x['row']} in force at rest up to {x['static']} {x['unit']}"
+        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}")
     section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
     lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]

@@ -40,6 +40,8 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 _AT_BOUND = 1.0 - 1e-9
 #: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
 DEPENDENT, _NO_FACTOR = 1e-11, 1e-9
+#: Assumed step until an adaptive run has chosen one, as a part of the run.
+FIRST = 1e-3
 #: Places of the numbers of a row.
 HELD, CONSTANT, SIGN, LIMIT = range(4)
 
@@ -265,13 +267,19 @@ class Transitions:
         modes = self.simulation.compiled.modes(w)
         modes[self._places] = 0.0
         modes[self._places, SIGN] = signs
+        if w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
+            span = self.simulation.span
+            w[abi.STEP_STATUS] = span.step if span.step > 0.0 else FIRST * span.duration
         self._y[:] = state.y
         self._counters[:] = state.iw
         rates, confirm = self._rates
         if rates(now) != 0:
             confirm(now)
         state.control[abi.EVALUATIONS] += 1
-        return self.frictions.accelerations(now, self._y, state.p, w, self._rate)
+        result: Array = self.frictions.accelerations(now, self._y, state.p, w, self._rate)
+        if not np.isfinite(result).all():
+            raise InputError("friction", "accelerations that are finite", f"others at t = {now:.6g} s")
+        return result
 
     @cached_property
     def _scratch(self) -> Array:

@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.describe.load import parse_toml, read_raw
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
 from symgen.running.prepare import Prepared, prepare
 
 #: A mass of 1 kg at 1 m with a dry torque of 0.5 N m, from rest at 1 rad.
@@ -301,3 +304,101 @@ def test_parameters_that_are_set_change_modes() -> None:
     down = 9.81 * (np.sin(0.5) - 0.5 * np.cos(0.5)) * 0.01
     assert abs(run.v["block.vx"] - down) < 1e-12
     assert [event.name for event in run.events] == ["ramp.slip"]
+
+
+#: Methods with other integrators than dop853, their settings, and the accuracy that they reach.
+OTHERS: dict[str, tuple[str, dict[str, float], float]] = {
+    "braun-goldfarb": ("rk4", {"step": 2e-3}, 1e-6),
+    "generalized-alpha": ("generalized-alpha", {"step": 2e-3}, 1e-5),
+    "ggl": ("radau5", {"rtol": 1e-10, "atol": 1e-10}, 1e-9),
+    "half-explicit": ("half-explicit", {"step": 2e-3}, 0.0),
+    "implicit-constraint": ("symplectic-euler", {"step": 2e-3}, 0.0),
+    "index3-augmented-lagrangian": ("trapezoidal", {"step": 2e-3}, 0.0),
+    "penalty": ("rk4", {"step": 1e-3}, 1e-6),
+    "rattle": ("rattle", {"step": 2e-3}, 0.0),
+}
+
+
+@pytest.mark.parametrize("method", METHODS.names)
+def test_every_method_finds_the_rest_angle_or_says_why_not(method: str) -> None:
+    integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
+    settings = Settings(method=method, integrator=integrator, until=14.0, verify=False, coordinates="absolute", **steps)
+    try:
+        outcome = prepare(described(PIN), settings).integrate()
+    except InputError as error:
+        assert "where rows may be off" in str(error)
+        return
+    if outcome.reason:
+        assert "max_violation" in outcome.reason
+    else:
+        assert [event.name for event in outcome.happened] == ["pin.reverse"] * 8 + ["pin.stick"]
+        assert abs(outcome.states[-1][2] + TURNS[-1]) < most
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+def test_every_integrator_turns_round(integrator: str) -> None:
+    method = integrator if integrator in METHODS.names else "direct-correction"
+    try:
+        outcome = prepare(
+            described(PIN),
+            Settings(method=method, integrator=integrator, until=3.5, step=2e-3, verify=False, coordinates="absolute"),
+        ).integrate()
+    except InputError as error:
+        assert "where rows may be off" in str(error)
+        return
+    assert outcome.reason == ""
+    signs = np.array([-1.0, 1.0, -1.0])
+    at_events = [event.state[2] for event in outcome.happened]
+    assert len(at_events) == 2
+    np.testing.assert_allclose(at_events, (signs * TURNS[:3])[:2], rtol=0, atol=3e-2)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
+    text = PIN.replace("[bodies.bob]", "[parameters]\ntorque = 0.5\n\n[bodies.bob]").replace("= 0.5 }", '= "torque" }')
+    model, torques = symgen.load(described(text)), (0.4, 0.5, 0.7)
+    settings = {"integrator": "dop853", "until": 12.0, "coordinates": coordinates, "times": [12.0]}
+    rows = model.sweep({"torque": list(torques)}, **settings)["bob.theta"][:, -1]
+    alone = [model.simulate(parameters={"torque": x}, verify=False, **settings).q["bob.theta"][-1] for x in torques]
+    assert rows.tolist() == alone
+
+
+def test_a_run_goes_on_from_the_last_state_of_another() -> None:
+    model = symgen.load(described(PIN))
+    settings = {"integrator": "dop853", "rtol": 1e-11, "verify": False, "coordinates": "absolute"}
+    whole = model.simulate(until=5.0, times=[5.0], **settings)
+    first = model.simulate(until=3.0, times=[3.0], **settings)
+    second = model.simulate(until=5.0, times=[5.0], start=first, **settings)
+    assert abs(second.q["bob.theta"][-1] - whole.q["bob.theta"][-1]) < 1e-11
+    assert [event.name for event in (*first.events, *second.events)] == [event.name for event in whole.events]
+
+
+def test_a_stribeck_curve_and_viscous_friction() -> None:
+    """The speed of a wheel under a constant torque is where torque and friction agree."""
+    keys = "friction = { static = 1.5, sliding = 1.0, viscous = 0.2, stribeck_speed = 2.0 }"
+    text = WHEEL.replace("friction = { static = 1.5, sliding = 1.0, viscous = 0.2 }", keys)
+    model = symgen.load(described(text))
+    settings = {"until": 400.0, "times": [400.0], "integrator": "dop853", "rtol": 1e-11, "atol": 1e-12}
+    fast = model.simulate(inputs={"torque": 2.0}, **settings).v["wheel.omega"][-1]
+    assert abs(1.0 + 0.5 * np.exp(-((fast / 2.0) ** 2)) + 0.2 * fast - 2.0) < 1e-9
+    assert model.simulate(inputs={"torque": 1.49}, **settings).v["wheel.omega"][-1] == 0.0
+
+
+def test_a_reset_has_no_impulse_of_friction() -> None:
+    """A stop of half a wheel's speed: friction, at rest or not, takes no part in it; behind it modes are new."""
+    event = '\n[events.kick]\nwhen = "t > 0.5"\nreset = { "wheel.omega" = 1.0 }\n'
+    model = symgen.load(described(WHEEL + event))
+    result = model.simulate(until=9.0, integrator="dop853", rtol=1e-12, times=[0.7, 9.0])
+    assert [event.name for event in result.events] == ["kick", "axle.slip", "axle.stick"]
+    assert abs(result.v["wheel.omega"][0] - (6.0 * np.exp(-0.1 * 0.2) - 5.0)) < 1e-10
+    assert abs(result.events[2].t - (0.5 + 10.0 * np.log(6.0 / 5.0))) < 1e-10
+
+
+def test_inspect_shows_rows_with_bounds() -> None:
+    facts = symgen.load(blocks("a")).inspect().facts
+    assert facts["friction"] == [
+        {
+            **{"name": "on_a", "row": "on_a.friction", "unit": "N", "static": "6.0", "sliding": "4.0"},
+            **{"viscous": "0.0", "stribeck_speed": None},
+        }
+    ]
