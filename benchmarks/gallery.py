@@ -140,12 +140,13 @@ def measure(entry: CatalogueEntry) -> None:
 
 
 def draw(entry: CatalogueEntry) -> None:
-    """Draw an entry in motion, from a run in the shape of code that all mechanisms share."""
+    """Draw an entry in motion, from a run in the shape of code that all mechanisms without friction share."""
     from symgen.drawing import Drawing
 
     own, model = choice(entry.name), load(model_name(entry))
     window = own.window * (own.until or model.mechanism.defaults.until)
-    result = model.simulate(method="direct-correction", until=window, shape="looped")
+    shape = "straight" if model.mechanism.has_modes else "looped"
+    result = model.simulate(method="direct-correction", until=window, shape=shape)
     picture = Drawing.of_motion(model.mechanism, result.q.values, result.parameters)
     free = any(point.free for point in traced_points(model.mechanism, model.parameters()))
     what = "paths of points that no joint ties" if free else "paths of the centres of mass"

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET, STOP
+from symgen.describe.friction import refuse_friction
 from symgen.describe.readings import TABLES as FORMULAS
 from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
@@ -56,6 +57,7 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
     InputError
         If the scheme, the shape of the code or the start has no directions; says what works instead.
     """
+    refuse_friction("sensitivities", mechanism)
     notes = list[str]()
     if settings.shape == "auto":
         settings = replace(settings, shape="straight")
