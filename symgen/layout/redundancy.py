@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.layout import abi
-from symgen.layout.scales import VANISHED, entry_of
+from symgen.layout.scales import VANISHED, entry_of, row_weight
 from symgen.layout.start_records import LAYOUT
 from symgen.loopcode.exact import exact
 from symgen.native import types
@@ -39,6 +39,12 @@ LARGEST = 250_000
 def is_off(layout: Any, row: int, w: Any) -> bool:
     """Whether a row is off."""
     return not (layout.switches[row] < 0 or w[layout.switches[row]] != 0.0)
+
+
+@exact()
+def weight_in_force(layout: Any, w: Any, i: int) -> float:
+    """Return the factor that makes a row of Phi a length, 0 where the row is off."""
+    return 0.0 if is_off(layout, i, w) else float(row_weight(layout, w, i))
 
 
 @exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))

@@ -12,7 +12,7 @@ from typing import Any
 from symgen.ir.numerics import SKIP
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.redundancy import choose_rows, farthest, is_off
+from symgen.layout.redundancy import choose_rows, farthest, is_off, weight_in_force
 from symgen.layout.scales import (
     VANISHED,
     coarseness_of,
@@ -47,7 +47,7 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
         square = 0.0
         for i in range(layout.m):
             right[i] = -w[layout.residual + i]
-            square += (row_weight(layout, w, i) * right[i]) ** 2
+            square += (weight_in_force(layout, w, i) * right[i]) ** 2
         size, length = math.sqrt(square), larger(w[abi.LENGTH], extent_of(layout, y))
         stalled = stalled + 1 if size > 0.5 * best else 0
         best = size if size < best else best
@@ -103,7 +103,7 @@ def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, velociti
         return int(e.ASSEMBLED)
     speed = speed_of(layout, w, v)
     for i in range(layout.m):  # of drivers
-        speed = larger(speed, row_weight(layout, w, i) * abs(w[layout.nu + i]))
+        speed = larger(speed, weight_in_force(layout, w, i) * abs(w[layout.nu + i]))
     _velocity_violation(layout, now, work)
     size = _correct_velocities(closing, layout, now, work)
     if size <= decisions.VELOCITIES_FIT * speed:
@@ -131,7 +131,7 @@ def _velocity_violation(layout: Any, now: Any, work: Any) -> float:
     multiply(layout, w, part(now.y, layout.nq, layout.nv), right)
     for i in range(layout.m):
         right[i] = w[layout.nu + i] - right[i]
-        square += (row_weight(layout, w, i) * right[i]) ** 2
+        square += (weight_in_force(layout, w, i) * right[i]) ** 2
     return math.sqrt(square)
 
 

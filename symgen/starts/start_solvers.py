@@ -17,6 +17,7 @@ import math
 from typing import Any
 
 from symgen.layout import abi
+from symgen.layout.redundancy import weight_in_force
 from symgen.layout.scales import entry_of, free_scale, row_weight
 from symgen.layout.start_records import SOLVE, TURNS
 from symgen.loopcode.bare import part
@@ -34,9 +35,9 @@ def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     for k in range(layout.constants.shape[0]):
         row, column = entries[3 * k], entries[3 * k + 1]
         value = entry_of(layout, w, k) * scale[column]
-        numbers[row * n + column] = row_weight(layout, w, row) * value
+        numbers[row * n + column] = weight_in_force(layout, w, row) * value
     for i in range(m):
-        work.right[i] *= row_weight(layout, w, i)
+        work.right[i] *= weight_in_force(layout, w, i)
     rank = least_norm(numbers, m, n, work.right, x, part(numbers, m * n, m * min(m, n) + m + n), work.order)
     for j in range(n):
         x[j] *= scale[j]
@@ -73,7 +74,7 @@ def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     product = part(work.numbers, 2 * n, m)
     size = first = 0.0
     for i in range(m):
-        right[i] *= row_weight(layout, w, i)
+        right[i] *= weight_in_force(layout, w, i)
     for k in range(decisions.ITERATIONS_A_ROW * m + decisions.ITERATIONS_AT_LEAST):
         _multiply_transposed(layout, w, right, gradient)
         before, size = size, 0.0
@@ -89,7 +90,7 @@ def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
         multiply(layout, w, gradient, product)
         square = 0.0
         for i in range(m):
-            product[i] *= row_weight(layout, w, i)
+            product[i] *= weight_in_force(layout, w, i)
             square += product[i] * product[i]
         for i in range(m):
             right[i] -= size / square * product[i]
@@ -114,7 +115,7 @@ def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
         result[j] = 0.0
     for k in range(layout.constants.shape[0]):
         row = layout.entries[3 * k]
-        result[layout.entries[3 * k + 1]] += entry_of(layout, w, k) * (row_weight(layout, w, row) * y[row])
+        result[layout.entries[3 * k + 1]] += entry_of(layout, w, k) * (weight_in_force(layout, w, row) * y[row])
 
 
 @exact()

@@ -15,6 +15,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
+from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
 
 #: A mass of 1 kg at 1 m with a dry torque of 0.5 N m, from rest at 1 rad.
@@ -402,3 +403,18 @@ def test_inspect_shows_rows_with_bounds() -> None:
             **{"viscous": "0.0", "stribeck_speed": None},
         }
     ]
+
+
+def test_starts_are_those_without_friction() -> None:
+    """Rows at rest are off while a mechanism is closed and its velocities are completed."""
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    raw["bodies"]["crank"]["angular_velocity"] = 0.7
+    raw["bodies"]["coupler"]["angle"] = 0.3
+    plain = prepare(validate(raw, source), Settings(until=1.0), Purpose.STATE).start
+    for joint in raw["joints"].values():
+        joint["friction"] = {"sliding": 4.0}
+    dry = prepare(validate(raw, source), Settings(until=1.0), Purpose.STATE).start
+    np.testing.assert_allclose(dry.y, plain.y, rtol=0, atol=1e-13)
+    held = prepare(validate(raw, source), Settings(until=1.0, start={"A.angle": 1.0}), Purpose.STATE).start
+    assert abs(held.y[2] - 1.0) < 1e-12
