@@ -43,7 +43,7 @@ class MethodParameter:
 
 @dataclass(frozen=True)
 class MethodOption:
-    """A choice that changes the emitted code.
+    """A choice, usually one that changes the emitted code.
 
     Parameters
     ----------
@@ -51,11 +51,14 @@ class MethodOption:
         `note` describes its effect.
     values : tuple of str
         The first one is the default.
+    emitted : bool
+        Whether the emitted code depends on it; if not, it sets parameters of a run.
     """
 
     name: str
     values: tuple[str, ...]
     note: str
+    emitted: bool = True
 
 
 @dataclass(frozen=True)
@@ -226,7 +229,7 @@ class Method(ABC):
         return Correction()
 
     def complete_options(self, values: Mapping[str, str]) -> dict[str, str]:
-        """Return the structural options, completed by the defaults.
+        """Return the options that the emitted code depends on, completed by the defaults.
 
         Raises
         ------
@@ -247,7 +250,7 @@ class Method(ABC):
                     f"'{value}'",
                     nearest(value, options[name].values),
                 )
-        return {o.name: values.get(o.name, o.values[0]) for o in self.options}
+        return {o.name: values.get(o.name, o.values[0]) for o in self.options if o.emitted}
 
     def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
         """Whether the method excludes massless bodies."""
@@ -258,7 +261,7 @@ class Method(ABC):
 
         For a method from outside the package it includes a digest of the code.
         """
-        chosen = (options[o.name] for o in self.options if options[o.name] != o.values[0])
+        chosen = (options[o.name] for o in self.options if o.emitted and options[o.name] != o.values[0])
         parts = [self.name, *chosen, *(("implicit",) if implicit else ()), *_version(type(self))]
         return "_".join(parts).replace("-", "_")
 

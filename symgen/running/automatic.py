@@ -264,6 +264,19 @@ def slow_steps(run: Prepared) -> float:
     return float(slow) / max(float(steps), 0.5 * TRIAL)
 
 
+def rate_of_motion(run: Prepared) -> float | None:
+    """Return rms(v') / rms(v) over the outputs of a run [1/s], None where nothing moves.
+
+    Angular velocities count as speeds, in the metric of the mechanism's lengths, so that units do not matter.
+    """
+    outcome = run.of_bodies(run.integrate())
+    weights = outcome.compiled.section(outcome.w, "gauge")
+    _, v = outcome.compiled.info.parts(outcome.states)
+    speeds, changes = (float(np.sum(np.square(x) / weights)) for x in (v, outcome.accelerations))
+    rate = np.sqrt(changes / speeds) if speeds > 0.0 else np.inf
+    return float(rate) if np.isfinite(rate) and rate > 0.0 else None
+
+
 def constant_integrator(method: str, where: str = "method") -> str:
     """Return the integrator that studies take a method with: `CONSTANT`, or its own where it solves another form."""
     chosen = METHODS.get(method, where)

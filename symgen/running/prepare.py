@@ -8,16 +8,31 @@ sweeps, comparisons, cells of stress studies, references, analyses, pages and co
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from symgen.base.errors import AssemblyError
 from symgen.base.memory import uncollected
 from symgen.base.settings import about
 from symgen.describe.holds import holds_of
 from symgen.layout.start_records import Instant
-from symgen.running.automatic import AUTO, SLOW, STRUCTURAL, TOGETHER, decide, facts_of, slow_steps, trial_of
+from symgen.methods import METHODS
+from symgen.methods.baumgarte import MOTION
+from symgen.running.automatic import (
+    AUTO,
+    SLOW,
+    STRUCTURAL,
+    TOGETHER,
+    decide,
+    facts_of,
+    rate_of_motion,
+    slow_steps,
+    trial_of,
+)
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
@@ -29,7 +44,7 @@ from symgen.starts.kept import KeptTree
 from symgen.starts.start_words import turned_over
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Hold, Mechanism
@@ -39,6 +54,9 @@ if TYPE_CHECKING:
     from symgen.runs.run import Array
     from symgen.starts.assembly import Start
     from symgen.starts.tree_start import Carried
+
+#: Time over which the rate of a motion is taken [s].
+FIRST = 1.0
 
 
 @dataclass(frozen=True)
@@ -218,17 +236,19 @@ def preparation(
 
     An automatic choice compiles code and closes the start; they serve the run too if the choice leaves them valid.
     """
+    settings, gains = _gained(mechanism, settings)
     inputs = put_inputs(mechanism, settings)
     mechanism, settings = inputs.mechanism, inputs.settings
     if settings.integrator is None and mechanism.defaults.integrator is not None:
         settings = replace(settings, integrator=mechanism.defaults.integrator)
     if AUTO not in (settings.method, settings.integrator):
-        return Preparation(resolved(inputs, settings, purpose), near)
+        return Preparation(resolved(inputs, settings, purpose, gains), near)
     trial = trial_of(mechanism, settings)
     plan = resolved(inputs, trial, purpose)
     assembled = code_and_start(plan, near)
     facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
     method, integrator, notes = decide(facts, settings.method, settings.integrator)
+    notes = *gains, *notes
     if method == STRUCTURAL and settings.method == AUTO:
         options = {**settings.options, "integrator.adaptive": "true"}
         settings = replace(settings, method=method, integrator=integrator, options=options)
@@ -239,9 +259,36 @@ def preparation(
         facts = replace(facts, slow=slow_steps(begin(chosen, same)))
         if facts.slow > SLOW:
             _, integrator, notes = decide(facts, settings.method, settings.integrator)
+            notes = *gains, *notes
             chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
             same = assembled if chosen.choice == plan.choice else None
     return Preparation(chosen, near, same)
+
+
+def _gained(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
+    """Return the settings with the gains of ``rule=motion``, and a note; others as they are.
+
+    The motion is that of a short run by another method, whose gains can be no part of it.
+    """
+    method = None if settings.method == AUTO else METHODS.get(settings.method, "method")
+    rules = [] if method is None else [o for o in method.options if o.name == "rule" and MOTION in o.values]
+    keys = [] if method is None else [f"{owner}.rule" for owner in dict.fromkeys(("method", method.name))]
+    if method is None or not rules or MOTION not in (settings.options.get(key) for key in keys):
+        return settings, ()
+    begin_at = 0.0 if isinstance(settings.start, Mapping) else settings.start.last_state.t
+    until = min(begin_at + FIRST, mechanism.defaults.until if settings.until is None else settings.until)
+    plain: dict[str, Any] = {"step": None, "rtol": 1e-6, "atol": None, "options": {}, "coordinates": "absolute"}
+    short: dict[str, Any] = {"until": until, "times": np.linspace(begin_at, until, 201).tolist(), "output_step": None}
+    first = replace(settings, method="direct-correction", integrator="dop853", **plain, **short)
+    rate = rate_of_motion(prepare(mechanism, first))
+    options = {key: value for key, value in settings.options.items() if key not in keys}
+    if rate is None:
+        return replace(settings, options=options), (f"rule={MOTION}: nothing moves, so that the gains stay",)
+    given = {key.partition(".")[2] for key in options}
+    gains = {f"method.{p.name}": rate for p in method.parameters if p.name not in given}
+    names = " = ".join(key.removeprefix("method.") for key in gains)
+    note = f"rule={MOTION}: {names} = {rate:.4g} 1/s, rms(v')/rms(v) of the motion from {begin_at:g} to {until:g} s"
+    return replace(settings, options=options | gains), (note,)
 
 
 def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
