@@ -41,7 +41,7 @@ FIRST = 100_000
 ORDER = (
     *("list", "new", "check", "draw", "view", "inspect", "generate", "run"),
     *("equilibrium", "modes", "linearise", "kinematics", "inverse", "identify"),
-    *("compare", "stress", "sweep", "schema", "cache", "completion"),
+    *("report", "compare", "stress", "sweep", "schema", "cache", "completion"),
 )
 
 #: Arguments of studies and sweeps that are options, beside the settings.

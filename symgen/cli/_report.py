@@ -57,7 +57,9 @@ def study_files(row: str) -> Callable[[F], F]:
         Noun for a row of the study in the help.
     """
     options = (
-        click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md."),
+        click.option(
+            *("-o", "--output"), metavar="FILE", help="Write a report: .html, .md, or .pdf printed by a browser."
+        ),
         click.option("--csv", metavar="FILE", help=f"Write the {row}s to a CSV file."),
         units_option,
         click.option(
@@ -99,7 +101,7 @@ def _report_file(text: str | None) -> Path | None:
 def command_again() -> str:
     """Return the command that makes the report again: this one without options for working files."""
     context = click.get_current_context()
-    parts = ["symgen", context.info_name or "", *context.params["models"]]
+    parts = ["symgen", context.info_name or "", *(context.params.get("models") or (context.params["model"],))]
     for parameter in context.command.params:
         value = context.params.get(parameter.name or "")
         flag = max(parameter.opts, key=len)

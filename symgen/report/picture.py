@@ -96,6 +96,16 @@ def drawn(
     return Picture(name, caption, alternative, data, kind, wide)
 
 
+def of_figure(name: str, caption: str, alternative: str, make: Callable[[], Figure]) -> Picture:
+    """Return a picture across the page, of a figure that a function makes in the style of reports."""
+    need("report", "matplotlib", extra="plot")
+    import matplotlib as mpl
+
+    with mpl.rc_context(_LOOK):
+        data, kind = _file(make())
+    return Picture(name, caption, alternative, data, kind, True)
+
+
 def _file(figure: Figure) -> tuple[bytes, str]:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 

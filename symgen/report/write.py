@@ -17,6 +17,7 @@ from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
 from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
+from symgen.report.paper import browser, print_pdf
 from symgen.study.comparison.comparison_rows import Study
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress
 
 #: Endings of reports -> the libraries needed.
-WRITTEN: Mapping[str, tuple[str, ...]] = {".html": ("matplotlib",), ".md": ("matplotlib",)}
+WRITTEN: Mapping[str, tuple[str, ...]] = {".html": ("matplotlib",), ".md": ("matplotlib",), ".pdf": ("matplotlib",)}
 
 
 def check_report(where: str, path: Path) -> None:
@@ -37,6 +38,8 @@ def check_report(where: str, path: Path) -> None:
         If the ending is not known, matplotlib is missing, or the file cannot be written.
     """
     check_path(where, path, WRITTEN, "plot")
+    if path.suffix.lower() == ".pdf":
+        browser(where)
     if path.suffix.lower() == ".md" and _folder(path).exists() and not _folder(path).is_dir():
         raise InputError(where, f"'{_folder(path)}' to be a folder, for the pictures", "a file of that name")
 
@@ -49,11 +52,14 @@ def write(document: Document, path: Path) -> Path:
     document : Document
         The report.
     path : Path
-        ``.html``: one file that opens without a network; ``.md``: pictures go into the folder ``NAME-files`` beside it.
+        ``.html``: one file that opens without a network; ``.pdf``: the same, printed by a browser; ``.md``:
+        pictures go into the folder ``NAME-files`` beside it.
     """
     check_report("report", path)
     if path.suffix.lower() == ".html":
         return write_whole(path, html(document))
+    if path.suffix.lower() == ".pdf":
+        return print_pdf(html(document), path)
     folder, is_new = _folder(path), False
     files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
     try:
@@ -77,7 +83,7 @@ def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[s
     study : Study, Stress or sequence of Study
         What `symgen.compare` or the stress study returns.
     path : path
-        A ``.html`` file, which opens without a network, or ``.md`` with pictures in a folder beside it.
+        A ``.html`` file, which opens without a network, its ``.pdf``, or ``.md`` with pictures in a folder beside it.
 
     Raises
     ------

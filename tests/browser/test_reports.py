@@ -4,9 +4,11 @@ from pathlib import Path
 
 import pytest
 
+import symgen
 from symgen.report.document import Document
+from symgen.report.machine import machine
 from symgen.report.picture import sketched
-from symgen.report.write import html
+from symgen.report.write import html, write
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -29,3 +31,9 @@ def test_a_tall_sketch_is_no_taller_than_a_screen(chromium: Chromium, tmp_path: 
             "[...document.querySelectorAll('img')].every((i) => getComputedStyle(i).objectFit === 'contain')"
         )
     assert chromium.said == []
+
+
+def test_a_report_is_printed(tmp_path):
+    model = symgen.load("pendulum")
+    path = write(machine(model, model.simulate(until=0.5)), tmp_path / "pendulum.pdf")
+    assert path.read_bytes().startswith(b"%PDF") and path.stat().st_size > 20_000

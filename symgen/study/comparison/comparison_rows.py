@@ -423,7 +423,7 @@ class Study:
         return plot_rows([self], path, what, over)
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the rows to a ``.csv`` file, or the report to ``.html`` or ``.md``; whole or not at all.
+        """Write the rows to a ``.csv`` file, or the report to ``.html``, ``.pdf`` or ``.md``; whole or not at all.
 
         Raises
         ------
@@ -431,12 +431,12 @@ class Study:
             If the ending is another, matplotlib is missing for a report, or the file cannot be written.
         """
         file = argument_path("save", path)
-        if file.suffix.lower() in (".html", ".md"):
+        if file.suffix.lower() in (".html", ".md", ".pdf"):
             from symgen import write_report
 
             return write_report(self, file)
         if file.suffix.lower() != ".csv":
-            raise InputError("save", "a file ending in .csv, .html, .md", f"'{file}'")
+            raise InputError("save", "a file ending in .csv, .html, .md, .pdf", f"'{file}'")
         return save_csv([self], file)
 
 

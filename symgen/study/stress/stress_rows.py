@@ -172,7 +172,7 @@ class Stress:
         return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(StressRow)])
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the cells to a ``.csv`` file, or the report to ``.html`` or ``.md``; whole or not at all.
+        """Write the cells to a ``.csv`` file, or the report to ``.html``, ``.pdf`` or ``.md``; whole or not at all.
 
         Raises
         ------
@@ -180,12 +180,12 @@ class Stress:
             If the ending is another, matplotlib is missing for a report, or the file cannot be written.
         """
         file = argument_path("save", path)
-        if file.suffix.lower() in (".html", ".md"):
+        if file.suffix.lower() in (".html", ".md", ".pdf"):
             from symgen import write_report
 
             return write_report(self, file)
         if file.suffix.lower() != ".csv":
-            raise InputError("save", "a file ending in .csv, .html, .md", f"'{file}'")
+            raise InputError("save", "a file ending in .csv, .html, .md, .pdf", f"'{file}'")
         return save_csv(self, file)
 
 
