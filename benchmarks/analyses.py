@@ -26,7 +26,7 @@ from rich.table import Table
 import symgen
 from benchmarks.peers.analyses import CATENARY, CHAINS, FOUR_BAR, GRAVITY, SLOPE, places
 from benchmarks.show import show
-from symgen.analyses.modes import modes
+from symgen.analyses.modes import modes_about
 from symgen.analyses.places import NamedPlace, subject_at
 from symgen.base.settings import Settings
 
@@ -107,7 +107,7 @@ def own() -> list[dict[str, Any]]:
         for coordinates in ("absolute", "joint"):
             settings = Settings(coordinates=coordinates)
             subject, y = subject_at(NamedPlace(model.mechanism, settings, "equilibrium", model.simulate))
-            seconds, result = fastest(partial(modes, subject, y))
+            seconds, result = fastest(partial(modes_about, subject, y))
             call, _ = fastest(partial(model.modes, coordinates=coordinates))
             error = float(np.abs(result.omega_squared / truth - 1.0).max())
             way = f"modes, {coordinates} coordinates"

@@ -275,7 +275,7 @@ def _measured(measured: Mapping[str, Any]) -> list[str]:
     reference = measured["reference"]
     lines = ["## Measured", "", *_table(measured["rows"]), ""]
     estimated = reference["estimated_error"]
-    how = f"The reference: {reference['how']}; its own error is estimated at {words.number(estimated)} m."
+    how = f"The reference: {reference['how']}; its own error is estimated at {words.rounded(estimated)} m."
     lines += [how + (f" {words.sentence(words.readable(reference['note']))}" if reference["note"] else ""), ""]
     if any(row["below_reference"] for row in measured["rows"]):
         lines += ["\\* below the error of the reference itself.", ""]
@@ -303,7 +303,7 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         star = " \\*" if row["below_reference"] else ""
         cells = [
             *(f"`{row['method']}`", f"`{row['integrator']}`", words.setting(row["step"], row["rtol"])),
-            *(words.number(row["error"]) + star, words.seconds(row["run_seconds"]), _ratio(row)),
+            *(words.rounded(row["error"]) + star, words.seconds(row["run_seconds"]), _ratio(row)),
             row["status"],
         ]
         lines.append(f"| {' | '.join(cells)} |")
@@ -366,7 +366,7 @@ def _across() -> list[str]:
         times = [r["cost_ratio"] for r, _ in pairs if r["cost_ratio"]]
         ok = sum(row["status"] == "ok" for row, _ in pairs)
         cells = [f"`{method}`", f"`{integrator}`", str(len(pairs)), str(ok)]
-        cells += [words.number(median(errors) if errors else None), words.ratio(median(times) if times else None)]
+        cells += [words.rounded(median(errors) if errors else None), words.ratio(median(times) if times else None)]
         lines.append(f"| {' | '.join(cells)} |")
     return [*lines, ""]
 
@@ -377,7 +377,7 @@ def _best(measured: Mapping[str, Any] | None) -> str:
         return "not measured yet"
     row = min(rows, key=lambda r: float(r["error"]))
     how = f"`{row['method']}`, `{row['integrator']}`, {words.setting(row['step'], row['rtol'])}"
-    return f"{words.number(row['error'])} m in {words.seconds(row['run_seconds'])} ({how})"
+    return f"{words.rounded(row['error'])} m in {words.seconds(row['run_seconds'])} ({how})"
 
 
 def pages() -> dict[str, str]:

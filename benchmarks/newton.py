@@ -63,7 +63,7 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
         plan, numbers, size = alpha_plan(pattern)
         sources = np.zeros(size)
         sources[: pattern.size], sources[-1] = slopes, 1.0
-        sparse.multiply(plan, sources)
+        sparse.multiply_sources(plan, sources)
         coefficients = np.array([1.0, 0.5 * STEP, 0.25 * STEP**2, -0.25 * STEP**2])
     else:
         a = np.asarray(INTEGRATORS.get(integrator).a)  # type: ignore[attr-defined]  # an implicit tableau

@@ -52,7 +52,8 @@ from symgen.methods._formula import Scalar as FormulaScalar
 from symgen.methods._formula import System
 from symgen.methods._formula import Vector as FormulaVector
 from symgen.native import types
-from symgen.vocabulary.expressions import ONE, ZERO, call, number
+from symgen.vocabulary.expressions import ONE, ZERO, call
+from symgen.vocabulary.expressions import literal_of as number
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,

@@ -32,7 +32,7 @@ EVEN = 1e-9
 RANK, UNSOLVED = 1e-13, 1e-6
 
 
-def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
+def null_space_split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
     """Return an orthonormal basis of the rows' null space, their pseudo-inverse, and their dependencies.
 
     Parameters
@@ -69,7 +69,7 @@ def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
     return vt[rank:].T.copy(), inverse, left
 
 
-def apart(info: ModelInfo, a: Array, b: Array) -> Array:
+def coordinate_differences(info: ModelInfo, a: Array, b: Array) -> Array:
     """Return differences of coordinates, without whole turns, of Euler parameters with the nearer sign."""
     gaps = a[: info.nq] - b[: info.nq]
     turns = np.array([q.unit == "rad" for q in info.coordinates], dtype=np.bool_)
@@ -194,7 +194,7 @@ def rank(matrix: Array, least: float | None = None) -> int:
     return int(np.linalg.matrix_rank(matrix, tol=least)) if matrix.size else 0
 
 
-def largest(matrix: Any) -> float:
+def largest_magnitude(matrix: Any) -> float:
     """Return the largest magnitude of an element of a dense or sparse matrix, 0 of an empty one."""
     return float(abs(matrix).max()) if matrix.shape[0] else 0.0
 
@@ -221,7 +221,7 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
 
     matrix: Any
     inverse: Any
-    n, scale, sparse = stiffness.shape[0], largest(stiffness) or 1.0, issparse(stiffness)
+    n, scale, sparse = stiffness.shape[0], largest_magnitude(stiffness) or 1.0, issparse(stiffness)
     if sparse:
         matrix = bmat([[stiffness / scale, rows.T], [rows, None]], format="csc")
         try:
@@ -245,14 +245,14 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
     return solve
 
 
-def plain(value: Any) -> Any:
+def json_form(value: Any) -> Any:
     """Return a result as JSON can express it: fields that a result shows, pairs of numbers for complex ones."""
     if is_dataclass(value):
-        return {f.name: plain(getattr(value, f.name)) for f in fields(value) if f.repr}
+        return {f.name: json_form(getattr(value, f.name)) for f in fields(value) if f.repr}
     if isinstance(value, Mapping):
-        return {name: plain(x) for name, x in value.items()}
+        return {name: json_form(x) for name, x in value.items()}
     if isinstance(value, tuple):
-        return [plain(x) for x in value]
+        return [json_form(x) for x in value]
     if isinstance(value, complex):
         return [value.real, value.imag]
     if isinstance(value, np.ndarray):

@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ZERO, Complex, apart, eigenvalues_of, plain, split, squares_along, symmetric
+from symgen.analyses.algebra import (
+    ZERO,
+    Complex,
+    coordinate_differences,
+    eigenvalues_of,
+    json_form,
+    null_space_split,
+    squares_along,
+    symmetric,
+)
 from symgen.analyses.edges import edges
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, at_balance, settle
@@ -84,7 +93,7 @@ class Equilibrium:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields in types of JSON."""
-        return dict(plain(self))
+        return dict(json_form(self))
 
     def __repr__(self) -> str:
         squares = ", ".join(f"{x:.4g}" for x in self.omega_squared[:3]) + ", ..." * (len(self.omega_squared) > 3)
@@ -102,7 +111,7 @@ def judged(rest: Settled) -> Equilibrium:
     subject, y = rest.subject, rest.y
     info, e = subject.compiled.info, subject.evaluated(y)
     d = subject.rows(e)
-    inverse, dependent = split(d, subject.loads)[1:]
+    inverse, dependent = null_space_split(d, subject.loads)[1:]
     lam = -inverse.T @ e.value("balance")
     e, by_position = at_balance(subject, y, lam)
     stiffness = by_position @ e.by("motion", "v")
@@ -225,7 +234,10 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
         reached, subject, y, now = True, held.subject, held.y, (float(value), held)
         if before is not None and _changes_sign(before, now) and (rest := _between(name, before, now)) is not None:
             places = rest.subject.lengths, rest.subject.compiled.info
-            if all(np.abs(apart(places[1], other.y, rest.y) / places[0]).max(initial=0.0) >= SAME for other in rests):
+            if all(
+                np.abs(coordinate_differences(places[1], other.y, rest.y) / places[0]).max(initial=0.0) >= SAME
+                for other in rests
+            ):
                 rests.append(judged(rest))
         before = now
     if not reached:

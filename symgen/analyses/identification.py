@@ -108,9 +108,9 @@ class Fit:
 
     def to_json(self) -> dict[str, Any]:
         """Return the fit as JSON data; numbers that are not finite become None."""
-        from symgen.result.contract import finite
+        from symgen.result.contract import json_value
 
-        facts: dict[str, Any] = finite(
+        facts: dict[str, Any] = json_value(
             {
                 "parameters": dict(self.parameters),
                 "units": dict(self.units),

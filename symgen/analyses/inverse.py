@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.actuators import WHERE, actuated, balance
-from symgen.analyses.kinematics import Kinematics, kinematics
+from symgen.analyses.kinematics import Kinematics, driven_motion
 from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
 from symgen.base.errors import InputError
@@ -137,7 +137,7 @@ class Inverse(Tables):
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen inverse --json``; numbers that are not finite become None."""
-        from symgen.result.contract import finite
+        from symgen.result.contract import json_value
 
         return {
             "mechanism": self.mechanism,
@@ -146,8 +146,8 @@ class Inverse(Tables):
             "units": dict(zip(self.efforts.names, self.efforts.units, strict=True)),
             "power": self.series("power"),
             "reactions": self.series("reactions"),
-            "summary": finite(self.summary()),
-            "missing": finite(self.missing.tolist()),
+            "summary": json_value(self.summary()),
+            "missing": json_value(self.missing.tolist()),
             "not_unique": list(self.non_unique_reactions),
             "ended": self.ended or None,
             "parameters": dict(self.parameters),
@@ -158,7 +158,7 @@ class Inverse(Tables):
         return f"<Inverse dynamics of {self.mechanism} at {len(self.t)} times: {', '.join(self.efforts.names)}>"
 
 
-def inverse(
+def inverse_dynamics(
     mechanism: Mechanism,
     settings: Settings,
     motion: Any = None,
@@ -174,7 +174,7 @@ def inverse(
     drivers = drivers_of(mechanism)
     names, moved = names or drivers, None
     if motion is None:
-        moved = kinematics(mechanism, settings, times, where="inverse")
+        moved = driven_motion(mechanism, settings, times, where="inverse")
         if set(names) == set(drivers) and not weights:
             return _of_drivers(moved, names)
     elif times is not None:

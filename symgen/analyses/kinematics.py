@@ -25,7 +25,7 @@ from symgen.layout import abi
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.plot import Plot, plotted
 from symgen.result.reactions import Forces, seats
-from symgen.result.signals import accelerations, multiplier_unit
+from symgen.result.signals import acceleration_table, multiplier_unit
 from symgen.result.tables import Measured, MotionTables
 from symgen.running.outputs import multiples, output_size
 from symgen.runs.outcome import PrescribedMotion
@@ -214,7 +214,7 @@ class Kinematics(MotionTables):
         return f"<Kinematics of {self.mechanism} at {len(self.t)} times{': ' + self.ended if self.ended else ''}>"
 
 
-def kinematics(
+def driven_motion(
     mechanism: Mechanism,
     settings: Settings,
     times: ArrayLike | None = None,
@@ -278,7 +278,7 @@ def kinematics(
         t=traced.times,
         q=labelled(q, info.coordinates),
         v=velocities,
-        a=accelerations(traced.accelerations, velocities),
+        a=acceleration_table(traced.accelerations, velocities),
         transmission=transmission_angles(run.mechanism, motion, parameters, pins),
         passages=traced.passages,
         ended=traced.ended,

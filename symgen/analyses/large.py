@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, Solver, in_order, level, solver, split, summed, symmetric
+from symgen.analyses.algebra import ROUNDED, Solver, in_order, level, null_space_split, solver, summed, symmetric
 from symgen.analyses.edges import edges
 from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
 from symgen.analyses.modes import Modes
@@ -127,7 +127,7 @@ class Sparse(Yardsticks):
         return self
 
 
-def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Array, int]:
+def descriptor_equilibrium(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Array, int]:
     """Find the equilibrium that the start leads to: descriptor form, state, multipliers, and the steps taken.
 
     Parameters
@@ -160,7 +160,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     Parameters
     ----------
     mechanism, settings
-        As for `settled`.
+        As for `descriptor_equilibrium`.
     count : int
         Number of modes.
 
@@ -171,7 +171,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     AnalysisError
         If no equilibrium is found.
     """
-    sparse, y, lam, _ = settled(mechanism, settings)
+    sparse, y, lam, _ = descriptor_equilibrium(mechanism, settings)
     motion, mass, rows, stiffness, damping = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.active)
     if not 0 < count < free:
@@ -199,19 +199,19 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     Parameters
     ----------
     mechanism, settings
-        As for `settled`.
+        As for `descriptor_equilibrium`.
 
     Raises
     ------
     InputError, AnalysisError
-        As by `settled`.
+        As by `descriptor_equilibrium`.
     """
-    sparse, y, lam, steps = settled(mechanism, settings)
+    sparse, y, lam, steps = descriptor_equilibrium(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.active)
     if sparse.pattern.nv <= DENSE or free <= FREQUENCIES or _follows(stiffness, rows):
         small = sparse.pattern.nv <= DENSE or free > FREQUENCIES
-        basis = split(rows.toarray())[0] if small else _along(rows, free)
+        basis = null_space_split(rows.toarray())[0] if small else _along(rows, free)
         squares = reduced_squares(mass, stiffness, basis)
         stability = stability_of(squares)
     else:

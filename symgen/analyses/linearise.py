@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, Complex, eigenvalues_of, in_order, plain, squares_along, summed
+from symgen.analyses.algebra import ROUNDED, Complex, eigenvalues_of, in_order, json_form, squares_along, summed
 from symgen.analyses.edges import edges
 from symgen.analyses.reduced import StateTangent, tangent
 from symgen.analyses.steady import at_rest, named_states, system
@@ -97,7 +97,7 @@ class LinearSystem:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields in types of JSON."""
-        return dict(plain(self))
+        return dict(json_form(self))
 
     def __repr__(self) -> str:
         parts = (("states", self.states), ("inputs", self.inputs), ("outputs", self.outputs))

@@ -14,7 +14,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import plain
+from symgen.analyses.algebra import json_form
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.base.errors import InputError, SymgenError
 from symgen.describe.evaluate import parameter_values
@@ -75,7 +75,7 @@ class Locus:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields in types of JSON."""
-        return dict(plain(self))
+        return dict(json_form(self))
 
     def __repr__(self) -> str:
         first, last = self.values[[0, -1]]
@@ -130,7 +130,7 @@ class Locus:
         return figure
 
 
-def locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
+def eigenvalue_locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
     """Follow eigenvalues over a parameter; see `symgen.api.Model.locus`.
 
     Raises

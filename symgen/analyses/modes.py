@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import in_order, plain, ranking, split
+from symgen.analyses.algebra import in_order, json_form, null_space_split, ranking
 from symgen.analyses.edges import edges
 from symgen.analyses.linearise import eigenvectors, vibration
 from symgen.analyses.reduced import StateTangent, accelerations, tangent
@@ -112,8 +112,8 @@ class Modes:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields in types of JSON."""
-        derived = {name: plain(getattr(self, name)) for name in ("frequencies", "damping", "multiple")}
-        return {**plain(self), **derived}
+        derived = {name: json_form(getattr(self, name)) for name in ("frequencies", "damping", "multiple")}
+        return {**json_form(self), **derived}
 
     def __repr__(self) -> str:
         shown = ", ".join(f"{x:.4g}" for x in self.eigenvalues[:4]) + ", ..." * (len(self.eigenvalues) > 4)
@@ -126,7 +126,9 @@ class Modes:
         return in_notebook(shown(self), self.notes)
 
 
-def modes(subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callable[[], Subject] | None = None) -> Modes:
+def modes_about(
+    subject: Subject, y: Array, states: Sequence[str] = (), bodies: Callable[[], Subject] | None = None
+) -> Modes:
     """Return the modes about a state of rest or of steady motion.
 
     Parameters
@@ -190,7 +192,7 @@ def _shares(
         subject = bodies().turned(x.subject.named(x.y))
         y, dq, dv = _of_bodies(x, subject, vectors)
     first = subject.evaluated(y, t=x.t)
-    basis, inverse, _ = split(subject.rows(first), subject.loads)
+    basis, inverse, _ = null_space_split(subject.rows(first), subject.loads)
     a, lam = accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, x.t)
     dr, mass = np.linalg.pinv(e.by("motion", "v")) @ dq, e.by("balance", "a")

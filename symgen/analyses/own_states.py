@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.passing import rates_of
+from symgen.analyses.passing import coordinate_rates
 from symgen.analyses.prescribed import PrescribedRun
 from symgen.analyses.tracing import trace
 from symgen.base.errors import AnalysisError
@@ -120,7 +120,7 @@ def _path(run: PrescribedRun, begin: float, end: float, size: int) -> Path:
     t, (q, v), a = traced.times, info.parts(traced.states), traced.accelerations
     if len(t) < 2:
         raise AnalysisError(f"the motion near t = {begin:.6g} s cannot be followed for the states of the file")
-    slopes = np.array([rates_of(info, *each) for each in zip(q, v, strict=True)])
+    slopes = np.array([coordinate_rates(info, *each) for each in zip(q, v, strict=True)])
     places, speeds = CubicHermiteSpline(t, q, slopes), CubicHermiteSpline(t, v, a)
     turned = traced.status[:, abi.N_STATUS :]
 

@@ -83,7 +83,7 @@ def curve_through(info: ModelInfo, nodes: Sequence[tuple[Array, ...]]) -> Curve:
     return at
 
 
-def rates_of(info: ModelInfo, q: Array, v: Array) -> Array:
+def coordinate_rates(info: ModelInfo, q: Array, v: Array) -> Array:
     """Return q' = N v: velocities, and of Euler parameters half their product with the angular velocity."""
     rates = np.zeros(info.nq)
     spun = {first + k for first, _ in info.spins for k in range(4)}

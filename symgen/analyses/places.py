@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from symgen.analyses.cyclic import steady_motion
 from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion, value_of
 from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
-from symgen.analyses.modes import Modes, modes
+from symgen.analyses.modes import Modes, modes_about
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, named_states
@@ -249,7 +249,7 @@ def modes_at(place: NamedPlace, states: Sequence[str] = (), count: int | None = 
     subject, y = subject_at(place)
 
     absolute = replace(place.settings, coordinates="absolute")
-    return modes(subject, y, states, lambda: subject_of(place.mechanism, absolute))
+    return modes_about(subject, y, states, lambda: subject_of(place.mechanism, absolute))
 
 
 def system_at(

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import apart
+from symgen.analyses.algebra import coordinate_differences
 from symgen.base.errors import AssemblyError, InputError, nearest
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values, scalars
@@ -309,7 +309,7 @@ def branch_near(plan: Plan, branch: Mapping[str, float]) -> tuple[Array, tuple[s
             refusal = error if k == 0 else refusal
             continue
         q = start.y[: info.nq].copy()
-        if not any(np.abs(apart(info, q, other)).max(initial=0.0) < SAME_WAY for other, _ in ways):
+        if not any(np.abs(coordinate_differences(info, q, other)).max(initial=0.0) < SAME_WAY for other, _ in ways):
             ways.append((q, np.concatenate([q, _observed(compiled, start, start.y)[info.m :: 2]])[places]))
             last = k
     if not ways:

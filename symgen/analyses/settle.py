@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import Solver, largest, level, solver
+from symgen.analyses.algebra import Solver, largest_magnitude, level, solver
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError
 from symgen.compiling.linearised import Evaluated
@@ -273,7 +273,7 @@ def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
         lam = statics.whole(work)
         force, gaps = statics.forces(y, lam)
         motion, rows, stiffness = statics.derivatives(y, lam)
-        first = first or largest(stiffness) or 1.0
+        first = first or largest_magnitude(stiffness) or 1.0
         # where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
         stiff = 1e-3 * np.asarray(abs(stiffness).sum(axis=1)).ravel()
         size = np.maximum(size, np.maximum(np.abs(force - rows.T @ work).max(initial=1e-300), stiff))

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, rank, split
+from symgen.analyses.algebra import ROUNDED, null_space_split, rank
 from symgen.analyses.reduced import StateQuantity, StateTangent, quantities_of, tangent
 from symgen.analyses.settle import TOLERANCE
 from symgen.analyses.subject import RATE, Subject
@@ -76,7 +76,7 @@ def extents(x: StateTangent, quantities: Sequence[StateQuantity]) -> Array:
     return np.where(sizes > 0.0, sizes, 1.0)
 
 
-def still(x: StateTangent, name: str) -> bool:
+def is_steady(x: StateTangent, name: str) -> bool:
     """Whether a quantity does not change in a motion."""
     quantity = x.quantity(name)
     return bool(abs(quantity.rate) <= STILL * pace(x) * extents(x, [quantity])[0])
@@ -236,7 +236,7 @@ def _steady_quantities(subject: Subject, x: StateTangent, soon: StateTangent) ->
     What is at an end of its swing does not change at the state either, so that `soon` counts as well.
     """
     turning = {q.name for i, q in enumerate(subject.compiled.info.coordinates) if i in subject.spun}
-    names = [n for n in quantities_of(subject) if n not in turning and still(x, n) and still(soon, n)]
+    names = [n for n in quantities_of(subject) if n not in turning and is_steady(x, n) and is_steady(soon, n)]
     while names:
         _, _, rest, size = system(x, names)
         follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * size
@@ -324,8 +324,8 @@ def _later(subject: Subject, x: StateTangent) -> StateTangent:
     y = subject.moved(y, np.zeros(nq))
     for _ in range(4):
         e = subject.evaluated(y, t=end)
-        inverse = split(subject.rows(e) * active[:, None])[1]
+        inverse = null_space_split(subject.rows(e) * active[:, None])[1]
         y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * active)))
     e = subject.evaluated(y, t=end)
-    y[nq:size] -= split(subject.rows(e) * active[:, None])[1] @ (e.value("velocities") * active)
+    y[nq:size] -= null_space_split(subject.rows(e) * active[:, None])[1] @ (e.value("velocities") * active)
     return tangent(subject, y, end)

@@ -10,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split
+from symgen.analyses.algebra import null_space_split
 from symgen.base.errors import InputError, nearest
 from symgen.base.settings import Settings
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
@@ -226,7 +226,7 @@ class Subject(Yardsticks):
         In metres a small mechanism turns without moving, and its moments of inertia are none beside its masses.
         """
         spans = self.spans[:, np.newaxis]
-        basis, inverse, _ = split(d * spans.T, loads)
+        basis, inverse, _ = null_space_split(d * spans.T, loads)
         return spans * basis, spans * inverse
 
     def wound(self, y: Array) -> Subject:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
+from symgen.analyses.passing import Curve, Passage, coordinate_rates, curve_through
 from symgen.analyses.prescribed import PrescribedRun
 from symgen.layout import abi
 from symgen.layout.manifold import stay
@@ -284,7 +284,7 @@ class Tracer:
         """Return time, q, q', v, v', angles that count turns, and the sine, where the loop stands."""
         nq, nv, s = self.info.nq, self.info.nv, self.stand
         q, v = s.y[:nq].copy(), s.y[nq : nq + nv].copy()
-        now = np.array([self.clock[f.TIME]]), q, rates_of(self.info, q, v), v, s.a.copy(), s.turned.copy()
+        now = np.array([self.clock[f.TIME]]), q, coordinate_rates(self.info, q, v), v, s.a.copy(), s.turned.copy()
         return (*now, np.array([self.clock[f.SINE]]))
 
     def _write(self, curve: Curve, first: float, last: float, rows: Any) -> None:

@@ -72,9 +72,9 @@ class RunKeywords(PlaceKeywords, total=False):
     repeat: int
 
 
-def names(keywords: type) -> tuple[str, ...]:
+def keyword_names(keywords: type) -> tuple[str, ...]:
     """Return the settings that a class of keywords has, in the order of the table."""
-    return tuple(name for name in table.names() if name in keywords.__annotations__)
+    return tuple(name for name in table.setting_names() if name in keywords.__annotations__)
 
 
 def takes(function: F) -> F:
@@ -88,7 +88,7 @@ def takes(function: F) -> F:
     function = in_sentences(function)
     if last.kind is not last.VAR_KEYWORD or keywords is None:
         return function
-    listed = {name: table.default(name) for name in names(keywords)}
+    listed = {name: table.default(name) for name in keyword_names(keywords)}
     explicit(function, keywords, listed)
     lines = [f"{name} : {_kind(name)}\n    {table.about(name).help}{_otherwise(name)}\n" for name in listed]
     text = inspect.cleandoc(function.__doc__ or "")

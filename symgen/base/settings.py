@@ -222,7 +222,7 @@ def about(name: str) -> About:
     return _ABOUT[name]
 
 
-def names() -> tuple[str, ...]:
+def setting_names() -> tuple[str, ...]:
     """Return the names of all settings, in the order of the table."""
     return tuple(_ABOUT)
 

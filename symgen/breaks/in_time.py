@@ -14,7 +14,7 @@ from symgen.breaks.array_formulas import Columns
 from symgen.describe.evaluate import evaluate
 from symgen.describe.inputs import Jump
 from symgen.describe.mechanism import Mechanism
-from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
+from symgen.vocabulary.expressions import Call, Expr, Name, Number, names_in
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
@@ -185,7 +185,7 @@ def line_of(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | No
     def line(e: Expr) -> tuple[float, float] | None:
         if isinstance(e, Name) and e.name == "t":
             return 0.0, 1.0
-        if isinstance(e, Number | Name) or "t" not in set(names(e)):
+        if isinstance(e, Number | Name) or "t" not in set(names_in(e)):
             try:
                 return evaluate(e, values), 0.0
             except InputError:

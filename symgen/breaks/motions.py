@@ -17,10 +17,10 @@ from symgen.base.errors import InputError
 from symgen.breaks.in_time import InTime
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
-from symgen.describe.kinks import ChangingRow, changes_of, changing_rows
+from symgen.describe.kinks import ChangingRow, changing_rows, kink_expressions
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
-from symgen.vocabulary.expressions import names
+from symgen.vocabulary.expressions import names_in
 
 #: Distance of evaluations, as a part of the run, and at most of the time to the next change; and the factor by which a
 #: second one is nearer: differences that stay are jumps, those that shrink are curvature.
@@ -58,7 +58,7 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
 
 def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
     """Return the names in the terms of time that may jump."""
-    return frozenset(name for row, _ in _moved(mechanism) for name in names(row.motion))
+    return frozenset(name for row, _ in _moved(mechanism) for name in names_in(row.motion))
 
 
 def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
@@ -146,5 +146,7 @@ def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, floa
 @remembered
 def _moved(mechanism: Mechanism) -> tuple[tuple[ChangingRow, tuple[Jump, ...]], ...]:
     """Return rows whose terms of time may jump, with the changes of these."""
-    rows = ((row, [e for e in changes_of(row.motion) if "t" in set(names(e))]) for row in changing_rows(mechanism))
+    rows = (
+        (row, [e for e in kink_expressions(row.motion) if "t" in set(names_in(e))]) for row in changing_rows(mechanism)
+    )
     return tuple((row, tuple(map(Jump, changes))) for row, changes in rows if changes)

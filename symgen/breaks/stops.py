@@ -22,7 +22,7 @@ from symgen.describe.kinks import jumps_in_time
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
 from symgen.loops.run_spec import Stop
-from symgen.vocabulary.expressions import names
+from symgen.vocabulary.expressions import names_in
 
 #: Jumps closer than this fraction of the run are one.
 SAME = 1e-14
@@ -123,7 +123,7 @@ class Foreseen:
     @cached_property
     def reads(self) -> frozenset[str]:
         """Names on which the times depend: parameters, and t."""
-        return frozenset(name for jump in (*self.kinks, *self.sides) for name in names(jump.argument))
+        return frozenset(name for jump in (*self.kinks, *self.sides) for name in names_in(jump.argument))
 
     def stops(self, values: Mapping[str, float], until: float) -> tuple[Stop, ...]:
         """Return the stops of a run to `until` [s], at which no number changes; empty for a run in one piece.
@@ -190,7 +190,7 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
     happening = (
         jump
         for jump in (Jump(event.when) for event in events)
-        if "t" in (read := {*names(jump.argument)}) and read <= timely and line_of(jump, values) is None
+        if "t" in (read := {*names_in(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
     kinks, sides = jumps_in_time(mechanism, events)
     return Foreseen(mechanism, kinks, (*sides, *happening))

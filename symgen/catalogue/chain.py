@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from symgen.catalogue import Sized
-from symgen.vocabulary.rotations import EulerParameters, Matrix, matrix, multiply, rotate
+from symgen.vocabulary.rotations import EulerParameters, Matrix, composed_rotation, matrix, rotate
 
 #: Angle of every hinge at the start [rad]: the chain is curled, so that nothing stays in a plane.
 BEND = 0.3
@@ -34,7 +34,7 @@ def build(size: int) -> dict[str, Any]:
     for i in range(size):
         axis = 1 + i % 2
         if i:
-            turned = multiply(turned, _half_turn(axis))
+            turned = composed_rotation(turned, _half_turn(axis))
         frame: Matrix = matrix(turned)
         middle, tip = rotate(frame, (0.5, 0.0, 0.0)), rotate(frame, (1.0, 0.0, 0.0))
         bodies[f"rod{i + 1}"] = rod | {

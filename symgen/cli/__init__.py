@@ -30,7 +30,7 @@ from symgen.base.errors import CLOSE, SymgenError, nearest
 from symgen.base.escapes import printable
 from symgen.base.plugins import failure_of_plugin, load_plugins
 from symgen.base.registry import Registry
-from symgen.base.settings import flag, names
+from symgen.base.settings import flag, setting_names
 from symgen.base.version import __version__
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -193,13 +193,13 @@ def in_options(sentence: str) -> str:
     with where it is a setting or one of `LISTS`.
     """
     place, colon, rest = sentence.partition(": ")
-    if colon and (place in names() or place in LISTS):
+    if colon and (place in setting_names() or place in LISTS):
         sentence = f"{_option_of(place)}: {rest}"
     return _ARGUMENT.sub(lambda match: _option_of(match[1]), sentence)
 
 
 def _option_of(argument: str) -> str:
-    return flag(argument) if argument in names() else LISTS.get(argument) or f"--{argument.replace('_', '-')}"
+    return flag(argument) if argument in setting_names() else LISTS.get(argument) or f"--{argument.replace('_', '-')}"
 
 
 def write_files(

@@ -14,6 +14,7 @@ from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     assignments,
     column_names,
+    comma_list,
     differ,
     examples,
     json_option,
@@ -21,7 +22,6 @@ from symgen.cli._options import (
     setting_options,
     tell,
     time_list,
-    words,
 )
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _read(option: Option, value: Any) -> Any:
     """Return the value of an option for an analysis, from its text."""
     flag, kind = option.name, option.kind
     if kind == "words":
-        return words(flag, value)
+        return comma_list(flag, value)
     if kind == "columns":
         return column_names(flag, value)
     if kind == "numbers":
@@ -107,12 +107,12 @@ def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
     InputError
         If it has another form.
     """
-    from symgen.ensemble.axes import parse
+    from symgen.ensemble.axes import axis_values
 
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():
         raise InputError(flag, "NAME=VALUES, such as crank.theta=lin(0,6.28,25)", quoted(text))
-    return name.strip(), parse(values.strip(), f"{flag} {name.strip()}")
+    return name.strip(), axis_values(values.strip(), f"{flag} {name.strip()}")
 
 
 def _show(item: str | AnalysisTable | Mapping[str, Mapping[str, Any]]) -> None:

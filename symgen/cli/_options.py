@@ -193,7 +193,7 @@ def _number(where: str, expected: str, text: str, above: float = -math.inf) -> f
     return value
 
 
-def words(option: str, text: str | None) -> tuple[str, ...]:
+def comma_list(option: str, text: str | None) -> tuple[str, ...]:
     """Return the words of a comma-separated list, empty without one."""
     if text is None:
         return ()
@@ -206,7 +206,7 @@ def words(option: str, text: str | None) -> tuple[str, ...]:
 def number_list(option: str, text: str | None) -> tuple[float, ...]:
     """Return the numbers of a comma-separated list, each finite and above 0."""
     expected = "finite numbers above 0, separated by commas"
-    return tuple(_number(option, expected, word, 0.0) for word in words(option, text))
+    return tuple(_number(option, expected, word, 0.0) for word in comma_list(option, text))
 
 
 def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
@@ -271,9 +271,10 @@ def time_list(option: str, text: str) -> tuple[float, ...]:
         If it is neither.
     """
     if "(" in text:
-        from symgen.ensemble.axes import parse
+        from symgen.ensemble.axes import axis_values
 
-        return tuple(parse(text, option).tolist())
+        return tuple(axis_values(text, option).tolist())
     return tuple(
-        _number(option, "finite times, separated by commas, or lin(first, last, count)", w) for w in words(option, text)
+        _number(option, "finite times, separated by commas, or lin(first, last, count)", w)
+        for w in comma_list(option, text)
     )

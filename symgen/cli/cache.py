@@ -18,14 +18,14 @@ def command() -> None:
 
 @command.command("info", epilog=examples("symgen cache info --json"))
 @json_option
-def info(as_json: bool) -> int:
+def info_command(as_json: bool) -> int:
     """Show the folder and contents of the cache."""
     return _show(as_json, "")
 
 
 @command.command("clear", epilog=examples("symgen cache clear"))
 @json_option
-def clear(as_json: bool) -> int:
+def clear_command(as_json: bool) -> int:
     """Remove all files of symgen from the cache."""
     from symgen.store import upkeep
     from symgen.store.paths import cache_root

@@ -12,6 +12,7 @@ from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
+    comma_list,
     examples,
     jobs_option,
     json_option,
@@ -19,7 +20,6 @@ from symgen.cli._options import (
     plotted,
     quantity_options,
     setting_options,
-    words,
 )
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
 
@@ -108,7 +108,7 @@ def command(
     """
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     errors = number_list("--at", error_at)
-    method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
+    method_list, integrator_list = comma_list("--methods", methods), comma_list("--integrators", integrators)
     plot_path = plotted(plot, over)
     if quantities and plot_path is None:
         raise InputError("--quantity", "--plot FILE, which draws it", "no --plot")
@@ -133,7 +133,9 @@ def command(
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
             lines.say(f"{name}{what}", reached / total)
 
-        runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states), errors)
+        runs = Combinations(
+            method_list, integrator_list, step_list, rtol_list, comma_list("--coordinates", states), errors
+        )
         settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     rows = [row for study in studies for row in study.rows]
@@ -175,13 +177,13 @@ def command(
 
 def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:
     """Return the settings of --steps and --rtols: a label and words."""
-    from symgen.report.words import exact
+    from symgen.report.words import exact_number
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, RTOLS_AT, STEP_FACTORS, STEP_FACTORS_AT
 
     own = f"{', '.join(f'{x:g}' for x in (STEP_FACTORS_AT if at else STEP_FACTORS))} times the mechanism's own"
-    relative = ", ".join(exact(x) for x in rtols or (RTOLS_AT if at else RTOLS))
+    relative = ", ".join(exact_number(x) for x in rtols or (RTOLS_AT if at else RTOLS))
     return {
-        "--steps": ("Steps", ", ".join(f"{exact(x)} s" for x in steps) or own),
+        "--steps": ("Steps", ", ".join(f"{exact_number(x)} s" for x in steps) or own),
         "--rtols": ("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them"),
     }
 

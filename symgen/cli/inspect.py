@@ -52,7 +52,7 @@ def command(
     """
     from symgen.api import load
     from symgen.base.settings import Settings
-    from symgen.reading.inspection import as_text, facts_of, method_of, write_page
+    from symgen.reading.inspection import as_text, equation_facts, method_of, write_page
 
     named = method or "direct-correction"
     own = {f"method.{key}": value for key, value in _own(options, named).items()}
@@ -79,7 +79,7 @@ def command(
     if document or select is not None or symbols:
         expected = "--format latex, with which alone --document, --select and --symbols mean something"
         raise InputError("inspect", expected, f"--format {form}")
-    facts = facts_of(load(model).mechanism, settings, method is not None)
+    facts = equation_facts(load(model).mechanism, settings, method is not None)
     if form == "json":
         write_json(facts)
     else:

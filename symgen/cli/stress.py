@@ -11,7 +11,7 @@ import click
 
 from symgen.base import arguments
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import examples, jobs_option, json_option, setting_options, words
+from symgen.cli._options import comma_list, examples, jobs_option, json_option, setting_options
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
 
 if TYPE_CHECKING:
@@ -53,13 +53,13 @@ def command(
     """
     if compilation is not None:
         arguments.number("--compilation", compilation, positive=True)
-    case_list, method_list = words("--cases", cases), words("--methods", methods)
+    case_list, method_list = comma_list("--cases", cases), comma_list("--methods", methods)
 
     from symgen.base.memory import processors
     from symgen.catalogue import names
     from symgen.cli._progress import Lines
     from symgen.study.journal import Journal
-    from symgen.study.stress.stress_rows import save_csv
+    from symgen.study.stress.stress_rows import save_stress_csv
     from symgen.study.stress.study import stress
 
     with ExitStack() as stack:
@@ -90,7 +90,7 @@ def command(
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if study.rows else None
-    written = {files.csv: lambda file: save_csv(study, file, files.units), report: write_report}
+    written = {files.csv: lambda file: save_stress_csv(study, file, files.units), report: write_report}
     return write_files(_exit_code(study, files.journal is not None), written)
 
 

@@ -103,12 +103,12 @@ def command(
         quantities = (*(quantities or ("q", "v")), str(over))
 
     from symgen.ensemble.device_runs import check_target
-    from symgen.ensemble.sweep import folder_of
+    from symgen.ensemble.sweep import output_folder
 
     check_target(target, scheduler)
 
     if path is not None:
-        folder_of(path, resume)
+        output_folder(path, resume)
 
     from symgen.api import load
     from symgen.cli._progress import Bar
@@ -147,12 +147,12 @@ def command(
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:
     """Return the text of the values by name; names may not repeat."""
-    from symgen.ensemble.axes import parse
+    from symgen.ensemble.axes import axis_values
 
     form = "NAME=VALUES, such as crank_mass=lin(1,3,21)"
     axes = pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)
     for name, text in axes.items():
-        parse(text, f"--vary {name}")
+        axis_values(text, f"--vary {name}")
     return axes
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.base.errors import InputError
-from symgen.base.settings import Settings, flag, is_set, names
+from symgen.base.settings import Settings, flag, is_set, setting_names
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
 
@@ -92,7 +92,7 @@ def command(
     from symgen.base.files import check_path
     from symgen.player.motion_page import PAGES, Page
     from symgen.player.moving import check_film, write_film
-    from symgen.result.viewed import mechanism_name, recorded, recorded_file, view_file
+    from symgen.result.viewed import mechanism_name, playable_motion, recorded_file, view_file
 
     model = load(described or mechanism_name("view", Path(what)) if stored else what)
     file = Path(output or f"{model.name}.html")
@@ -117,7 +117,7 @@ def command(
             result = model.simulate(settings, progress=bar)
         if not len(result.t):
             return complain(f"failed: {result.reason}", FAILURE)
-        shown = recorded(result) if film else result.view(live=live is not False)
+        shown = playable_motion(result) if film else result.view(live=live is not False)
     if isinstance(shown, Page):
         shown.save(file)
     else:
@@ -134,6 +134,6 @@ def command(
 
 def _refuse(settings: Settings, allowed: Collection[str], what: str) -> None:
     """Refuse settings that have no effect without a run."""
-    for name in names():
+    for name in setting_names():
         if name not in allowed and is_set(settings, name):
             raise InputError(flag(name), f"settings of {what}", "one of a run")

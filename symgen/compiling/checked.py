@@ -42,14 +42,17 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
     model, law, functions = compiled.model, compiled.law_module, dict[str, Function]()
     for module, table in ((law, _LAW), (model, _MODEL)):
         own = [name for name in table if name in names and hasattr(module, name)]
-        functions |= {name: read(getattr(module, name), table[name]) for name in own}
-    functions |= {"prepareModel": read(model.prepare, PREPARE), "prepareLaw": read(law.prepare, PREPARE)}
+        functions |= {name: checked_function(getattr(module, name), table[name]) for name in own}
+    functions |= {
+        "prepareModel": checked_function(model.prepare, PREPARE),
+        "prepareLaw": checked_function(law.prepare, PREPARE),
+    }
     if "geometry" in names and "geometry" not in functions:
-        functions["geometry"] = read(model.geometry, abi.MEASURE)
+        functions["geometry"] = checked_function(model.geometry, abi.MEASURE)
     return functions
 
 
-def read(function: Any, kind: Any) -> Function:
+def checked_function(function: Any, kind: Any) -> Function:
     """Return an emitted function in the checked language, of the type that loops call."""
     if not hasattr(function, "read"):
         raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from symgen.compiling.looped_model import LoopedModel, describe_model, diagonal, preparation
+from symgen.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.program import FORMAT
 from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
@@ -202,7 +202,7 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
     machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
     info, law_module = describe_model(mechanism, shape, tables), load_module(path / f"{needs.law}.py")
     functions = _gathered(model, "geometry", "spread", "measure", "observe", "move", "turn")
-    functions.masses, functions.prepare = diagonal(shape, tables), preparation(mechanism, shape, tables, kernels)
+    functions.masses, functions.prepare = diagonal(shape, tables), hoisting(mechanism, shape, tables, kernels)
     if choice.implicit:
         law_module = _gathered(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread")
         law_module.residual, law_module.tangent = model.residual, model.tangent

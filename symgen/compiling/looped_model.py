@@ -17,7 +17,7 @@ from symgen.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.looped.shape import LoopedShape
 from symgen.lower.looped.tables import IndexTables
-from symgen.store.modules import interpreted
+from symgen.store.modules import plain_function
 from symgen.vocabulary.measures import Holonomic
 from symgen.vocabulary.quantities import Quantity
 
@@ -78,7 +78,7 @@ def diagonal(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array]
     return masses
 
 
-def preparation(
+def hoisting(
     mechanism: Mechanism, shape: LoopedShape, tables: IndexTables, kernels: Mapping[str, ModuleType]
 ) -> Callable[[Array], int]:
     """Return the function that fills the numbers after the parameters in ``p``: interpreted, once a run."""
@@ -96,7 +96,7 @@ def preparation(
             p[shape.first_constant + k] = evaluate(expression, values, mechanism.name, tables_by_name)
         for stem, computes, at in tables.groups:
             if computes:
-                interpreted(kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
+                plain_function(kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
         first = shape.mass_diagonal
         inverse = p[first + shape.nv : first + 2 * shape.nv]
         for base, weights in ((shape.gram_base, product), (shape.gram_base + size, product * inverse[velocity])):

@@ -30,7 +30,7 @@ from symgen.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.methods import METHODS
 from symgen.methods._base import EXPLICIT_FORMS, Method
 from symgen.store.entries import Entries, Modules, folder_name
-from symgen.store.identity import SOURCES, TEMPLATES, digest, sources_digest
+from symgen.store.identity import SOURCES, TEMPLATES, combined_digest, sources_digest
 from symgen.store.modules import load_module
 from symgen.vocabulary.infos import LawInfo
 from symgen.vocabulary.quantities import Quantity
@@ -107,14 +107,14 @@ def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) ->
 def folder_of(mechanism: Mechanism) -> str:
     """Return the name of the folder that holds everything emitted for `mechanism`; needs no SymPy."""
     text = f"{mechanism_digest(mechanism)} {generator_digest()}"
-    return folder_name(mechanism.name, digest(text), FORMAT)
+    return folder_name(mechanism.name, combined_digest(text), FORMAT)
 
 
 @lru_cache(maxsize=1)
 def generator_digest() -> str:
     """Return the digest of everything that shapes emitted code: sources, templates and SymPy's version."""
     templates = (str(templates_folder() / name) for name in TEMPLATES)
-    return digest(_sympy_version(), sources_digest(*SOURCES["code"], *templates))
+    return combined_digest(_sympy_version(), sources_digest(*SOURCES["code"], *templates))
 
 
 def _sympy_version() -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.compiling.checked import read
+from symgen.compiling.checked import checked_function
 from symgen.effects.applying import apply_effects
 from symgen.effects.stepping import new_step_work, step_to_event
 from symgen.layout import abi
@@ -195,7 +195,7 @@ class Printed:
         for name, kind, function in zip(_NAMES, _KINDS, own, strict=True):
             if kind is not None and getattr(compiled.model, name, None) is function:
                 if name not in self.emitted:
-                    self.emitted[name] = read(function, kind)
+                    self.emitted[name] = checked_function(function, kind)
                 functions[id(function)] = self.emitted[name]
         functions[id(own[-1])] = self.emitted["rhs"]
         scratch = compiled.scratch()

@@ -28,7 +28,7 @@ from symgen.layout import abi
 from symgen.layout.compiled import CompiledModel
 from symgen.lower.windings import Beside, winding_order
 from symgen.store.entries import Entries
-from symgen.store.modules import interpreted, load_module
+from symgen.store.modules import load_module, plain_function
 from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Side:
     @cached_property
     def plain(self) -> Any:
         """The function as plain Python, cheaper for a few evaluations."""
-        return interpreted(self.function)
+        return plain_function(self.function)
 
     @cached_property
     def _few(self) -> Few:
@@ -206,12 +206,12 @@ def _files(law: Any) -> dict[str, Path]:
     """
     file = getattr(law, "__file__", None)
     if file is None:
-        return {name: Path(inspect.getfile(interpreted(value))) for name, value in vars(law).items()}
+        return {name: Path(inspect.getfile(plain_function(value))) for name, value in vars(law).items()}
     package = law.__name__.rpartition(".")[0]
     return {name: Path(file) for name, value in vars(law).items() if _is_emitted(value, package)}
 
 
 def _is_emitted(value: Any, package: str) -> bool:
     """Whether it is a function of a module of this package, compiled or not."""
-    function = interpreted(value)
+    function = plain_function(value)
     return inspect.isfunction(function) and function.__module__.startswith(f"{package}.")

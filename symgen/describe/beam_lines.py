@@ -9,8 +9,8 @@ from symgen.describe.beam_sections import BeamSection
 from symgen.describe.fields import words_of
 from symgen.describe.mechanism import Vec
 from symgen.describe.scope import Scope
-from symgen.describe.triads import frame
-from symgen.vocabulary.expressions import ZERO, Expr, call, difference, dot, number, product, total
+from symgen.describe.triads import triad
+from symgen.vocabulary.expressions import ZERO, Expr, call, difference, dot, literal_of, product, sum_of_terms
 from symgen.vocabulary.measures import GROUND
 
 #: Maximum number of elements of a beam: `check` takes some seconds, and four times that of twice as many.
@@ -73,13 +73,13 @@ class Segment:
         """The length of the line."""
         if self.bend == ZERO:
             return self.chord
-        half = product(number(0.5), self.bend)
+        half = product(literal_of(0.5), self.bend)
         return product(self.chord, call("div", half, call("sin", half)))
 
     @property
     def step(self) -> Expr:
         """The length of an element."""
-        return call("div", self.length, number(self.elements))
+        return call("div", self.length, literal_of(self.elements))
 
     @property
     def curvature(self) -> Expr:
@@ -88,24 +88,25 @@ class Segment:
 
     def pose(self, k: int) -> tuple[Vec, tuple[Vec, ...], Expr, tuple[Vec, Vec]]:
         """Return place, axes, angle and sides of the cross section behind `k` elements."""
-        part, (first, second) = number(k / self.elements), self.axes[:2]
+        part, (first, second) = literal_of(k / self.elements), self.axes[:2]
         reach: Expr = product(part, self.chord)
         across: Expr = ZERO
         turn: Expr = ZERO
         if self.bend != ZERO:
-            half = product(number(0.5), self.bend)
+            half = product(literal_of(0.5), self.bend)
             along = product(part, half)
             far = product(self.chord, call("div", call("sin", along), call("sin", half)))
-            lean, turn = difference(along, half), difference(product(number(2.0), along), half)
+            lean, turn = difference(along, half), difference(product(literal_of(2.0), along), half)
             reach, across = product(far, call("cos", lean)), product(far, call("sin", lean))
         place = tuple(
-            total(s, product(reach, a), product(across, b)) for s, a, b in zip(self.start, first, second, strict=True)
+            sum_of_terms(s, product(reach, a), product(across, b))
+            for s, a, b in zip(self.start, first, second, strict=True)
         )
         cosine, sine = call("cos", turn), call("sin", turn)
-        x = tuple(total(product(cosine, a), product(sine, b)) for a, b in zip(first, second, strict=True))
+        x = tuple(sum_of_terms(product(cosine, a), product(sine, b)) for a, b in zip(first, second, strict=True))
         y = tuple(difference(product(cosine, b), product(sine, a)) for a, b in zip(first, second, strict=True))
         sides = (self.between, self.side) if self.bend == ZERO else (x, y)
-        return place, (x, y, *self.axes[2:]), total(call("atan2", first[1], first[0]), turn), sides
+        return place, (x, y, *self.axes[2:]), sum_of_terms(call("atan2", first[1], first[0]), turn), sides
 
 
 def segments(scope: Scope, beam: BeamSection) -> list[Segment]:
@@ -127,7 +128,7 @@ def segments(scope: Scope, beam: BeamSection) -> list[Segment]:
         if not lengths[-1] > 0.0:
             raise scope.error(key, f"another point than {'start' if key == 'end' else 'the one before'}", "the same")
         along = tuple(e if e == ZERO else call("div", e, chord) for e in between)
-        axes = frame(scope, "y_axis", along, side) if scope.spatial else (along, (call("neg", along[1]), along[0]))
+        axes = triad(scope, "y_axis", along, side) if scope.spatial else (along, (call("neg", along[1]), along[0]))
         lines.append((start, between, side, axes))
     counts = _counts(scope, beam.elements, lengths)
     return [Segment(*line, bend, count) for line, count in zip(lines, counts, strict=True)]
@@ -143,7 +144,7 @@ def cross_sections(scope: Scope, line: list[Segment]) -> list[list[CrossSection]
             if k > 0:
                 nodes.append([])
             part = (before + length * k / segment.elements) / whole
-            nodes[-1].append(CrossSection(*segment.pose(k), part, product(number(weight), step)))
+            nodes[-1].append(CrossSection(*segment.pose(k), part, product(literal_of(weight), step)))
         before += length
     return nodes
 

@@ -11,7 +11,7 @@ import msgspec
 from symgen.describe.fields import Across, Counts, Held, Scalar, Sides, StateVector, Vector, Vertices, words_of
 from symgen.describe.formula_text import file_value
 from symgen.describe.scope import Scope
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, difference, number, product, total
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, difference, literal_of, product, sum_of_terms
 
 
 class ProfileSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -171,7 +171,7 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
         area, moments, torsion = _ring(sizes["diameter"], ZERO)
         factor = _shear_factor(poisson, (6.0, 6.0), (7.0, 6.0))
     elif sizes.keys() == {"diameter", "thickness"}:
-        inner = difference(sizes["diameter"], product(number(2.0), sizes["thickness"]))
+        inner = difference(sizes["diameter"], product(literal_of(2.0), sizes["thickness"]))
         if not scope.value(inner, "section.thickness") >= 0.0:
             raise scope.error("section.thickness", "at most half of the diameter", words_of(section.thickness))
         area, moments, torsion = _ring(sizes["diameter"], inner)
@@ -179,7 +179,7 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
     else:
         expected = "width and height, diameter, or diameter and thickness"
         raise scope.error("section", expected, " and ".join(sizes) or "an empty table")
-    modulus = call("div", young, product(number(2.0), total(ONE, poisson)))
+    modulus = call("div", young, product(literal_of(2.0), sum_of_terms(ONE, poisson)))
     about_y, about_z = moments
     shear = product(factor, product(modulus, area))
     bending = [file_value(product(young, about_y)), file_value(product(young, about_z))]
@@ -191,32 +191,33 @@ def _of_material(scope: Scope, section: ProfileSection, material: MaterialSectio
     rotary: tuple[Expr, ...] = (product(density, about_z),)
     if scope.spatial:
         stiffness |= {"bending": bending, "torsion": file_value(product(modulus, torsion))}
-        rotary = product(density, total(about_y, about_z)), product(density, about_y), product(density, about_z)
+        rotary = product(density, sum_of_terms(about_y, about_z)), product(density, about_y), product(density, about_z)
     return Properties(stiffness, product(density, area), rotary)
 
 
 def _rectangle(width: Expr, height: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return area, second moments about y and z, and the torsion constant (Saint-Venant's series)."""
     area, ratio = product(width, height), call("div", width, height)
-    about_y = product(area, product(width, width), number(1.0 / 12.0))
-    about_z = product(area, product(height, height), number(1.0 / 12.0))
+    about_y = product(area, product(width, width), literal_of(1.0 / 12.0))
+    about_z = product(area, product(height, height), literal_of(1.0 / 12.0))
     terms = [
-        product(call("tanh", call("div", number(0.5 * math.pi * k), ratio)), number(k**-5.0)) for k in range(1, 14, 2)
+        product(call("tanh", call("div", literal_of(0.5 * math.pi * k), ratio)), literal_of(k**-5.0))
+        for k in range(1, 14, 2)
     ]
-    sunk = product(number(64.0 / math.pi**5), ratio, total(*terms))
-    torsion = product(area, product(width, width), difference(number(1.0 / 3.0), sunk))
+    sunk = product(literal_of(64.0 / math.pi**5), ratio, sum_of_terms(*terms))
+    torsion = product(area, product(width, width), difference(literal_of(1.0 / 3.0), sunk))
     return area, (about_y, about_z), torsion
 
 
 def _ring(outer: Expr, inner: Expr) -> tuple[Expr, tuple[Expr, Expr], Expr]:
     """Return area, second moments and torsion constant of a circle with a hole."""
     squares = [product(d, d) for d in (outer, inner)]
-    area = product(number(0.25 * math.pi), difference(*squares))
-    moment = product(area, total(*squares), number(1.0 / 16.0))
-    return area, (moment, moment), product(number(2.0), moment)
+    area = product(literal_of(0.25 * math.pi), difference(*squares))
+    moment = product(area, sum_of_terms(*squares), literal_of(1.0 / 16.0))
+    return area, (moment, moment), product(literal_of(2.0), moment)
 
 
 def _shear_factor(poisson: Expr, above: tuple[float, float], below: tuple[float, float]) -> Expr:
     """Return the shear coefficient of a section (Cowper, J. Appl. Mech. 33 (1966) 335-340)."""
-    first, second = (total(number(a), product(number(b), poisson)) for a, b in (above, below))
+    first, second = (sum_of_terms(literal_of(a), product(literal_of(b), poisson)) for a, b in (above, below))
     return call("div", first, second)

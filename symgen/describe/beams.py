@@ -20,13 +20,24 @@ from symgen.describe.beam_lines import CrossSection, cross_sections, segments
 from symgen.describe.beam_sections import BeamSection, Properties, properties_of
 from symgen.describe.bodies import shifted
 from symgen.describe.evaluate import scalars
-from symgen.describe.fields import read, words_of
+from symgen.describe.fields import read_table, words_of
 from symgen.describe.formula_text import file_value, to_text
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import AnyBody, Body, Vec
 from symgen.describe.scope import CENTRE, Scope
 from symgen.describe.start import euler_parameters
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, cross, difference, dot, number, product, total
+from symgen.vocabulary.expressions import (
+    ONE,
+    ZERO,
+    Expr,
+    call,
+    difference,
+    dot,
+    literal_of,
+    product,
+    sum_of_terms,
+    vector_product,
+)
 from symgen.vocabulary.measures import GROUND
 from symgen.vocabulary.rotations import matrix
 
@@ -110,7 +121,7 @@ class Beams:
         """
         for name, table in self.raw["beams"].items():
             scope = self.scope_of("beams", name)
-            self._add(scope, name, read(BeamSection, table, scope.where("")))
+            self._add(scope, name, read_table(BeamSection, table, scope.where("")))
         raw = {key: dict(value) if key in ("joints", "forces") else value for key, value in self.raw.items()}
         for section in ("joints", "forces"):
             for name, table in raw.get(section, {}).items():
@@ -155,7 +166,7 @@ class Beams:
                 seats.append(self._node(node, beam, sections, properties, motion))
             if beam.load is not None and host != GROUND:
                 at = self._point(host, node.replace(".", "_"), seats[-1].place) if host else CENTRE
-                size, place = total(*(section.share for section in sections)), f"{host}.{at}" if host else node
+                size, place = sum_of_terms(*(section.share for section in sections)), f"{host}.{at}" if host else node
                 load = [_times_text(size, part, place) for part in beam.load]
                 self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
         k = 0
@@ -289,9 +300,9 @@ def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
 def _velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
     """Return the velocities of a node."""
     start, velocity, omega = motion
-    swept = cross(omega, (*map(difference, section.place, start), ZERO))
+    swept = vector_product(omega, (*map(difference, section.place, start), ZERO))
     own = _written(dot(omega, axis) for axis in section.axes) if len(start) == 3 else file_value(omega[2])
-    return {"velocity": _written(map(total, velocity, swept)), "angular_velocity": own}
+    return {"velocity": _written(map(sum_of_terms, velocity, swept)), "angular_velocity": own}
 
 
 def _pose(section: CrossSection) -> dict[str, Any]:
@@ -312,7 +323,7 @@ def _mass(properties: Properties, section: CrossSection, axes: tuple[Vec, ...] |
     # the third of three perpendicular axes follows from the others: its formulas are the longest
     about_x, about_y = (difference(e, rotary[2]) for e in rotary[:2])
     return mass, tuple(
-        total(rotary[2] if i == j else ZERO, product(about_x, x[i], x[j]), product(about_y, y[i], y[j]))
+        sum_of_terms(rotary[2] if i == j else ZERO, product(about_x, x[i], x[j]), product(about_y, y[i], y[j]))
         for i, j in pairs
     )
 
@@ -325,22 +336,22 @@ def _axes_of(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
     if not body.orientation.is_numeric:
         raise scope.error("clamp", "a body whose orientation at the start is given in numbers", f"'{body.name}'")
     rows = matrix(euler_parameters(body.orientation, scalars(scope.context.values), scope.where("clamp")))
-    return tuple(tuple(number(x) for x in column) for column in zip(*rows, strict=True))
+    return tuple(tuple(literal_of(x) for x in column) for column in zip(*rows, strict=True))
 
 
 def _with_mass(body: AnyBody, further: _Mass) -> AnyBody:
     """Return a body with a further mass and tensor of inertia at a place of its frame (Huygens, Steiner)."""
-    mass = total(body.mass, further.mass)
+    mass = sum_of_terms(body.mass, further.mass)
     share = call("div", further.mass, mass)
     apart = tuple(map(difference, further.place, body.centre_of_mass))
-    centre = tuple(total(c, product(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
+    centre = tuple(sum_of_terms(c, product(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
     reduced, inertia = product(share, body.mass), body.inertia
     assert inertia is not None, "a point mass clamps nothing"
     if isinstance(inertia, tuple):
-        a, b, c, d, e, f = map(total, inertia, further.inertia)
+        a, b, c, d, e, f = map(sum_of_terms, inertia, further.inertia)
         inertia = shifted((a, b, c, d, e, f), call("neg", reduced), apart)
     else:
-        inertia = total(inertia, *further.inertia, product(reduced, dot(apart, apart)))
+        inertia = sum_of_terms(inertia, *further.inertia, product(reduced, dot(apart, apart)))
     return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=inertia)
 
 

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.base.errors import nearest, quoted
-from symgen.describe.fields import read, words_of
+from symgen.describe.fields import read_table, words_of
 from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
 from symgen.describe.names import check_identifier
 from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 from symgen.describe.start import Scalars, euler_parameters
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, product, total
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, literal_of, product, sum_of_terms
 from symgen.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ Tensor = tuple[Expr, Expr, Expr, Expr, Expr, Expr]
 
 def planar_body(scope: Scope, raw: object) -> Body:
     """Return the planar body that a table describes."""
-    section = read(BodySection, _without_shape(raw), scope.where(""))
+    section = read_table(BodySection, _without_shape(raw), scope.where(""))
     _check_type(scope, section, ("inertia", "angle", "angular_velocity", "points", "centre_of_mass"))
     position, centre, velocity, points = _common(scope, section)
     return Body(
@@ -45,7 +45,7 @@ def planar_body(scope: Scope, raw: object) -> Body:
 
 def spatial_body(scope: Scope, raw: object) -> SpatialBody:
     """Return the spatial body that a table describes."""
-    section = read(SpatialBodySection, _without_shape(raw), scope.where(""))
+    section = read_table(SpatialBodySection, _without_shape(raw), scope.where(""))
     keys = ("inertia", "inertia_at", "inertia_axes", "orientation", "angular_velocity", "points", "centre_of_mass")
     _check_type(scope, section, keys)
     position, centre, velocity, points = _common(scope, section)
@@ -197,7 +197,7 @@ def turned(tensor: Tensor, a: Matrix) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         pairs = [(k, n) for k in range(3) for n in range(3) if a[i][k] * a[j][n] != 0.0]
-        return total(*(product(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
+        return sum_of_terms(*(product(literal_of(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs))
 
     return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
 
@@ -207,13 +207,13 @@ def shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
 
     def entry(i: int, j: int) -> Expr:
         if i == j:
-            return product(mass, total(*(product(d[k], d[k]) for k in range(3) if k != i)))
+            return product(mass, sum_of_terms(*(product(d[k], d[k]) for k in range(3) if k != i)))
         return call("neg", product(mass, d[i], d[j]))
 
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
     changes = [entry(i, j) for i, j in pairs]
     a, b, c, e, f, g = (
-        value if change in (ZERO, number(-0.0)) else call("sub", value, change)
+        value if change in (ZERO, literal_of(-0.0)) else call("sub", value, change)
         for value, change in zip(tensor, changes, strict=True)
     )
     return a, b, c, e, f, g
@@ -243,7 +243,7 @@ def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
 
 
 def _shape(scope: Scope, raw: object, key: str) -> Shape:
-    section = read(ShapeSection, raw, scope.where(key))
+    section = read_table(ShapeSection, raw, scope.where(key))
     needed, allowed = KEYS[section.type]
     keys = set(raw) - {"type", "colour"} if isinstance(raw, Mapping) else set()
     if not scope.spatial and section.type == "cylinder":

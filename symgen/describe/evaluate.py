@@ -12,7 +12,7 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism, Parameter
 from symgen.describe.start import Scalars
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names, table_of
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, names_in, table_of
 
 #: Exception of an evaluation -> description of the error.
 _FAULTS: dict[type[Exception], str] = {ZeroDivisionError: "divides by zero", OverflowError: "is too large"}
@@ -121,7 +121,7 @@ def _undefined(expression: Call, operands: list[float], where: str, why: str) ->
 _LISTED = 8
 
 
-def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
+def evaluation_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
     """Return names, each behind those that its formula depends on, else in their own order.
 
     Parameters
@@ -136,7 +136,7 @@ def in_order(formulas: Mapping[str, Expr | None], where: str) -> list[str]:
     InputError
         If formulas form a cycle, which the message lists.
     """
-    needs = {name: () if formula is None else dict.fromkeys(names(formula)) for name, formula in formulas.items()}
+    needs = {name: () if formula is None else dict.fromkeys(names_in(formula)) for name, formula in formulas.items()}
     try:
         TopologicalSorter(needs).prepare()
     except CycleError as error:
@@ -168,5 +168,5 @@ def derived(parameters: Iterable[Parameter], values: Container[str] = ()) -> lis
         Those that have numbers in place of their formulas.
     """
     formulas = {p.name: None if p.name in values else p.formula for p in parameters}
-    ordered = in_order(formulas, "parameters") if any(formulas.values()) else []
+    ordered = evaluation_order(formulas, "parameters") if any(formulas.values()) else []
     return [(name, formula) for name in ordered if (formula := formulas[name]) is not None]

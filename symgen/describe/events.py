@@ -8,13 +8,13 @@ from typing import Any, Literal
 import msgspec
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.fields import Condition, NewValues, read, words_of
+from symgen.describe.fields import Condition, NewValues, read_table, words_of
 from symgen.describe.formula_text import to_text
 from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
 from symgen.describe.scope import Context, Scope
-from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
+from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names_in
 
 RISING, FALLING, ANY = "rising", "falling", "any"
 RECORD, STOP, RESET = "record", "stop", "reset"
@@ -65,7 +65,7 @@ def read_event(scope: Scope, name: str, raw: object) -> Event:
     InputError
         With the key that is wrong.
     """
-    section = read(EventSection, raw, scope.where(""))
+    section = read_table(EventSection, raw, scope.where(""))
     if section.action == RESET and section.reset is None:
         raise scope.error("reset", 'new velocities or states, such as { "ball.vy" = "-0.7*ball.vy" }', "no such key")
     if section.reset is not None and section.action not in (None, RESET):
@@ -124,7 +124,7 @@ def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
     """Return a function above 0 where the condition holds, and whether the text is a condition."""
     expression = scope.of_state(key, text, conditions=True)
     changing = ("t", *scope.context.inputs, *scope.context.state_names)
-    if not any(name in changing or "." in name for name in names(expression)):
+    if not any(name in changing or "." in name for name in names_in(expression)):
         raise scope.error(key, "a condition that time or motion changes", quoted(text))
     condition = isinstance(expression, Call) and expression.function in _LOGIC
     return (_positive(expression), True) if condition else (expression, False)

@@ -159,7 +159,7 @@ def words_of(value: object) -> str:
     return "nothing" if value is None else f"a {type(value).__name__}"
 
 
-def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) -> T:
+def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) -> T:
     """Return the table `raw` as a `kind`, or raise `InputError` about the first key that is wrong.
 
     Parameters

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import msgspec
 
 from symgen.base.errors import InputError
-from symgen.describe.fields import Scalar, read, words_of
+from symgen.describe.fields import Scalar, read_table, words_of
 from symgen.describe.mechanism import Event, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
 from symgen.ir.program import MODE_NUMBERS, MODES
@@ -81,7 +81,7 @@ def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ..
 
 def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object, single: bool) -> Friction:
     key = "friction" if single else f"friction.{label}"
-    section = read(FrictionSection, raw, scope.where(key))
+    section = read_table(FrictionSection, raw, scope.where(key))
 
     def bound(name: str, value: float | str) -> Expr:
         expression = scope.constant(f"{key}.{name}", value)

@@ -25,7 +25,7 @@ from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import Readings
 from symgen.describe.scope import Context
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names, table_of
+from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names_in, table_of
 
 T = TypeVar("T")
 #: Parts of a mechanism whose formulas may read inputs.
@@ -207,7 +207,7 @@ class _Switching:
         if not isinstance(e, Call):
             return e
         arguments = tuple(self.expression(a) for a in e.arguments)
-        if "t" in (used := set(names(e))) and used <= self.timely:
+        if "t" in (used := set(names_in(e))) and used <= self.timely:
             if e.function in (*_COMPARISONS, "sign"):
                 return self.switch(e)
             table = self.tables.get(table_of(e.function) or "")
@@ -219,7 +219,7 @@ class _Switching:
 
     def note(self, jump: Jump) -> None:
         """Record a kink, where it depends on t."""
-        if "t" in set(names(jump.argument)):
+        if "t" in set(names_in(jump.argument)):
             self.jumps.append(jump)
 
     def switch(self, e: Call) -> Expr:

@@ -28,10 +28,10 @@ from symgen.vocabulary.expressions import (
     Reading,
     call,
     difference,
-    names,
+    names_in,
     readings,
+    sum_of_terms,
     table_of,
-    total,
 )
 from symgen.vocabulary.functions import ELEMENTARY
 from symgen.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
@@ -72,7 +72,7 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
             jump = Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
         else:
             continue
-        if "t" in (used := set(names(jump.argument))) and used <= timely:
+        if "t" in (used := set(names_in(jump.argument))) and used <= timely:
             (sides if e.function in _SIDES else kinks)[jump] = None
     return tuple(kinks), tuple(sides)
 
@@ -131,7 +131,7 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
             continue
         argument = compared(e) if table is None else e.arguments[0]
         argument = argument if effort is None else _of_a_run(argument, effort)
-        if any(readings(argument)) or not set(names(argument)) <= plain:
+        if any(readings(argument)) or not set(names_in(argument)) <= plain:
             jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
     held = dict.fromkeys((e, None) for row in changing_rows(mechanism) for e in row.switches)
     for key in held:
@@ -144,7 +144,7 @@ def compares_state(mechanism: Mechanism) -> bool:
     return any(x.table is None for x in discontinuities_of(mechanism))
 
 
-def changes_of(formula: Expr) -> tuple[Expr, ...]:
+def kink_expressions(formula: Expr) -> tuple[Expr, ...]:
     """Return expressions that are 0 wherever a formula jumps or has a kink, tables aside, each once."""
     return tuple(dict.fromkeys(x for e, _ in _calls(formula) for x in _passed_at(e)))
 
@@ -209,13 +209,13 @@ def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
     for joint in mechanism.joints:
         for i, row in enumerate(joint.rows):
             measure = row.measure if isinstance(row, Holonomic) else row.speed
-            if not (changes_of(row.value) or any(True for _ in _changing_calls(measure))):
+            if not (kink_expressions(row.value) or any(True for _ in _changing_calls(measure))):
                 continue
             own = isinstance(measure, FormulaMeasure | FormulaSpeed)
             held = measure.of if isinstance(measure, FormulaMeasure | FormulaSpeed) else Reading(row.label, measure)
             motion, rest = _parted(held, timely)
             switches = tuple(dict.fromkeys(x for e, _ in _calls(rest) for x in _passed_at(e)))
-            moves = tuple(x for x in switches if any(readings(x)) or not set(names(x)) <= timely - {"t"})
+            moves = tuple(x for x in switches if any(readings(x)) or not set(names_in(x)) <= timely - {"t"})
             key = "value" if not own else f"rows[{i}].{'position' if isinstance(row, Holonomic) else 'velocity'}"
             result.append(
                 ChangingRow(
@@ -223,7 +223,7 @@ def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
                     f"joints.{joint.name}.{key}",
                     row.unit,
                     difference(held, row.value),
-                    total(motion, row.value),
+                    sum_of_terms(motion, row.value),
                     moves,
                     not isinstance(row, Holonomic),
                 )
@@ -238,12 +238,12 @@ def _changing_calls(part: Any) -> Iterator[Call]:
 
 def _parted(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
     """Return the sums of the terms of a formula, times a sign, that depend on time alone, and of all others."""
-    if not any(readings(e)) and set(names(e)) <= timely:
+    if not any(readings(e)) and set(names_in(e)) <= timely:
         return (e if sign > 0.0 else call("neg", e)), ZERO
     if isinstance(e, Call) and e.function in ("add", "sub", "neg"):
         signs = (-sign,) if e.function == "neg" else (sign, sign if e.function == "add" else -sign)
         parts = [_parted(a, timely, x) for a, x in zip(e.arguments, signs, strict=True)]
-        return total(*(motion for motion, _ in parts)), total(*(rest for _, rest in parts))
+        return sum_of_terms(*(motion for motion, _ in parts)), sum_of_terms(*(rest for _, rest in parts))
     return ZERO, e if sign > 0.0 else call("neg", e)
 
 
@@ -332,8 +332,8 @@ def _may_hide(part: Any, mechanism: Mechanism) -> bool:
     if _TIME not in msgspec.msgpack.encode(part):
         return False
     timely, tables = _timely(mechanism), frozenset(_tables(mechanism))
-    largest = _calls(part, enters=lambda e: not set(names(e)) <= timely)
-    return any("t" in (used := set(names(e))) and used <= timely and _form(e, tables) is None for e, _ in largest)
+    largest = _calls(part, enters=lambda e: not set(names_in(e)) <= timely)
+    return any("t" in (used := set(names_in(e))) and used <= timely and _form(e, tables) is None for e, _ in largest)
 
 
 def _form(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:

@@ -25,7 +25,7 @@ from symgen.vocabulary.expressions import (
     Number,
     Reading,
     call,
-    number,
+    literal_of,
     readings,
 )
 from symgen.vocabulary.measures import Integral
@@ -371,7 +371,7 @@ def logic(function: str, operands: tuple[Expr, ...]) -> Expr:
     absorbing = 0.0 if function == "and" else 1.0
     for literal, other in ((left, right), (right, left)):
         if isinstance(literal, Number):
-            return number(absorbing) if bool(literal.value) == bool(absorbing) else other
+            return literal_of(absorbing) if bool(literal.value) == bool(absorbing) else other
     return call(function, left, right)
 
 

@@ -25,7 +25,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
-from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, number, readings
+from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, literal_of, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -155,9 +155,9 @@ def _along_length(effort: Effort) -> Effort:
     if not isinstance(effort.measure, HalfSquare) or not isinstance(effort.potential, Call):
         return effort
     half, stiffness = Reading("half", effort.measure), effort.potential.arguments[0]
-    length = FormulaMeasure(call("sqrt", call("mul", number(2.0), half)))
-    squared = call("pow", Name("s"), number(2.0))
-    return Effort(effort.label, length, potential=call("mul", call("div", stiffness, number(2.0)), squared))
+    length = FormulaMeasure(call("sqrt", call("mul", literal_of(2.0), half)))
+    squared = call("pow", Name("s"), literal_of(2.0))
+    return Effort(effort.label, length, potential=call("mul", call("div", stiffness, literal_of(2.0)), squared))
 
 
 def _extent(measure: Source) -> str:

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 from symgen.base.errors import InputError
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.vocabulary.expressions import FUNCTIONS, Expr
-from symgen.vocabulary.rotations import EulerParameters, Matrix, Orientation, matrix, multiply, rotate
+from symgen.vocabulary.rotations import EulerParameters, Matrix, Orientation, composed_rotation, matrix, rotate
 
 
 class Numbers(Protocol):
@@ -147,7 +147,7 @@ def euler_parameters(orientation: Orientation, numbers: Numbers, where: str) -> 
         for axis, angle in zip(orientation.convention, x, strict=True):
             turn = [numbers.apply("cos", angle / 2.0), 0.0, 0.0, 0.0]
             turn["xyz".index(axis) + 1] = numbers.apply("sin", angle / 2.0)
-            result = multiply(result, (turn[0], turn[1], turn[2], turn[3]))
+            result = composed_rotation(result, (turn[0], turn[1], turn[2], turn[3]))
         return result
     if orientation.kind == "line":
         along, towards = (x[3] - x[0], x[4] - x[1], x[5] - x[2]), x[6:9]

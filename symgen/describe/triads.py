@@ -14,7 +14,7 @@ from symgen.describe.evaluate import scalars
 from symgen.describe.fields import words_of
 from symgen.describe.mechanism import SpatialBody, Vec
 from symgen.describe.start import euler_parameters
-from symgen.vocabulary.expressions import ZERO, Expr, Number, call, cross, difference, dot, number, product
+from symgen.vocabulary.expressions import ZERO, Expr, Number, call, difference, dot, literal_of, product, vector_product
 from symgen.vocabulary.measures import GROUND, Direction
 from symgen.vocabulary.rotations import matrix, rotate, rotate_back
 
@@ -90,7 +90,7 @@ def make_triads(
     return _triad(a, first_a, along_a), _triad(b, first_b, along_b)
 
 
-def frame(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]:
+def triad(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]:
     """Return three axes, all of them expressions of parameters: x along a direction of length 1, y on a side of it.
 
     Raises
@@ -103,11 +103,11 @@ def frame(scope: Scope, key: str, along: Vec, side: Vec) -> tuple[Vec, Vec, Vec]
     if not scope.value(size, key) > 1e-6:
         raise scope.error(key, "a direction across the beam", "one along it")
     across = tuple(_tidy_entry(e if e == ZERO else call("div", e, size)) for e in rest)
-    return along, across, tuple(map(_tidy_entry, cross(along, across)))
+    return along, across, tuple(map(_tidy_entry, vector_product(along, across)))
 
 
 def _tidy_entry(e: Expr) -> Expr:
-    return number(_tidy_number(e.value)) if isinstance(e, Number) else e
+    return literal_of(_tidy_number(e.value)) if isinstance(e, Number) else e
 
 
 def make_triad(
@@ -226,7 +226,7 @@ def _perpendicular(vector: _Triple, axis: _Triple) -> tuple[_Triple, float]:
 def _triad(body: str, first: _Triple, axis: _Triple) -> Triad:
     (a, b, c), (d, e, f) = axis, first
     second = _tidy((b * f - c * e, c * d - a * f, a * e - b * d))
-    return Triad(*(Direction(body, tuple(number(x) for x in v)) for v in (first, second, axis)))
+    return Triad(*(Direction(body, tuple(literal_of(x) for x in v)) for v in (first, second, axis)))
 
 
 def _dot(a: _Triple, b: _Triple) -> float:

@@ -12,9 +12,18 @@ from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.memory import uncollected
 from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
-from symgen.describe.evaluate import evaluate, in_order
+from symgen.describe.evaluate import evaluate, evaluation_order
 from symgen.describe.events import read_event
-from symgen.describe.fields import OF_ANY_JOINT, Flag, JointStart, OutputFunction, Scalar, read, read_value, words_of
+from symgen.describe.fields import (
+    OF_ANY_JOINT,
+    Flag,
+    JointStart,
+    OutputFunction,
+    Scalar,
+    read_table,
+    read_value,
+    words_of,
+)
 from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
@@ -47,7 +56,7 @@ from symgen.describe.sections import (
 )
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
-from symgen.vocabulary.expressions import ONE, call, names
+from symgen.vocabulary.expressions import ONE, call, names_in
 from symgen.vocabulary.measures import Marker
 
 if TYPE_CHECKING:
@@ -102,7 +111,7 @@ class _Validator:
                 raise InputError(self.source, expected, f"the unknown section {quoted(key)}", nearest(key, SECTIONS))
         if "mechanism" not in self.raw:
             raise InputError(self.where("mechanism"), "a section [mechanism] with a name", "no such section")
-        head = read(MechanismSection, self.raw["mechanism"], self.where("mechanism"))
+        head = read_table(MechanismSection, self.raw["mechanism"], self.where("mechanism"))
         check_mechanism_name(head.name, self.where("mechanism.name"))
         self.unique()
         parameters = self.parameters()
@@ -204,7 +213,7 @@ class _Validator:
 
     def defaults(self, source: str) -> Defaults:
         where = self.where("run")
-        run = read(RunSection, self.raw.get("run", {}), where)
+        run = read_table(RunSection, self.raw.get("run", {}), where)
         for key in ("until", "step", "output_step", "max_step", "predictable_until"):
             value = getattr(run, key)
             if value is not None and not math.isfinite(value):
@@ -226,7 +235,7 @@ class _Validator:
         parameters = {name: self.parameter("parameters", name, value, allowed) for name, value in entries.items()}
         parameters |= {name: self.parameter("inputs", name, value, allowed) for name, value in inputs.items()}
         values = dict[str, float]()
-        for name in in_order({name: p.formula for name, p in parameters.items()}, self.where("parameters")):
+        for name in evaluation_order({name: p.formula for name, p in parameters.items()}, self.where("parameters")):
             formula = parameters[name].formula
             if formula is not None:
                 value = evaluate(formula, values, self.where(f"{'inputs' if name in inputs else 'parameters'}.{name}"))
@@ -241,15 +250,15 @@ class _Validator:
         if not isinstance(raw, Mapping):
             value = read_value(Scalar, raw, where)
         elif section == "inputs":
-            content = read(InputSection, raw, where)
+            content = read_table(InputSection, raw, where)
             value, unit, note = content.default, content.unit, content.note
         else:
-            table = read(ParameterSection, raw, where)
+            table = read_table(ParameterSection, raw, where)
             value, unit, note = table.value, table.unit, table.note
         formula = None
         if isinstance(value, str):
             expression = parse(value, allowed, where)
-            if any(names(expression)):
+            if any(names_in(expression)):
                 value, formula = 0.0, expression
             else:
                 value = evaluate(expression, {}, where)
@@ -260,7 +269,7 @@ class _Validator:
 
     def table(self, name: str, raw: object) -> Table:
         where = self.where(f"tables.{name}")
-        section = read(TableSection, raw, where)
+        section = read_table(TableSection, raw, where)
         if len(section.x) < 2:
             raise InputError(f"{where}.x", "two numbers or more", str(len(section.x)))
         if len(section.y) != len(section.x):
@@ -292,14 +301,14 @@ class _Validator:
 
     def state(self, name: str, raw: object) -> StateVariable:
         where, scope = self.where(f"states.{name}"), self.scope("states", name)
-        section = read(StateSection, raw, where)
+        section = read_table(StateSection, raw, where)
         start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
         return StateVariable(name, start, rate, check_unit(section.unit, f"{where}.unit"))
 
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")
         if isinstance(raw, Mapping):
-            section, key = read(OutputSection, raw, where), "value"
+            section, key = read_table(OutputSection, raw, where), "value"
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
         value = self.scope("outputs", name).of_motion(key, section.value)
@@ -337,7 +346,7 @@ class _Validator:
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.context, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
+        section = read_table(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
         joint = section.build(scope)
         at = getattr(section, "at", None)
         if at is not None:
@@ -384,4 +393,4 @@ class _Validator:
         struct = FORCES.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.context, path, name, FORCES.canonical(kind))
         scope.check_space(struct.SPACES)
-        return read(struct, table, self.where(path), ("type",)).build(scope)
+        return read_table(struct, table, self.where(path), ("type",)).build(scope)

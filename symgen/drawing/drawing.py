@@ -16,7 +16,7 @@ from symgen.base.files import check_path, write_whole
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.drawing.mechanism_scene import build_scene
-from symgen.drawing.paper import Drawn, View, axes, on_paper
+from symgen.drawing.paper import Drawn, View, on_paper, view_axes
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.pictures import svg, write_pixels
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
@@ -122,7 +122,7 @@ class Drawing:
 
     def _behind(self) -> list[Drawn]:
         drawn: list[Drawn] = []
-        eye = axes(self.scene, self.view)
+        eye = view_axes(self.scene, self.view)
         for i, path in enumerate(self.paths):
             points = np.array(path) @ eye.T
             look = Look(COLOURS[i % len(COLOURS)], "", 1.6)

@@ -11,7 +11,7 @@ from symgen.describe.mechanism import Force
 from symgen.drawing.joint_parts import DRIVE, turned_about
 from symgen.drawing.pen import PLAIN, BodyPoint, Pen, across
 from symgen.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Line, Look, Mark, Poses
-from symgen.vocabulary.expressions import ZERO, Number, names
+from symgen.vocabulary.expressions import ZERO, Number, names_in
 from symgen.vocabulary.measures import (
     Angle,
     Component,
@@ -77,7 +77,7 @@ def _kind(pen: Pen, force: Force) -> str:
     if isinstance(effort.magnitude, Number):
         actuator = effort.magnitude != ZERO
     else:
-        damper = "rate" in set(names(effort.magnitude))
+        damper = "rate" in set(names_in(effort.magnitude))
         with suppress(InputError):
             still, moving = (numbers.at(effort.magnitude, {**state, "rate": r}) for r in (0.0, 1.0))
             damper, actuator = still != moving, still != 0.0
@@ -162,7 +162,7 @@ def _probed(pen: Pen, force: Force, body: int) -> list[tuple[Array, Array]]:
     numbers, probes = pen.numbers, []
     state = {**numbers.values, **numbers.state, "s": 0.0, "rate": 0.0}
     state |= dict.fromkeys(
-        (name for effort in force.efforts for name in names(effort.magnitude) if name not in state), 0.0
+        (name for effort in force.efforts for name in names_in(effort.magnitude) if name not in state), 0.0
     )
     state = {name: x or 0.31 + 0.017 * k for k, (name, x) in enumerate(state.items())}
     frame = numbers.frames[body]

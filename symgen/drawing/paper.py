@@ -81,7 +81,7 @@ def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = Fa
     bodies : bool
         Whether bodies alone are drawn, bars in space as lines, as for pictures behind another.
     """
-    eye = axes(scene, view or View())
+    eye = view_axes(scene, view or View())
     poses = scene.poses(q)
     items = [_plainly(item) for item in scene.items if item.role == "body"] if bodies else scene.items
     drawn = [_drawn(item, poses, eye) for item in items]
@@ -101,7 +101,7 @@ def _plainly(item: Item) -> Item:
     return replace(item, marks=tuple(marks))
 
 
-def axes(scene: Scene, view: View) -> Array:
+def view_axes(scene: Scene, view: View) -> Array:
     """Return the directions to the right, upwards and towards the eye, shape (3, 3)."""
     if not scene.spatial:
         return np.eye(3)

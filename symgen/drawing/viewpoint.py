@@ -7,7 +7,7 @@ from itertools import product, starmap
 
 import numpy as np
 
-from symgen.drawing.paper import Circle, Path, View, axes, on_paper
+from symgen.drawing.paper import Circle, Path, View, on_paper, view_axes
 from symgen.drawing.scene import Array, Disc, Line, Mark, Poses, Scene, Solid, Tube
 
 #: The usual view, and the smallest share of a body in it (see `_least_shown`).
@@ -64,7 +64,7 @@ def _least_shown(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) 
     That is the visible share of its points, areas in front of a point counting with their opacity, or twice the ratio
     of its length on paper to its length in space where that is less.
     """
-    eye, drawn = axes(bodies, view)[:2], on_paper(bodies, q, view)
+    eye, drawn = view_axes(bodies, view)[:2], on_paper(bodies, q, view)
     own = [clouds[each.item.name] for each in drawn]
     ends = np.cumsum([0, *map(len, own)])
     points = np.concatenate([np.zeros((0, 2)), *(cloud @ eye.T for cloud in own)])

@@ -6,7 +6,15 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, counted
-from symgen.emit.module import PLATFORMS, ModulePiece, function, module, render, sentence, templates_digest
+from symgen.emit.module import (
+    PLATFORMS,
+    ModulePiece,
+    capitalised,
+    function_source,
+    module_source,
+    render,
+    templates_digest,
+)
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_model, of_observed, table_name
 from symgen.emit.whole import Places, model_name
@@ -45,7 +53,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
         room = f"at most {MOST_CONSTANTS // 2} points in all (target cuda)"
         raise InputError("tables", room, f"what takes the room of {numbers // 2}")
     header = [
-        versions(program.digest),
+        version_line(program.digest),
         f"{layout.nq} coordinates, {layout.nv} velocities, {layout.m} constraint rows, {layout.parameters} parameters,",
         _elimination(program),
         "",
@@ -67,7 +75,7 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
     title = f"Model `{program.name}`: what every method of it shares{platform.words}."
     if whole:
         return Places(layout.sections).module(title, header, [codes], {}, numba=platform.numba)
-    return module(title, header, codes, {}, {}, platform.numba)
+    return module_source(title, header, codes, {}, {}, platform.numba)
 
 
 def _elimination(program: ModelProgram) -> str:
@@ -101,7 +109,7 @@ def emit_law(
     layout = LiteralLayout(program, "y" if equations.spins else "", platform.decorator)
     model_stem, sections = f"model{SUFFIXES[target]}", program.layout.sections
     defined = *(block.name for block in model.blocks), *table_names(model.tables)
-    places, header = Places(sections, own), law_header(info, summary, reference, versions(model.digest))
+    places, header = Places(sections, own), law_header(info, summary, reference, version_line(model.digest))
     if whole:
         header += [*_guide(program, model, equations), "", *places.header]
     return law_modules(
@@ -110,7 +118,7 @@ def emit_law(
         list(zip((b.role for b in blocks), printed, strict=True)),
         any(b.flag is not None for b in blocks),
         f"for model `{model.name}`{platform.words}",
-        versions(model.digest),
+        version_line(model.digest),
         {name: (model_stem, name) for name in defined} | {model_name("geometry"): (model_stem, "geometry")},
         f"Method `{info.method}` for model `{model.name}`{platform.words}.",
         header,
@@ -142,7 +150,7 @@ def _guide(program: LawProgram, model: ModelProgram, equations: Equations) -> li
     return [*(_USE + _IMPLICIT * bool(info.level)).split("\n"), *_symbols(equations, computed)]
 
 
-def versions(digest: str) -> str:
+def version_line(digest: str) -> str:
     """Return the line on the versions that a module was made with."""
     return f"digest {digest}, format {FORMAT}, templates {templates_digest()}"
 
@@ -151,7 +159,7 @@ def law_header(info: LawInfo, summary: str, reference: str, source: str, place: 
     """Return the lines of a law's docstring; `source` names the origin, `place` is that of the method's parameters."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(f"{sentence(summary)}.", reference, source),
+        *(f"{capitalised(summary)}.", reference, source),
         *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
         *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]
@@ -246,7 +254,9 @@ def straight(
         body.append(f"return int({lines.flag})" if lines.flag else "return 0")
         purpose = f"{block.purpose}: {block.operations} operations, {block.tree_operations} before sharing."
         arguments = ", ".join(block.arguments)
-        codes.append(function(block.name, arguments, purpose, body, PLATFORMS[target].decorator, calls=lines.functions))
+        codes.append(
+            function_source(block.name, arguments, purpose, body, PLATFORMS[target].decorator, calls=lines.functions)
+        )
     return codes
 
 
@@ -266,7 +276,7 @@ def _symbols(equations: Equations, computed: Mapping[str, tuple[int, int]]) -> l
 def emit_side(program: SideProgram) -> str:
     """Return the source of a module with one function, straight code for either shape of the model."""
     codes, header = _printed(program, "out[{}]")
-    return module(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
+    return module_source(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
 
 
 def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[ModulePiece], list[str]]:
@@ -307,5 +317,7 @@ def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> 
         if name == "residual":
             body.insert(1, f"w[{program.layout.offset('auxiliary')}] = w[{power}]")
         calls = f"law_{name}", more.partition("(")[0]
-        codes.append(function(name, arguments, "As the law's, with integrals.", body, calls=calls))
-    return module(f"A law of model `{program.mechanism}`, with integrals.", header, codes, origins, {}, exports=exports)
+        codes.append(function_source(name, arguments, "As the law's, with integrals.", body, calls=calls))
+    return module_source(
+        f"A law of model `{program.mechanism}`, with integrals.", header, codes, origins, {}, exports=exports
+    )

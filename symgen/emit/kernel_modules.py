@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from symgen.emit.emit import table_codes
-from symgen.emit.module import ModulePiece, function, module
+from symgen.emit.module import ModulePiece, function_source, module_source
 from symgen.emit.printer import Access, Printer
 from symgen.formulate.elements import RECORD
 from symgen.ir.program import FORMAT, STATUS, Block, Target
@@ -39,7 +39,7 @@ def _module(
     stands = f"Functions go through all instances, whose table begins at `at`: how many, then {stride} numbers each."
     header = [f"format {FORMAT}, generator {generator}", about, stands]
     origins = {name.upper(): ("machine", name.upper()) for name in HEAD}
-    return module(f"Kernel `{kernel.stem}` of the looped shape.", header, codes, origins, {})
+    return module_source(f"Kernel `{kernel.stem}` of the looped shape.", header, codes, origins, {})
 
 
 def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
@@ -64,7 +64,7 @@ def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
     ]
     calls = {*lines.functions, *map(str.upper, heads), *(["VECTORS"] if changed else []), "numpy"}
     purpose = f"{block.purpose}: {block.operations} operations an instance."
-    return function(block.name, "t, y, p, w, T, at, out", purpose, body, calls=calls)
+    return function_source(block.name, "t, y, p, w, T, at, out", purpose, body, calls=calls)
 
 
 #: Array, and the summands of the index of its first element, for inputs and outputs of functions of kernels.

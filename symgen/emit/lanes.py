@@ -7,8 +7,8 @@ from collections.abc import Container
 from dataclasses import replace
 
 from symgen.base.errors import InputError
-from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
-from symgen.emit.module import ModulePiece, function, module
+from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, version_line
+from symgen.emit.module import ModulePiece, function_source, module_source
 from symgen.emit.parts import Parts, PartsLayout, accept_kind
 from symgen.emit.printer import LaneAccess, Printer
 from symgen.formulate.equations import Equations
@@ -61,7 +61,7 @@ def emit_lanes_model(program: ModelProgram) -> str:
     parts.add("sine")
     title = f"Model `{program.name}` in lanes, for {LANES} runs at once: functions that are no calls."
     codes = [*parts.codes, *table_codes(program.tables, slopes=False)]
-    return module(title, [versions(program.digest)], codes, {}, {})
+    return module_source(title, [version_line(program.digest)], codes, {}, {})
 
 
 def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str) -> str:
@@ -72,7 +72,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     InputError
         If the method is more than a formula with one correction.
     """
-    layout, correction, info, made = program.layout, program.correction, program.info, versions(model.digest)
+    layout, correction, info, made = program.layout, program.correction, program.info, version_line(model.digest)
     simple = correction.metric in ("identity", "scaled", "mass") and not correction.energy
     if program.form != "direct" or program.closed or not simple:
         expected = "a method that is a formula with at most one correction (target lanes)"
@@ -97,7 +97,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     shared = ("sine", "cosine", *table_names(model.tables, slopes=False))
     imported = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
     offsets = {name: (at, "places in z") for name, at in {"numbers": bases["numbers"], **constants}.items()}
-    return module(title, header, codes, imported, offsets)
+    return module_source(title, header, codes, imported, offsets)
 
 
 def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> ModulePiece:
@@ -115,7 +115,7 @@ def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> Mo
     purpose = f"{block.purpose}: {block.operations} operations a lane."
     sections = [*(["numbers"] if alone else []), *(["suspects"] if counted else [])]
     arguments = "t, z" if alone else "t, z, lanes"
-    return function(block.name, arguments, purpose, body, calls=lines.functions, sections=sections)
+    return function_source(block.name, arguments, purpose, body, calls=lines.functions, sections=sections)
 
 
 def _watched(block: Block, turning: Container[int]) -> list[int]:

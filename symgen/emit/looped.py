@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.emit.emit import law_header
-from symgen.emit.module import ModulePiece, function, render
+from symgen.emit.module import ModulePiece, function_source, render
 from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import Access, Printer
 from symgen.emit.whole import Places
@@ -71,7 +71,7 @@ def emit_looped_law(
 ) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
     info = law.info
-    nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
+    nothing = function_source("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     versions = f"format {FORMAT}, generator {generator}"
     origins = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
@@ -159,7 +159,7 @@ def print_function(f: data.LoopedFunction) -> ModulePiece:
     purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
     sections = own | access.status
     arguments = ", ".join(ARGUMENTS[f.part.name])
-    return function(f.part.name, arguments, purpose, [*before, *lines], calls=called, sections=sections)
+    return function_source(f.part.name, arguments, purpose, [*before, *lines], calls=called, sections=sections)
 
 
 def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> list[str]:

@@ -84,13 +84,13 @@ def _environment() -> jinja2.Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         autoescape=False,
-        finalize=lambda value: literal(value) if isinstance(value, float) else value,
+        finalize=lambda value: python_number(value) if isinstance(value, float) else value,
     )
     environment.filters |= {"comment": comment_text, "markdown": markdown_text}
     return environment
 
 
-def literal(value: float) -> str:
+def python_number(value: float) -> str:
     """Return a number as Python text, with short exponents such as 1e4."""
     _, digits, exponent = Decimal(repr(value)).normalize().as_tuple()
     short = f"{digits[0]}e{exponent}" if len(digits) == 1 and value > 0.0 else repr(value)
@@ -120,7 +120,7 @@ def templates_digest() -> str:
     return digest.hexdigest()[:16]
 
 
-def function(
+def function_source(
     name: str,
     arguments: str,
     purpose: str,
@@ -131,7 +131,7 @@ def function(
     sections: Iterable[str] = (),
 ) -> ModulePiece:
     """Return a function; its purpose may come from anywhere, and `calls` may name libraries and their functions."""
-    first, *more = [comment_text(line) for line in sentence(purpose).split("\n")]
+    first, *more = [comment_text(line) for line in capitalised(purpose).split("\n")]
     document = [f'"""{first}', *more, '"""'] if more else [f'"""{first}"""']
     lines = [f"    {line}" if line else "" for line in (*document, *body)]
     text = "\n".join([decorator, f"def {name}({arguments}):", *lines])
@@ -140,7 +140,7 @@ def function(
     return ModulePiece(name, text, emitted, frozenset(sections), libraries)
 
 
-def sentence(text: str) -> str:
+def capitalised(text: str) -> str:
     """Return a text with a capital first letter, unless it begins with a symbol such as v'."""
     return text[0].upper() + text[1:] if text[:2].isalpha() else text
 
@@ -155,7 +155,7 @@ def _listed(names: Sequence[str]) -> str:
 Origins = Mapping[str, tuple[str, str]]
 
 
-def module(
+def module_source(
     title: str,
     header: Sequence[str],
     codes: Sequence[ModulePiece],

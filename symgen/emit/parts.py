@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from symgen.emit.module import PLATFORMS, ModulePiece, Origins, function, literal, module, render
+from symgen.emit.module import PLATFORMS, ModulePiece, Origins, function_source, module_source, python_number, render
 from symgen.emit.whole import Places
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
@@ -46,7 +46,7 @@ class PartsLayout:
         """Return a parameter of the method, or the default."""
         if name in self.parameters:
             return self.own_parameter(self.parameters.index(name))
-        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
+        return python_number(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return lines before a function's own, and the names and sections used since the last function."""
@@ -108,7 +108,9 @@ class Parts:
         named |= set(sections.split())
         lines = [*before, *body]
         decorator = self.layout.decorator
-        self.pieces.append(("", function(name, arguments, purpose, lines, decorator, calls=called, sections=named)))
+        self.pieces.append(
+            ("", function_source(name, arguments, purpose, lines, decorator, calls=called, sections=named))
+        )
         return ""
 
 
@@ -190,14 +192,14 @@ def law_modules(
         codes = [code for each, code in pieces if each == role]
         if not codes:
             continue
-        digest = hashlib.sha256(module("", [], codes, origins, **keys).encode()).hexdigest()[:16]
+        digest = hashlib.sha256(module_source("", [], codes, origins, **keys).encode()).hexdigest()[:16]
         name = "_".join((label, *([kinds[role]] if role in kinds else ()), digest)) + suffix
-        modules[name] = module(f"{about}, {what}.", [versions], codes, origins, **keys)
+        modules[name] = module_source(f"{about}, {what}.", [versions], codes, origins, **keys)
         if role == "acceleration":  # the law's `rhs` closes dependent coordinates first
             origins["accelerate"] = (name, "rhs")
         origins |= {each: (name, each) for code in codes for each in code.names}
         exported |= {each for code in codes for each in code.names}
-    modules[stem + suffix] = module(title, header, [], origins, {}, exports=exported.intersection(_EXPORTS))
+    modules[stem + suffix] = module_source(title, header, [], origins, {}, exports=exported.intersection(_EXPORTS))
     return modules
 
 

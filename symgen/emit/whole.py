@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from symgen.emit.module import ModulePiece, Origins, module
+from symgen.emit.module import ModulePiece, Origins, module_source
 from symgen.ir.program import COUNTERS, STATUS
 
 #: Meaning of the sections of ``w``, for headers.
@@ -125,14 +125,14 @@ class Places:
         Parameters
         ----------
         title, header, origins, offsets, **keys
-            As for `symgen.emit.module.module`; places by number need no offset.
+            As for `symgen.emit.module.module_source`; places by number need no offset.
         groups : sequence of sequence of Code
             The functions, those of each part of the law together, in the order of their text.
         """
         codes = [self.named(code) for code in with_own_names(groups, origins)]
         constants = {**(offsets or {}), **self.constants}
         origins = {**origins, **{model_name(name): origin for name, origin in origins.items()}}
-        return absolute(module(title, header, codes, origins, constants, **keys))
+        return absolute(module_source(title, header, codes, origins, constants, **keys))
 
 
 def model_name(name: str) -> str:

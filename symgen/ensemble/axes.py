@@ -125,7 +125,7 @@ _WORDS: Mapping[str, tuple[Callable[..., Array], int | None, str]] = {
 }
 
 
-def parse(text: str, where: str) -> Array:
+def axis_values(text: str, where: str) -> Array:
     """Return the values that a text such as ``lin(1, 3, 21)`` stands for.
 
     Parameters
@@ -205,7 +205,7 @@ def make_grid(
 
 def _values(name: str, written: ArrayLike | str) -> Array:
     if isinstance(written, str):
-        return parse(written, name)
+        return axis_values(written, name)
     try:
         plain = np.asarray(written)
         if plain.dtype.kind in "bc":

@@ -15,7 +15,7 @@ from symgen.base.errors import InputError, SimulationError
 from symgen.base.plugins import in_sentences, load_plugins
 from symgen.ensemble.chunks import Chunk, Rows
 from symgen.ensemble.kernel import kernel_of, new_control
-from symgen.ensemble.recipe import Recipe, code_identity
+from symgen.ensemble.recipe import Recipe, run_code_identity
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -66,7 +66,7 @@ def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
         If the worker has another version of symgen.
     """
     load_plugins(recipe.plugins)
-    if recipe.code != code_identity():
+    if recipe.code != run_code_identity():
         raise SimulationError("a worker of the cluster has another version of symgen")
     kernel = kernel_of(recipe)
     kernel.warm()

@@ -15,7 +15,7 @@ from symgen.breaks.motions import jump_of, names_of_motions
 from symgen.breaks.stops import merged, stops_of
 from symgen.describe.evaluate import derived, parameter_values
 from symgen.loops.run_spec import Stop
-from symgen.vocabulary.expressions import names
+from symgen.vocabulary.expressions import names_in
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,7 +57,7 @@ class Driving:
         """Whether jumps and kinks are elsewhere in each run."""
         driven = self.inputs.driven
         depends = {*self.varied, *(name for name, _ in derived(self.inputs.mechanism.parameters))}
-        reads = [{*names(jump.argument), *names(jump.value)} for jump in (() if driven is None else driven.jumps)]
+        reads = [{*names_in(jump.argument), *names_in(jump.value)} for jump in (() if driven is None else driven.jumps)]
         return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
     @cached_property

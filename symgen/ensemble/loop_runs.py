@@ -12,7 +12,7 @@ from symgen.effects.accumulation import new_past
 from symgen.ir.program import LANES, lane_bases
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.layout.records import Kept, Observed, RowChunk
 from symgen.layout.redundancy import room_of_choice
 from symgen.layout.start_records import Instant
@@ -89,7 +89,12 @@ class LoopRuns:
         """
         recipe, compiled, setup, summary = self.recipe, self.compiled, self.setup, out.summary
         info, model, law, adaptive = compiled.info, compiled.model, compiled.law_module, recipe.spec.adaptive
-        rates, sizes, span, series = rates_of(law), sizes_of(compiled), span_of(recipe.spec, setup), self._series()
+        rates, sizes, span, series = (
+            rate_functions(law),
+            sizes_of(compiled),
+            span_of(recipe.spec, setup),
+            self._series(),
+        )
         sources = {*self.picks[::2].tolist()}
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
         observe = model.observe if self.width is None else model.bodies

@@ -37,7 +37,7 @@ Integers = NDArray[np.int64]
 NAME, PURPOSE = "measured", "what is kept of the runs of sweeps"
 
 
-def integrated(mechanism: Mechanism, chosen: Sequence[Signal]) -> str | None:
+def first_integral(mechanism: Mechanism, chosen: Sequence[Signal]) -> str | None:
     """Return the first of some quantities that reads an integral, None where none does."""
     names = {q.name for q in chosen if q.source == e.SIDE}
     for output in mechanism.outputs:

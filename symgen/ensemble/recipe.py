@@ -31,7 +31,7 @@ from symgen.layout.ensemble_abi import SIDE
 from symgen.loops.run_spec import RunSpec
 from symgen.result.signals import Signal
 from symgen.starts.held import Held
-from symgen.store.identity import SOURCES, digest, sources_digest
+from symgen.store.identity import SOURCES, combined_digest, sources_digest
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -179,7 +179,7 @@ class Recipe:
     strict : bool
         Whether a start that has to be changed is refused.
     code : str
-        From `code_identity`: what computes it.
+        From `run_code_identity`: what computes it.
     target : {"cpu", "lanes", "cuda"}
         Target of the code.
     plugins : tuple of str
@@ -273,6 +273,6 @@ class Recipe:
         return hashlib.sha256(text.encode() + self.spec.times.tobytes()).hexdigest()
 
 
-def code_identity() -> str:
+def run_code_identity() -> str:
     """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
-    return digest(__version__, sources_digest(*SOURCES["rows"]), *stamps())
+    return combined_digest(__version__, sources_digest(*SOURCES["rows"]), *stamps())

@@ -124,7 +124,7 @@ def sweep(
     }
     names = None if quantities is None else arguments.words("quantities", quantities)
     path = None if output is None else arguments.path("output", output)
-    folder = None if path is None else folder_of(path, resume)
+    folder = None if path is None else output_folder(path, resume)
     if resume and path is None:
         raise InputError("resume", "an output that was begun", "none")
     ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], names, target)
@@ -181,7 +181,7 @@ def _run(
         return time.perf_counter() - began, interrupted
 
 
-def folder_of(path: Path, resume: bool) -> Path:
+def output_folder(path: Path, resume: bool) -> Path:
     """Return the folder in which the runs of an output are collected, after making sure that it can be used.
 
     Raises

@@ -31,9 +31,9 @@ from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.loop_runs import PLAIN
-from symgen.ensemble.measures import integrated, make_measures
+from symgen.ensemble.measures import first_integral, make_measures
 from symgen.ensemble.names import METHOD, Names, Targets, targets_of
-from symgen.ensemble.recipe import Code, EventPlan, Module, Recipe, code_identity
+from symgen.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
 from symgen.ensemble.row_quantities import choose_quantities
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
@@ -250,7 +250,7 @@ def make_ensemble(
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
     kept = choose_quantities(mechanism, compiled.info, kept_names)
-    integral = integrated(mechanism, kept)
+    integral = first_integral(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
@@ -282,7 +282,7 @@ def make_ensemble(
         quantities=kept,
         held=targets.held,
         strict=plan.settings.strict,
-        code=code_identity(),
+        code=run_code_identity(),
         target=target,
         tree=on_tree(mechanism) if joint else None,
         watch=watch,

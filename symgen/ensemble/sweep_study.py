@@ -22,9 +22,9 @@ from symgen.base.files import check_path, headed, need, write_csv, write_whole
 from symgen.base.version import __version__
 from symgen.ensemble.names import Names
 from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
-from symgen.ensemble.verdicts import NOT_RUN, column, judge_all, warnings_all
+from symgen.ensemble.verdicts import NOT_RUN, judge_all, summary_column, warnings_all
 from symgen.layout.ensemble_abi import ASSEMBLED
-from symgen.result.contract import finite
+from symgen.result.contract import json_value
 from symgen.result.export import netcdf
 from symgen.result.labelled import html_table
 from symgen.result.plot import Plot, plotted
@@ -91,7 +91,7 @@ class Sweep:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
         status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
-        failed = self.done & (column(self.summary, "start") != ASSEMBLED)
+        failed = self.done & (summary_column(self.summary, "start") != ASSEMBLED)
         for row, why in self.ensemble.driving.refusals(self.ensemble, failed):
             reason[row] = why
         return status, reason
@@ -115,7 +115,7 @@ class Sweep:
     def warnings(self) -> NDArray[np.object_]:
         """Warnings of every run, ok or not: a tuple of sentences."""
         ensemble, sentences_of_runs = self.ensemble, np.empty(len(self), dtype=object)
-        begun = self.done & (column(self.summary, "start") == ASSEMBLED)
+        begun = self.done & (summary_column(self.summary, "start") == ASSEMBLED)
         sentences_of_runs[:] = [ensemble.warnings if there else () for there in begun]
         law, spec = ensemble.compiled.law, ensemble.recipe.spec
         for i, sentences in warnings_all(self.summary, begun, law, spec).items():
@@ -155,7 +155,7 @@ class Sweep:
             if q.name == name:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
-            return column(self.summary, name).reshape(shape)
+            return summary_column(self.summary, name).reshape(shape)
         if name in self.events:
             return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
         names = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
@@ -183,7 +183,7 @@ class Sweep:
             "parameters": json.dumps({k: x for k, x in ensemble.parameters.items() if "~" not in k}),
             "inputs": json.dumps(dict(ensemble.driving.inputs.words)),
             "options": json.dumps(dict(chosen.options)),
-            "settings": json.dumps(finite(settings)),
+            "settings": json.dumps(json_value(settings)),
             "versions": json.dumps(_versions()),
             "ensemble_digest": ensemble.recipe.digest,
             "interrupted": int(self.interrupted),
@@ -196,7 +196,7 @@ class Sweep:
             for key in ("mechanism", "method", "integrator", "target", "coordinates", "step", "rtol", "until")
         }
         counts = self.counts
-        contract: dict[str, Any] = finite(
+        contract: dict[str, Any] = json_value(
             {
                 **facts,
                 "runs": len(self),
@@ -248,7 +248,7 @@ class Sweep:
         words = np.array(["; ".join(sentences) for sentences in self.warnings], dtype=object)
         variables["warnings"] = (dimensions, words.reshape(shape))
         for name, (unit, counts) in NUMBERS.items():
-            numbers = column(self.summary, name).reshape(shape)
+            numbers = summary_column(self.summary, name).reshape(shape)
             variables[of_number(name)] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
         for name, (_, unit) in self.events.items():
             variables[name] = (dimensions, self[name], {"units": unit})
@@ -378,7 +378,7 @@ def lines_of(sweep: Sweep) -> tuple[list[str], Iterator[list[object]]]:
         "reason",
         "warnings",
     ]
-    end = column(sweep.summary, "end")
+    end = summary_column(sweep.summary, "end")
 
     def lines() -> Iterator[list[object]]:
         for i in range(len(sweep)):

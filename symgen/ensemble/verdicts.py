@@ -31,7 +31,7 @@ NOT_RUN = "not run"
 _PROJECTED = "given velocities contradicted the constraints and were projected; `strict` lets such runs fail"
 
 
-def column(summary: Array, name: str) -> Array:
+def summary_column(summary: Array, name: str) -> Array:
     """Return one number of every run, shape (n,)."""
     return np.asarray(summary[..., e.SUMMARY.index(name)])
 
@@ -64,12 +64,12 @@ def judge_all(
     status = np.full(len(summary), OK, dtype="<U10")
     reason = np.full(len(summary), "", dtype=object)
     status[~done] = NOT_RUN
-    passed = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
-    doubtful = (column(summary, "start") != e.ASSEMBLED) | (column(summary, "code") != abi.DONE)
+    passed = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
+    doubtful = (summary_column(summary, "start") != e.ASSEMBLED) | (summary_column(summary, "code") != abi.DONE)
     doubtful |= law.energy_correction | _jumped(summary) | (passed & (not law.position_correction))
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
-        if column(row, "start") != e.ASSEMBLED:
+        if summary_column(row, "start") != e.ASSEMBLED:
             status[i], reason[i] = FAILED, str(refusal(row, info))
             continue
         if (why := _of_events(row, events)) is not None:
@@ -88,9 +88,12 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
     summary, done, law, spec
         As for `judge_all`.
     """
-    odd = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
-    odd |= column(summary, "light_evaluations") > 0.0
-    ready, projected = done & (column(summary, "start") == e.ASSEMBLED), column(summary, "start_velocities") == 1.0
+    odd = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
+    odd |= summary_column(summary, "light_evaluations") > 0.0
+    ready, projected = (
+        done & (summary_column(summary, "start") == e.ASSEMBLED),
+        summary_column(summary, "start_velocities") == 1.0,
+    )
     warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
     for i in np.flatnonzero(ready & odd).tolist():
         warnings[i] = (*warnings.get(i, ()), *judge_alone(_ended(summary[i], spec), law).warnings)
@@ -99,7 +102,7 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
 
 def _of_events(row: Array, events: Sequence[str]) -> str | None:
     """Return why an event, or an input, ended a run as failed, None where none did."""
-    code, time, further = int(column(row, "code")), float(column(row, "end")), row[e.N_SUMMARY :]
+    code, time, further = int(summary_column(row, "code")), float(summary_column(row, "end")), row[e.N_SUMMARY :]
     if code == abi.GATHERED:
         names = [name for i, name in enumerate(events) if int(further[e.GATHERING]) >> i & 1]
         return gathered(names, float(further[e.ACCUMULATION]))
@@ -117,7 +120,9 @@ def _of_events(row: Array, events: Sequence[str]) -> str | None:
 
 
 def _jumped(summary: Array) -> NDArray[np.bool_]:
-    return np.asarray(column(summary, "energy_jump") > 0.5 * JUMP_DOUBT * column(summary, "energy_scale"))
+    return np.asarray(
+        summary_column(summary, "energy_jump") > 0.5 * JUMP_DOUBT * summary_column(summary, "energy_scale")
+    )
 
 
 def _ended(row: Array, spec: RunSpec) -> Ended:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from symgen.describe.scope import Scope
-from symgen.vocabulary.expressions import ZERO, Expr, Name, call, number, total
+from symgen.vocabulary.expressions import ZERO, Expr, Name, call, literal_of, sum_of_terms
 from symgen.vocabulary.measures import Effort, Measure
 
 
@@ -44,7 +44,9 @@ def sprung(scope: Scope, keys: Sprung, label: str, measure: Measure, coordinate:
     damping = scope.constant("damping", keys.damping)
     actuator = scope.of_state("actuator", keys.actuator, {coordinate: "s", "rate": "rate"})
     potential = scope.potential("potential", keys.potential, {coordinate: "s"})
-    return Effort(label, measure, total(actuator, damper(damping)), total(spring(stiffness, rest), potential))
+    return Effort(
+        label, measure, sum_of_terms(actuator, damper(damping)), sum_of_terms(spring(stiffness, rest), potential)
+    )
 
 
 def spring(stiffness: Expr, free: Expr = ZERO) -> Expr:
@@ -52,7 +54,7 @@ def spring(stiffness: Expr, free: Expr = ZERO) -> Expr:
     if stiffness == ZERO:
         return ZERO
     stretch = Name("s") if free == ZERO else call("sub", Name("s"), free)
-    return call("mul", call("div", stiffness, number(2.0)), call("pow", stretch, number(2.0)))
+    return call("mul", call("div", stiffness, literal_of(2.0)), call("pow", stretch, literal_of(2.0)))
 
 
 def damper(damping: Expr) -> Expr:

@@ -10,8 +10,8 @@ import msgspec
 from symgen.describe.fields import Across, AxisPair, BodyPair, DirectionPair, PointPair, Scalar, words_of
 from symgen.describe.mechanism import Body, Force
 from symgen.describe.scope import Scope
-from symgen.describe.triads import frame, make_triads
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, number, product, total
+from symgen.describe.triads import make_triads, triad
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, literal_of, product, sum_of_terms
 from symgen.vocabulary.measures import Angle, Component, Direction, Dot, Flexure, Marker, Measure, Sum
 
 
@@ -110,7 +110,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
             a, b = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
             return (a.axis, a.first, a.second), (b.axis, b.first, b.second)
         return tuple(  # type: ignore[return-value]  # two
-            tuple(Direction(body, vector) for vector in frame(scope, "reference", along.vector, side.vector))
+            tuple(Direction(body, vector) for vector in triad(scope, "reference", along.vector, side.vector))
             for body, axis, reference in zip(bodies, axes, self.reference, strict=True)
             for along, side in [(scope.direction("axis", body, axis), scope.direction("reference", body, reference))]
         )
@@ -121,10 +121,15 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         if isinstance(first, tuple) and isinstance(second, tuple):
             return scope.axis("axis", bodies[0], first), scope.axis("axis", bodies[1], second)
         along = scope.axis("axis", bodies[0], self.axis)
-        turned = total(*(_angle(scope, body, sign) for body, sign in zip(bodies, (1.0, -1.0), strict=True)), bend)
+        turned = sum_of_terms(
+            *(_angle(scope, body, sign) for body, sign in zip(bodies, (1.0, -1.0), strict=True)), bend
+        )
         cosine, sine = call("cos", turned), call("sin", turned)
         x, y = along[0].vector
-        vector = total(product(cosine, x), product(call("neg", sine), y)), total(product(sine, x), product(cosine, y))
+        vector = (
+            sum_of_terms(product(cosine, x), product(call("neg", sine), y)),
+            sum_of_terms(product(sine, x), product(cosine, y)),
+        )
         carried = Direction(bodies[1], vector), Direction(bodies[1], (call("neg", vector[1]), vector[0]))
         return along, carried
 
@@ -140,7 +145,7 @@ def _in_plane(ends: tuple[Marker, Marker], axes: tuple[Directions, Directions]) 
 
 def _in_space(ends: tuple[Marker, Marker], u: Directions, v: Directions) -> tuple[Measure, ...]:
     along = (Sum(tuple((ONE, Component(*ends, e)) for e in pair)) for pair in zip(u, v, strict=True))
-    less = number(-1.0)
+    less = literal_of(-1.0)
     turns = (
         Sum(((ONE, Dot(u[(i + 2) % 3], v[(i + 1) % 3])), (less, Dot(u[(i + 1) % 3], v[(i + 2) % 3])))) for i in range(3)
     )
@@ -150,16 +155,16 @@ def _in_space(ends: tuple[Marker, Marker], u: Directions, v: Directions) -> tupl
 def _angle(scope: Scope, body: str, sign: float) -> Expr:
     """Return the angle of a planar body as described, times a sign."""
     described = scope.context.bodies.get(body)
-    return product(number(sign), described.angle) if isinstance(described, Body) else ZERO
+    return product(literal_of(sign), described.angle) if isinstance(described, Body) else ZERO
 
 
 def _turn(scope: Scope, axes: tuple[Directions, Directions], bend: Expr) -> Expr:
     """Return the bend beyond the angle between the bodies, less whole turns between them as described."""
     turned = [call("atan2", d[0].vector[1], d[0].vector[0]) for d in axes]
-    turn = total(turned[1], call("neg", turned[0])) if turned[0] != turned[1] else ZERO
-    described = total(*(_angle(scope, d[0].body, s) for d, s in zip(axes, (-1.0, 1.0), strict=True)), turn)
+    turn = sum_of_terms(turned[1], call("neg", turned[0])) if turned[0] != turned[1] else ZERO
+    described = sum_of_terms(*(_angle(scope, d[0].body, s) for d, s in zip(axes, (-1.0, 1.0), strict=True)), turn)
     around = round((scope.value(described, "axis") - scope.value(bend, "curvature")) / math.tau)
-    return total(turn, number(-math.tau * around))
+    return sum_of_terms(turn, literal_of(-math.tau * around))
 
 
 KIND = Beam

@@ -11,7 +11,7 @@ from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.forces._parts import damper, spring
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, Reading, call, number, total
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Reading, call, literal_of, sum_of_terms
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -91,7 +91,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
             own = [
                 [m[i][i], *(call("neg", m[i][j]) for j in range(size) if j != i and m[i][j] != ZERO)] for m in (k, c)
             ]
-            efforts += _effort(labels[i], measures[i], total(*own[0]), total(*own[1]))
+            efforts += _effort(labels[i], measures[i], sum_of_terms(*own[0]), sum_of_terms(*own[1]))
             for j in range(i):
                 both = Sum(((ONE, measures[i]), (ONE, measures[j])))
                 efforts += _effort(f"{labels[j]}_{labels[i]}", both, k[i][j], c[i][j])
@@ -118,7 +118,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 
 def _sines(u: tuple[Direction, ...], v: tuple[Direction, ...]) -> tuple[Measure, ...]:
     """Return half the vector of R - R^T of the rotation of one frame against another."""
-    half = number(0.5), number(-0.5)
+    half = literal_of(0.5), literal_of(-0.5)
     return tuple(
         Sum(((half[0], Dot(u[(i + 2) % 3], v[(i + 1) % 3])), (half[1], Dot(u[(i + 1) % 3], v[(i + 2) % 3]))))
         for i in range(3)

@@ -9,7 +9,7 @@ import msgspec
 from symgen.describe.fields import BodyName, Point, PotentialVector, StateVector, words_of
 from symgen.describe.mechanism import Force as Resolved
 from symgen.describe.scope import CENTRE, Scope
-from symgen.vocabulary.expressions import ZERO, Expr, Name, call, product, total
+from symgen.vocabulary.expressions import ZERO, Expr, Name, call, product, sum_of_terms
 from symgen.vocabulary.measures import GROUND, Component, Effort, Marker, PointSpeed, axes
 
 
@@ -74,8 +74,8 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         x, y = components
         cosine, sine = call("cos", Name(f"{body}.theta")), call("sin", Name(f"{body}.theta"))
         return (
-            total(product(x, cosine), product(call("neg", y), sine)),
-            total(product(x, sine), product(y, cosine)),
+            sum_of_terms(product(x, cosine), product(call("neg", y), sine)),
+            sum_of_terms(product(x, sine), product(y, cosine)),
         )
 
 

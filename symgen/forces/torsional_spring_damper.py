@@ -12,7 +12,7 @@ from symgen.describe.mechanism import Force, Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.forces._parts import damper, sprung
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, call, number
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, call, literal_of
 from symgen.vocabulary.measures import Angle, Dot, Effort, Measure, Spin, Sum, axes
 
 
@@ -78,7 +78,7 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
         if stiffness != ZERO:
             u, v = ((t.first, t.second, t.axis) for t in make_triads(scope, (a, b), (0.0, 0.0, 1.0), fixed=True))
             trace = Sum(tuple((ONE, Dot(*pair)) for pair in zip(u, v, strict=True)))
-            half = call("div", stiffness, number(2.0))
+            half = call("div", stiffness, literal_of(2.0))
             efforts.append(Effort("", trace, potential=call("mul", half, _squared_turn(Name("s")))))
         return Force(scope.name, scope.kind, (a, b), tuple(efforts))
 
@@ -101,13 +101,13 @@ def _squared_turn(trace: Expr) -> Expr:
 
     With x = 1 - cos(angle) it is the sum of 2^(n+1) n!^2 / (n^2 (2n)!) x^n, the square of the series of the arc sine.
     """
-    x = call("div", call("sub", number(3.0), trace), number(2.0))
+    x = call("div", call("sub", literal_of(3.0), trace), literal_of(2.0))
     series: Expr = ZERO
     for n in range(_TERMS, 0, -1):
-        coefficient = number(2.0 ** (n + 1) * math.factorial(n) ** 2 / (n**2 * math.factorial(2 * n)))
+        coefficient = literal_of(2.0 ** (n + 1) * math.factorial(n) ** 2 / (n**2 * math.factorial(2 * n)))
         series = call("mul", x, coefficient if series == ZERO else call("add", coefficient, series))
-    cosine = call("min", call("sub", ONE, x), number(1.0 - _SMALL / 2.0))
-    return call("where", call("lt", x, number(_SMALL)), series, call("pow", call("acos", cosine), number(2.0)))
+    cosine = call("min", call("sub", ONE, x), literal_of(1.0 - _SMALL / 2.0))
+    return call("where", call("lt", x, literal_of(_SMALL)), series, call("pow", call("acos", cosine), literal_of(2.0)))
 
 
 KIND = TorsionalSpringDamper

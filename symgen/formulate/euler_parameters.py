@@ -39,7 +39,7 @@ def turning(g: Graph, e: Sequence[int], omega: Sequence[int]) -> list[int]:
     ]
 
 
-def half_turn(g: Graph, angle: int, axis: int) -> list[int]:
+def elementary_rotation(g: Graph, angle: int, axis: int) -> list[int]:
     """Return the Euler parameters of a rotation about the first, second or third axis (1, 2, 3)."""
     half = g.mul(g.constant(0.5), angle)
     e = [g.call("cos", half), g.zero, g.zero, g.zero]
@@ -47,7 +47,7 @@ def half_turn(g: Graph, angle: int, axis: int) -> list[int]:
     return e
 
 
-def inverse(g: Graph, e: Sequence[int]) -> list[int]:
+def inverse_rotation(g: Graph, e: Sequence[int]) -> list[int]:
     """Return the Euler parameters of the inverse rotation."""
     return [e[0], *(g.neg(x) for x in e[1:])]
 

@@ -14,7 +14,7 @@ import sympy as sp
 from symgen.formulate.equations import DriverPower
 from symgen.formulate.translate import NotReal, Translator, to_sympy
 from symgen.ir.derivative import jacobian
-from symgen.vocabulary.expressions import Expr, names
+from symgen.vocabulary.expressions import Expr, names_in
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:
     """Return a symbol for each name of a formula and each placeholder."""
-    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names(e)]))}
+    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names_in(e)]))}
 
 
 def translated(model: ModelNodes, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
@@ -38,7 +38,7 @@ def translated(model: ModelNodes, symbols: dict[str, Any], expressions: list[Any
 def time_function(model: ModelNodes, e: Expr) -> tuple[int, int, int]:
     """Return the value and the first two time derivatives of a formula of t and parameters."""
     g = model.graph
-    if "t" not in names(e):
+    if "t" not in names_in(e):
         return model.expression(e), g.zero, g.zero
     symbols = as_symbols(e)
     t = symbols["t"]

@@ -15,7 +15,14 @@ from typing import TYPE_CHECKING
 from symgen.describe.mechanism import Articulation, Link, SpatialBody
 from symgen.describe.topology import labels_of
 from symgen.formulate.equations import DriverPower, MassBlock
-from symgen.formulate.euler_parameters import composed, half_turn, inverse, matrix_of, parameters_of, turning
+from symgen.formulate.euler_parameters import (
+    composed,
+    elementary_rotation,
+    inverse_rotation,
+    matrix_of,
+    parameters_of,
+    turning,
+)
 from symgen.formulate.of_time import driving_of
 from symgen.formulate.tree import Tree
 from symgen.formulate.tree_inertia import BodyVelocity, Composite, Placed
@@ -218,8 +225,10 @@ class SpatialTree(Tree):
             z = g.zero
             about_axis: Matrix = ((c, g.neg(s), z), (s, c, z), (z, z, g.one))
             turn = v.product(v.product(to_parent, about_axis), v.transposed(to_body))
-            half = half_turn(g, g.mul(sign, q), 3)
-            euler = composed(g, composed(g, parameters_of(g, to_parent), half), inverse(g, parameters_of(g, to_body)))
+            half = elementary_rotation(g, g.mul(sign, q), 3)
+            euler = composed(
+                g, composed(g, parameters_of(g, to_parent), half), inverse_rotation(g, parameters_of(g, to_body))
+            )
             axis = v.scale(sign, v.triple(model.direction(mine[2])))
             return turn, euler, {i: axis}, v.zero
         (one, qa, rate_a, _), (two, qb, rate_b, _) = (
@@ -240,13 +249,20 @@ class SpatialTree(Tree):
             ),
         )
         of_a = parameters_of(g, v.transposed((fa, sa, za)))
-        forwards = composed(g, composed(g, of_a, half_turn(g, qa, 3)), composed(g, half_turn(g, qb, 1), flip))
+        forwards = composed(
+            g, composed(g, of_a, elementary_rotation(g, qa, 3)), composed(g, elementary_rotation(g, qb, 1), flip)
+        )
         product = g.mul(rate_a, rate_b)
         if link.forward:
             turn = v.product(into_a, v.transposed(into_b))
             return turn, forwards, {one: in_b[2], two: zb}, v.scale(product, in_b[1])
         turn = v.product(into_b, v.transposed(into_a))
-        return turn, inverse(g, forwards), {one: v.neg(za), two: v.neg(in_a[0])}, v.neg(v.scale(product, in_a[1]))
+        return (
+            turn,
+            inverse_rotation(g, forwards),
+            {one: v.neg(za), two: v.neg(in_a[0])},
+            v.neg(v.scale(product, in_a[1])),
+        )
 
     def _name(self, name: str, is_point: bool, p: Placed) -> None:
         """Store the coordinates and velocities of a body by their names."""

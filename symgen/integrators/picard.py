@@ -34,7 +34,7 @@ def lobatto(n: int) -> tuple[Array, Array]:
     return x, 2.0 / (n * (n + 1) * legendre.Legendre.basis(n)(x) ** 2)
 
 
-def integrals(terms: int, x: Array) -> tuple[Array, Array]:
+def legendre_integrals(terms: int, x: Array) -> tuple[Array, Array]:
     """Return integrals and second integrals from 0 to (1 + x) / 2 of shifted Legendre polynomials, one per row."""
     values = legendre.legvander(x, terms + 1).T
     k = np.arange(1, terms + 1)[:, np.newaxis]
@@ -72,7 +72,7 @@ def coefficients() -> Coefficients:
     dense[count:, : len(every)] = through_all
 
     def collocation(x: Array) -> Array:
-        once, twice = integrals(count, x)
+        once, twice = legendre_integrals(count, x)
         return np.concatenate([(through.T @ once).ravel(), (through.T @ twice).ravel(), 0.5 * (1.0 + x)])
 
     table = np.zeros((count, 2 * NODES))

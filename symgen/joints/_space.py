@@ -5,10 +5,10 @@ from __future__ import annotations
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import Triad, make_triad
-from symgen.vocabulary.expressions import Expr, Number, call, number
+from symgen.vocabulary.expressions import Expr, Number, call, literal_of
 from symgen.vocabulary.measures import GROUND, Component, Direction, Dot, Holonomic, Marker, Sum, Turn, axes
 
-_MINUS = number(-1.0)
+_MINUS = literal_of(-1.0)
 
 
 def coincident(a: Marker, b: Marker) -> tuple[Holonomic, ...]:
@@ -90,7 +90,7 @@ def third(pair: tuple[Direction, Direction]) -> Direction:
 def _determinant(a: Expr, b: Expr, c: Expr, d: Expr) -> Expr:
     """Return a b - c d, as a number where all of them are numbers."""
     if isinstance(a, Number) and isinstance(b, Number) and isinstance(c, Number) and isinstance(d, Number):
-        return number(a.value * b.value - c.value * d.value)
+        return literal_of(a.value * b.value - c.value * d.value)
     return call("sub", call("mul", a, b), call("mul", c, d))
 
 

@@ -10,7 +10,7 @@ from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.joints._paired import Paired
 from symgen.joints._space import coincident
-from symgen.vocabulary.expressions import number
+from symgen.vocabulary.expressions import literal_of
 from symgen.vocabulary.measures import Dot, Holonomic, Sum
 
 
@@ -48,7 +48,7 @@ class ConstantVelocity(Paired, frozen=True, kw_only=True, forbid_unknown_fields=
         """
         bodies, centres = self.ends(scope)
         of_a, of_b = make_triads(scope, bodies, self.axis, self.reference, fixed=True)
-        half = number(0.5), number(-0.5)
+        half = literal_of(0.5), literal_of(-0.5)
         twist = Sum(((half[0], Dot(of_a.second, of_b.first)), (half[1], Dot(of_a.first, of_b.second))))
         rows = (*coincident(*centres), Holonomic("twist", twist, unit="rad"))
         return Joint(scope.name, scope.kind, bodies, rows)

@@ -9,7 +9,7 @@ import msgspec
 from symgen.describe.fields import Scalars, Text, TimeFunction, Weights
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
-from symgen.vocabulary.expressions import Expr, Reading, call, number
+from symgen.vocabulary.expressions import Expr, Reading, call, literal_of
 from symgen.vocabulary.measures import FormulaMeasure, Holonomic, Measure, Sum
 
 #: Maximum number of coefficients: as deep as a formula may be nested, 100 levels.
@@ -64,7 +64,7 @@ class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             bodies += joint.bodies
             coefficients = [scope.constant("polynomial", c) for c in self.polynomial or ()]
             powers = FormulaMeasure(_horner(coefficients, Reading(f"{joint.name}.{label}", measure)))
-            terms.append((number(-1.0), powers))
+            terms.append((literal_of(-1.0), powers))
         row = Holonomic("coupling", Sum(tuple(terms)), scope.of_time("value", self.value), units[0])
         return Joint(scope.name, scope.kind, tuple(dict.fromkeys(bodies)), (row,))
 

@@ -9,7 +9,7 @@ from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triad
 from symgen.joints._rolling import RollingContact
-from symgen.vocabulary.expressions import number
+from symgen.vocabulary.expressions import literal_of
 from symgen.vocabulary.measures import Holonomic, RimHeight, Sum
 
 
@@ -38,7 +38,7 @@ class RollingDisc(RollingContact, frozen=True, kw_only=True, forbid_unknown_fiel
         axis = make_triad(scope, contact.body, self.axis).axis
         # downwards, so that a positive multiplier pushes the disc along the normal
         rim = RimHeight(contact.origin, contact.plane.axis, contact.centre, axis, contact.radius)
-        return contact.joint(scope, Holonomic("normal", Sum(((number(-1.0), rim),))), axis)
+        return contact.joint(scope, Holonomic("normal", Sum(((literal_of(-1.0), rim),))), axis)
 
 
 KIND = RollingDisc

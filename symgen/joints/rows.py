@@ -9,7 +9,7 @@ from typing import ClassVar
 import msgspec
 
 from symgen.base.errors import quoted
-from symgen.describe.fields import BodyNames, Rows, StateFunction, Text, read
+from symgen.describe.fields import BodyNames, Rows, StateFunction, Text, read_table
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Joint, is_speed
 from symgen.describe.names import check_identifier
@@ -86,7 +86,7 @@ class FormulaRows(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     def _row(self, scope: Scope, i: int, raw: object) -> Row:
         key = f"rows[{i}]"
-        keys = read(RowKeys, raw, scope.where(key))
+        keys = read_table(RowKeys, raw, scope.where(key))
         if (keys.position is None) == (keys.velocity is None):
             got = "neither" if keys.position is None else "both"
             raise scope.error(key, "either the key position or the key velocity", got)

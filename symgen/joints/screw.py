@@ -11,7 +11,7 @@ from symgen.describe.scope import Scope
 from symgen.describe.triads import make_triads
 from symgen.joints._paired import Axial
 from symgen.joints._space import angle, frames, markers, on_axis, parallel
-from symgen.vocabulary.expressions import ONE, call, number
+from symgen.vocabulary.expressions import ONE, call, literal_of
 from symgen.vocabulary.measures import Component, Holonomic, Sum
 
 
@@ -42,7 +42,7 @@ class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
         bodies, points = self.ends(scope)
         triads = make_triads(scope, bodies, self.axis, self.reference)
         displacement, turn = Component(*points, triads[0].axis), angle(*triads)
-        slope = call("div", scope.constant("pitch", self.pitch), number(-2.0 * math.pi))
+        slope = call("div", scope.constant("pitch", self.pitch), literal_of(-2.0 * math.pi))
         thread = Holonomic("screw", Sum(((ONE, displacement), (slope, turn))), scope.constant("offset", self.offset))
         rows = (*on_axis(*points, triads[0]), *parallel(*triads), thread)
         return Joint(scope.name, scope.kind, bodies, rows, (("displacement", displacement), ("angle", turn)))

@@ -10,7 +10,7 @@ from symgen.describe.scope import Scope
 from symgen.describe.triads import make_cross
 from symgen.joints._paired import Paired
 from symgen.joints._space import coincident, markers, third
-from symgen.vocabulary.expressions import number
+from symgen.vocabulary.expressions import literal_of
 from symgen.vocabulary.measures import Dot, Holonomic, Sum, Turn
 
 
@@ -48,7 +48,7 @@ class Universal(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
         a, b = make_cross(scope, bodies, self.axes, self.reference)
         rows = (*coincident(*centres), Holonomic("cross", Dot(a.axis, b.axis), unit="rad"))
         # seen from the second body the cross turns backwards
-        back = Sum(((number(-1.0), Turn(b.first, b.second, a.axis)),))
+        back = Sum(((literal_of(-1.0), Turn(b.first, b.second, a.axis)),))
         return Joint(
             scope.name, scope.kind, bodies, rows, (("angle1", Turn(a.first, a.second, b.axis)), ("angle2", back))
         )

@@ -10,7 +10,7 @@ import numpy as np
 from symgen.layout import abi
 from symgen.native import types
 from symgen.store.jit import MachineFunction
-from symgen.store.modules import interpreted
+from symgen.store.modules import plain_function
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel
@@ -52,7 +52,7 @@ class Few:
     """
 
     def __init__(self, function: Any, kind: Any) -> None:
-        self._plain, self._ready = interpreted(function), Ready(function, kind)
+        self._plain, self._ready = plain_function(function), Ready(function, kind)
 
     def __call__(self, *arguments: Any) -> Any:
         """Call it."""
@@ -63,7 +63,7 @@ class Few:
                 return self._ready(*arguments)
 
 
-def rates_of(law: Any) -> tuple[Any, Any]:
+def rate_functions(law: Any) -> tuple[Any, Any]:
     """Return the functions of an emitted law that compute rates of v and multipliers, and confirm them."""
     rates = getattr(law, "rates", law.rhs)  # a law that does not integrate v has an extra function for its rates
     return rates, getattr(law, "confirm", rates)
@@ -79,7 +79,7 @@ def rate_function(compiled: CompiledModel) -> Callable[..., None]:
     compiled : CompiledModel
         Model and method.
     """
-    rates, confirm = (Ready(function, abi.RHS) for function in rates_of(compiled.law_module))
+    rates, confirm = (Ready(function, abi.RHS) for function in rate_functions(compiled.law_module))
 
     def evaluate(*arguments: Any) -> None:
         if rates(*arguments) != 0:

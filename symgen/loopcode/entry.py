@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.native import types
-from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots, trampoline
+from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, slot_values, slots, trampoline
 from symgen.store.jit import MachineFunction, object_file
 
 Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ class ArgumentBlock:
     def _fill(self, which: int) -> None:
         """Put an argument into its slots."""
         at = self._places[which]
-        for value in numbers(self._kinds[which], self._arguments[which]):
+        for value in slot_values(self._kinds[which], self._arguments[which]):
             if isinstance(value, float):
                 self._floats[at] = value
             else:
@@ -107,7 +107,7 @@ class LoopEntry(ArgumentBlock):
         return int(self._ints[RESULT])
 
 
-def entry_of(loop: Any, arguments: tuple[Any, ...]) -> LoopEntry | None:
+def loop_entry(loop: Any, arguments: tuple[Any, ...]) -> LoopEntry | None:
     """Return the entry of a loop, or None if only an ordinary call is possible.
 
     Parameters

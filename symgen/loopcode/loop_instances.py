@@ -40,7 +40,7 @@ def part(copy: python.FunctionType, original: Any) -> Any:
     return copy if interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))
 
 
-def loop(module: str, name: str, function: Any, signature: Any, once: bool = False, **meanings: Any) -> Any:
+def compiled_loop(module: str, name: str, function: Any, signature: Any, once: bool = False, **meanings: Any) -> Any:
     """Return a compiled loop: an instance of `function` for given types, kept in the cache of machine code.
 
     Parameters

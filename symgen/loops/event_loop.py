@@ -18,7 +18,7 @@ from symgen.layout import abi
 from symgen.layout.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State, record
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called
-from symgen.loopcode.loop_instances import loop as compiled_loop
+from symgen.loopcode.loop_instances import compiled_loop as compiled_loop
 from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching
@@ -118,14 +118,14 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
         return int(plain_correct(system, run, t, y, between))
     before, began = part(hunt, at + 1 + width, width), part(hunt, at + 1, width)
     copied(width, y, before)
-    went = farthest(y, began, run.scales, 0, sizes.nq)
+    went = largest_difference(y, began, run.scales, 0, sizes.nq)
     bits = plain_correct(system, run, t, y, between)
-    hunt[searching.WENT], hunt[searching.MOVED] = went, farthest(y, before, run.scales, 0, sizes.nq)
-    hunt[searching.SPED] = farthest(y, before, run.metric, sizes.nq, sizes.nq + sizes.nv)
+    hunt[searching.WENT], hunt[searching.MOVED] = went, largest_difference(y, before, run.scales, 0, sizes.nq)
+    hunt[searching.SPED] = largest_difference(y, before, run.metric, sizes.nq, sizes.nq + sizes.nv)
     return int(bits)
 
 
-def farthest(y: Any, other: Any, weights: Any, first: int, last: int) -> float:
+def largest_difference(y: Any, other: Any, weights: Any, first: int, last: int) -> float:
     """Return the largest weighted difference of two states in the elements from `first` to `last`; nan is ignored."""
     far = 0.0
     for i in range(first, last):

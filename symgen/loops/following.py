@@ -202,7 +202,7 @@ def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
 
 
 @jit()
-def take(course: Any, h: float, w: Any, stand: Any) -> bool:
+def accept_trial(course: Any, h: float, w: Any, stand: Any) -> bool:
     """Accept the trial state unless a singular position lies between; return whether it is accepted."""
     clock, nq = stand.clock, course.nq
     sine, before, slope, sign = math.sqrt(w[abi.PIVOT]), clock[SINE], clock[SLOPE], clock[SIGN]
@@ -301,7 +301,7 @@ def follow(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, co
         code = attempt(model, 0.0, p, w, stand)
         if code != DONE:
             return int(code)
-        take(course, 0.0, w, stand)
+        accept_trial(course, 0.0, w, stand)
         counts[SETTLED] = 1
     for k in range(counts[AT], times.shape[0]):
         if control[abi.STOP] != 0:
@@ -322,7 +322,7 @@ def follow(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, co
                 if clock[REACH] < course.least:
                     return int(code)
                 continue
-            if not take(course, h, w, stand):
+            if not accept_trial(course, h, w, stand):
                 return PASSING
             clock[TIME] = clock[TRIED]
             clock[REACH] = 2.0 * abs(h) if 2.0 * abs(h) > clock[REACH] else clock[REACH]

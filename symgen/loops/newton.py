@@ -142,7 +142,7 @@ def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
             columns = j * n + pattern.columns[by_y] - n
             parts.append((i * n + pattern.rows[by_y], columns, 1 + s * i + int(j), first + by_y))
     left_out = (n * np.arange(s)[:, None] + pattern.left_out).ravel()
-    return make_plan(n, s, Terms.joined(parts), left_out, one, motion=(pattern.nq, pattern.width, pattern.m))
+    return newton_plan(n, s, Terms.joined(parts), left_out, one, motion=(pattern.nq, pattern.width, pattern.m))
 
 
 def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
@@ -155,7 +155,7 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     parts, products = _along_motion(pattern, pattern.rows >= nq)
     one, left_out = pattern.size + products.count, pattern.nv + pattern.masked
     motion = (0, pattern.nv, pattern.m)
-    return *make_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products, motion), one + 1
+    return *newton_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products, motion), one + 1
 
 
 def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
@@ -185,7 +185,7 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
     parts.append((pairs[:, 0], pairs[:, 1], 4, first + np.arange(len(place))))
     one, nothing = first + len(place), np.zeros(0, dtype=np.int64)
-    return *make_plan(nv + pattern.states, 1, Terms.joined(parts), nothing, one, products), one + 1
+    return *newton_plan(nv + pattern.states, 1, Terms.joined(parts), nothing, one, products), one + 1
 
 
 def acceleration_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
@@ -202,7 +202,7 @@ def acceleration_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
         (nv + row, velocity, 0, pattern.size + source),
     ]
     motion = (0, nv, pattern.m)
-    plan, numbers = make_plan(nv + pattern.m, 1, Terms.joined(parts), nv + pattern.masked, one, motion=motion)
+    plan, numbers = newton_plan(nv + pattern.m, 1, Terms.joined(parts), nv + pattern.masked, one, motion=motion)
     return plan, numbers, one + 1
 
 
@@ -251,7 +251,7 @@ def _along_motion(
     return [by_rate, turned, unknown], products
 
 
-def make_plan(
+def newton_plan(
     n: int,
     stages: int,
     terms: Terms,

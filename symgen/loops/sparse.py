@@ -59,7 +59,7 @@ THRESHOLD = 1e-4
 
 
 @jit()
-def multiply(plan: Any, sources: Any) -> None:
+def multiply_sources(plan: Any, sources: Any) -> None:
     """Set the sources that are sums of products of others: derivatives along bodies' motions, and D^T D."""
     targets, left = part(plan, plan[TARGETS], plan[PRODUCTS]), part(plan, plan[LEFT], plan[PRODUCTS])
     right = part(plan, plan[RIGHT], plan[PRODUCTS])
@@ -78,7 +78,7 @@ def turn_rows(plan: Any, sources: Any, delta: Any) -> None:
     Parameters
     ----------
     plan, sources : Array
-        As in `assemble`.
+        As in `assemble_matrix`.
     delta : Array, shape (nv,)
         The change of position at which the Jacobian is wanted.
     """
@@ -95,7 +95,7 @@ def turn_rows(plan: Any, sources: Any, delta: Any) -> None:
 
 
 @jit()
-def assemble(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
+def assemble_matrix(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
     """Write the entries of the matrix: sums of coefficients times sources.
 
     Parameters
@@ -120,7 +120,7 @@ def assemble(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
 @jit()
 def prepare(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> int:
     """Assemble and factorise a matrix; return the number of skipped pivots, -1 where `enlarged` has to be called."""
-    assemble(plan, sources, coefficients, numbers)
+    assemble_matrix(plan, sources, coefficients, numbers)
     skipped = factorise(plan, numbers)
     if skipped < 0:
         plan[FACTORISED] = _TOO_SMALL
@@ -139,7 +139,7 @@ def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDA
 
 @jit()
 def factorise(plan: Any, numbers: Any) -> int:
-    """Factorise the matrix of `assemble`.
+    """Factorise the matrix of `assemble_matrix`.
 
     Parameters
     ----------

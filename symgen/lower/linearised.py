@@ -16,7 +16,7 @@ from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
-from symgen.lower.side import SideModel, SideProgram, moved, side_program
+from symgen.lower.side import SideModel, SideProgram, separate_graph, side_program
 from symgen.lower.windings import Beside, winding_order
 from symgen.vocabulary.infos import BY, LinearisedInfo
 from symgen.vocabulary.measures import Holonomic
@@ -79,7 +79,7 @@ def lower_linearised(
         for space, index in sorted(slopes):
             pattern.append((i, places[space], index - {"ydot": nq, "z": 1}.get(space, 0)))
             derivatives.append(slopes[space, index])
-    graph, images = moved(g, [*outputs, *derivatives])
+    graph, images = separate_graph(g, [*outputs, *derivatives])
     targets = tuple((Target("out", i), image) for i, image in enumerate(images))
     purpose = "The descriptor form with its derivatives"
     block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))

@@ -11,7 +11,7 @@ from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
 from symgen.ir.program import STATUS, EliminationPlan, Target
 from symgen.lower.blocks import SaddleMatrix
-from symgen.lower.factor import FactorNodes, factorise, minimum_degree
+from symgen.lower.factor import FactorNodes, factorisation, minimum_degree
 from symgen.lower.replay import Nodes
 from symgen.lower.scalar_mass import OfMass
 from symgen.lower.scalar_values import Outputs, Rows, to_status
@@ -145,7 +145,7 @@ class ScalarNodes(OfMass):
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._masked_reciprocal(self._held(row), g.add(pivot, g.add(compliance, self.mask[row])))
 
-        return factorise(g, self.mass_gram(self.rows), self.order, reciprocal)
+        return factorisation(g, self.mass_gram(self.rows), self.order, reciprocal)
 
     def _on_pseudoinverse(self, operation: FormulaStep, matrix: Rows) -> FactorNodes:
         return self._masked_factor(self.gram(matrix))
@@ -160,7 +160,7 @@ class ScalarNodes(OfMass):
                 self.flags.append(g.call("lt", masked, least))
             return self._masked_reciprocal(self._held(row), masked)
 
-        return factorise(g, matrix, self.order, reciprocal)
+        return factorisation(g, matrix, self.order, reciprocal)
 
     def _held(self, row: int) -> int:
         """Return 1 where a row is in force, 0 where it is off."""
@@ -193,7 +193,7 @@ class ScalarNodes(OfMass):
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
             return self._masked_reciprocal(self._decided(row, pivot, diagonal), pivot)
 
-        return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
+        return factorisation(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
     def _rank_of_rest(self) -> FactorNodes:
         """Return the same pivots behind fixed velocities, without L: they do not depend on the order before them."""
@@ -250,7 +250,7 @@ class ScalarNodes(OfMass):
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._masked_reciprocal(keep(row), pivot)
 
-        return factorise(self.graph, matrix, self.order, reciprocal)
+        return factorisation(self.graph, matrix, self.order, reciprocal)
 
     def _weighted_beside(self, rank: FactorNodes, matrix: Mapping[tuple[int, int], int]) -> FactorNodes:
         """Return the same in the function that decides rank."""

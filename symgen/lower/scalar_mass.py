@@ -10,7 +10,7 @@ from typing import Self
 
 from symgen.formulate.equations import MassBlock
 from symgen.ir.graph import PARAMETER, Graph
-from symgen.lower.factor import FactorNodes, factorise, minimum_degree
+from symgen.lower.factor import FactorNodes, factorisation, minimum_degree
 from symgen.lower.replay import Nodes
 from symgen.lower.scalar_values import NodeValues, Rows
 from symgen.methods._formula import FormulaStep
@@ -77,7 +77,7 @@ class OfMass(NodeValues):
             if i != j:
                 near[i].add(j)
         order, _ = minimum_degree([frozenset(n) for n in near])
-        return factorise(self.graph, matrix, order, self._reciprocal)
+        return factorisation(self.graph, matrix, order, self._reciprocal)
 
     @cached_property
     def coupled(self) -> Sequence[Mapping[int, int]]:
@@ -132,7 +132,7 @@ class OfMass(NodeValues):
         result: list[dict[int, int]] = [{} for _ in range(self.equations.nv)]
         for block in self.equations.mass:
             n, matrix = len(block.columns), _entries(g, block, range(len(block.columns)))
-            factor = factorise(g, matrix, range(n), self._reciprocal)
+            factor = factorisation(g, matrix, range(n), self._reciprocal)
             for j in range(n):
                 unit = [g.one if i == j else g.zero for i in range(n)]
                 for i, node in enumerate(factor.solve(g, unit)):

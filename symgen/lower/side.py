@@ -122,7 +122,7 @@ class SideModel(ModelNodes):
         return sizes
 
 
-def moved(
+def separate_graph(
     source: Graph, nodes: Sequence[int], renamed: Callable[[Key], Key] = lambda key: key
 ) -> tuple[Graph, list[int]]:
     """Return a separate graph for some nodes, inputs renamed."""
@@ -170,7 +170,7 @@ def lower_side(
     if sizes:
         nodes += model.sizes(nodes[: len(formulas)])
         labels += [f"size of {label}" for label, _ in formulas]
-    graph, images = moved(model.graph, nodes)
+    graph, images = separate_graph(model.graph, nodes)
     outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
     return side_program(mechanism, (block,), beside, labels)
@@ -197,9 +197,9 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
         """Return the places of v' and lambda in a residual."""
         return {"ydot": ("k", key[1]), "multipliers": ("k", first + key[1])}.get(key[0], key)
 
-    graph, images = moved(model.graph, nodes)
+    graph, images = separate_graph(model.graph, nodes)
     rates = tuple((Target("ydot", work + 1 + i), image) for i, image in enumerate(images))
-    stage, inside = moved(model.graph, nodes, unknown)
+    stage, inside = separate_graph(model.graph, nodes, unknown)
     stored = tuple((Target("auxiliary", 1 + i), image) for i, image in enumerate(inside))
     blocks = (
         Block("integrands", "rates of integrals", graph, rates, ("t", "y", "p", "w", "ydot")),

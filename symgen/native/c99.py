@@ -95,7 +95,7 @@ def _table(table: ConstantTable) -> str:
     """Return the definition of a table of numbers."""
     kind = "real" if table.type == "float" else "int"
     numbers = ", ".join(c_number(x) if kind == "real" else str(int(x)) for x in table.values or (0.0,))
-    return broken(f"static const {kind} {word(table.name, RESERVED)}[] = {{{numbers}}};")
+    return broken_line(f"static const {kind} {word(table.name, RESERVED)}[] = {{{numbers}}};")
 
 
 def with_helpers(texts: Sequence[str], integer: str = "int") -> str:
@@ -106,7 +106,7 @@ def with_helpers(texts: Sequence[str], integer: str = "int") -> str:
     return "\n\n".join([*helpers, text])
 
 
-def broken(line: str) -> str:
+def broken_line(line: str) -> str:
     """Return a line of C as lines of allowed length, broken at spaces."""
     lines = []
     while len(line) > _WIDTH and (at := line.rfind(" ", 0, _WIDTH)) > 0:
@@ -181,11 +181,11 @@ class CPrinter(FunctionPrinter):
         lines = self.tables()
         parts = _parts(f)
         if len(parts) > 1:
-            return "\n".join(map(broken, [*lines, *self._in_parts(own, parts)]))
+            return "\n".join(map(broken_line, [*lines, *self._in_parts(own, parts)]))
         used = _names(f.body)
         lines.append(f"static {self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{")
         lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
-        return "\n".join(map(broken, [*lines, *self._locals(used), *self.lines(f.body), "}"]))
+        return "\n".join(map(broken_line, [*lines, *self._locals(used), *self.lines(f.body), "}"]))
 
     def tables(self) -> list[str]:
         """Return the tables that the function reads."""
@@ -343,7 +343,7 @@ class _BoundPrinter(CPrinter):
         heads += map(self._parameter, f.parameters)
         lines = [f"static {self.types[f.returned]} {own}({', '.join(heads) or 'void'}) {{"]
         lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
-        return "\n".join(map(broken, [*lines, *self._locals(used), *self.views, *body, "}"]))
+        return "\n".join(map(broken_line, [*lines, *self._locals(used), *self.views, *body, "}"]))
 
     def word(self, name: str) -> str:
         """Return the name of a variable, or a member of the structure."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from symgen.native import language as lang
-from symgen.native.c99 import OF_INTEGERS, RESERVED, CPrinter, broken, with_helpers
+from symgen.native.c99 import OF_INTEGERS, RESERVED, CPrinter, broken_line, with_helpers
 from symgen.native.printing import ordered
 
 #: Types of functions with the arguments of machine code.
@@ -49,7 +49,7 @@ class _LoopPrinter(CPrinter):
         body, every = self.lines(f.body), f.variables.keys()
         head = f"{self.types[f.returned]} {own}({', '.join(map(self._parameter, f.parameters))}) {{"
         lines = [*self.tables(), head if self.external else f"static {head}", *self._locals(every), *self.views]
-        return "\n".join(map(broken, [*lines, *body, "}"]))
+        return "\n".join(map(broken_line, [*lines, *body, "}"]))
 
     def handed(self, array: str) -> list[str]:
         """Return the arguments of a call for an array: its address and its lengths."""

@@ -41,7 +41,7 @@ def slots(kind: types.Kind) -> Iterator[str]:
         yield _SLOTS[kind]
 
 
-def numbers(kind: types.Kind, value: Any) -> Iterator[int | float]:
+def slot_values(kind: types.Kind, value: Any) -> Iterator[int | float]:
     """Yield the content of the slots of an argument: integers, addresses among them, and floating-point numbers.
 
     Raises
@@ -60,7 +60,7 @@ def numbers(kind: types.Kind, value: Any) -> Iterator[int | float]:
         yield from value.shape
     elif isinstance(kind, types.RecordType):
         for part, item in zip(kind, value, strict=True):
-            yield from numbers(part, item)
+            yield from slot_values(part, item)
     elif isinstance(kind, types.FunctionType):
         yield value.address(kind.signature)
     else:
@@ -98,7 +98,7 @@ def caller(address: int, signature: types.Signature) -> Callable[..., Any]:
     def call(*arguments: Any) -> Any:
         if len(arguments) != len(expected):
             raise TypeError(f"expected {len(expected)} arguments, got {len(arguments)}")
-        return function(*[x for kind, value in zip(expected, arguments, strict=True) for x in numbers(kind, value)])
+        return function(*[x for kind, value in zip(expected, arguments, strict=True) for x in slot_values(kind, value)])
 
     return call
 
@@ -122,11 +122,11 @@ def _trampoline(
     returned: str, kinds: tuple[str, ...], object_file: Callable[[str, str], bytes]
 ) -> Callable[[int], Any]:
     name = "symgen.trampoline." + hashlib.sha256(" ".join((returned, *kinds)).encode()).hexdigest()[:32]
-    address = load(object_file(text(name, returned, kinds), name), name)
+    address = load(object_file(trampoline_text(name, returned, kinds), name), name)
     return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
 
 
-def text(name: str, returned: str, kinds: tuple[str, ...]) -> str:
+def trampoline_text(name: str, returned: str, kinds: tuple[str, ...]) -> str:
     """Return the module with a trampoline in LLVM's language.
 
     It copies memory first, which costs a tenth of a copy made from Python, and calls the function.

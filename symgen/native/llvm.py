@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterable
 
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, called, literal, slot
+from symgen.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, function_name, literal, slot
 
 #: The argument for the number of runs, in functions for several runs at once.
 COUNT_OF_LANES = "lanes"
 
 
-def module(
+def llvm_module(
     function: lang.Function,
     symbol: Callable[[lang.Function], str],
     inlined: Callable[[lang.Function], bool],
@@ -42,7 +42,7 @@ def module(
         linkage = "" if f is function else "internal " if is_copied(f) else "available_externally "
         texts.append(FunctionPrinter(f, symbol, linkage, together).text())
     texts.extend(
-        sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
+        sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.sine_name(n) in text for text in texts)
     )
     texts.extend(f"declare {head(f, symbol(f), named=False)}" for f in declared)
     return "\n".join([*texts, *declarations(texts), ""])
@@ -105,9 +105,9 @@ def declarations(texts: Iterable[str]) -> list[str]:
     text = "\n".join(texts)
     lines = []
     for name, count in {**lang.FUNCTIONS, "round": 1}.items():
-        if f"{called(name)}(" in text:
+        if f"{function_name(name)}(" in text:
             attributes = "" if name in INTRINSICS else " nounwind memory(read)"
-            lines.append(f"declare double {called(name)}({', '.join(['double'] * count)}){attributes}")
+            lines.append(f"declare double {function_name(name)}({', '.join(['double'] * count)}){attributes}")
     return lines
 
 

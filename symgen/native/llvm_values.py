@@ -20,7 +20,7 @@ COMPARED = {
 INTRINSICS = {name: name for name in ("sin", "cos", "exp", "log", "fabs", "copysign", "pow")} | {"round": "rint"}
 
 
-def called(name: str) -> str:
+def function_name(name: str) -> str:
     """Return the name of a mathematical function."""
     return f"@llvm.{INTRINSICS[name]}.f64" if name in INTRINSICS else f"@{name}"
 
@@ -212,7 +212,7 @@ class ValuePrinter:
 
     def function_of_math(self, name: str, values: list[str]) -> str:
         """Print a call of a mathematical function."""
-        value = self.put(f"call{self.flag} double {called(name)}({', '.join(f'double {v}' for v in values)})")
+        value = self.put(f"call{self.flag} double {function_name(name)}({', '.join(f'double {v}' for v in values)})")
         return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil", "round") else value
 
     def take_sines(self, angles: tuple[lang.Expression, ...]) -> None:
@@ -223,7 +223,7 @@ class ValuePrinter:
         for i in range(n):
             value = values[i] if i < len(values) else values[0]
             vector = self.put(f"insertelement <{n} x double> {vector}, double {value}, i32 {i}")
-        pair = self.put(f"call {sines.kind(n)} {sines.name(n)}(<{n} x double> {vector}) nounwind memory(none)")
+        pair = self.put(f"call {sines.kind(n)} {sines.sine_name(n)}(<{n} x double> {vector}) nounwind memory(none)")
         for k, name in enumerate(sines.NAMES):
             values_of_both = self.put(f"extractvalue {sines.kind(n)} {pair}, {k}")
             for i, angle in enumerate(angles):

@@ -13,7 +13,7 @@ from typing import Any
 from symgen.native import language as lang
 from symgen.native.loop_values import EXPRESSIONS, Array, Record, Value, is_number, leaves
 from symgen.native.read import Reader
-from symgen.native.read_values import Foreign, number
+from symgen.native.read_values import Foreign, number_value
 
 
 class LoopValues(Reader):
@@ -102,7 +102,7 @@ class LoopValues(Reader):
         if isinstance(node.value, ast.Name) and node.value.id not in self.bound:
             module = self.globals.get(node.value.id)
             if isinstance(module, python.ModuleType) and node.value.id not in self.variables:
-                return number(getattr(module, node.attr), node)
+                return number_value(getattr(module, node.attr), node)
         owner = self.value(node.value)
         if isinstance(owner, Record) and node.attr in owner.fields:
             return owner.values[owner.fields.index(node.attr)]

@@ -30,7 +30,7 @@ _VECTORS = {
 }
 
 
-def module(
+def node_module(
     function: lang.Function,
     name: str,
     symbol: Callable[[lang.Function], str],
@@ -45,7 +45,7 @@ def module(
     name : str
         Its name in machine code: ``name(t, y, p, w, ydot)``, where all are arrays.
     symbol, inlined : Callable
-        As for `symgen.native.llvm.module`.
+        As for `symgen.native.llvm.llvm_module`.
 
     Raises
     ------

@@ -72,7 +72,7 @@ class ValueReader(ABC):
 
     def constant(self, node: ast.Constant) -> lang.Expression:
         """Return a literal."""
-        return number(node.value, node)
+        return number_value(node.value, node)
 
     def name(self, node: ast.Name) -> lang.Expression:
         """Return a variable, an argument, or a number of the module."""
@@ -83,7 +83,7 @@ class ValueReader(ABC):
             return lang.Variable(self.numbers[name], name)
         if name in self.locals or name not in self.globals:
             raise Foreign(f"the name '{name}'", node)
-        return number(self.globals[name], node)
+        return number_value(self.globals[name], node)
 
     def attribute(self, node: ast.Attribute) -> lang.Expression:
         """Return a constant of ``math``."""
@@ -265,7 +265,7 @@ class ValueReader(ABC):
     }
 
 
-def number(value: object, node: ast.AST) -> lang.Constant:
+def number_value(value: object, node: ast.AST) -> lang.Constant:
     """Return a number of the source or of the module."""
     if isinstance(value, bool):
         return lang.Constant("bool", value)

@@ -125,7 +125,7 @@ def kind(n: int) -> str:
     return f"{{<{n} x double>, <{n} x double>}}"
 
 
-def name(n: int) -> str:
+def sine_name(n: int) -> str:
     """Return the name of the function for `n` angles."""
     return f"@symgen.sines{n}"
 
@@ -238,7 +238,7 @@ class _Writer:
 
     def text(self) -> str:
         """Return the function."""
-        head = f"define internal {kind(self.n)} {name(self.n)}({self.float} %x) noinline nounwind memory(none) {{"
+        head = f"define internal {kind(self.n)} {sine_name(self.n)}({self.float} %x) noinline nounwind memory(none) {{"
         size = self.put(f"call {self.float} @llvm.fabs.v{self.n}f64({self.float} %x)")
         moderate = self.put(f"fcmp olt {self.float} {size}, {self.number(FAR)}")
         every = self.put(f"call i1 @llvm.vector.reduce.and.v{self.n}i1({self.bit} {moderate})")

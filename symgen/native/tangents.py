@@ -48,7 +48,9 @@ def module(function: lang.Function, name: str, lanes: int, places: Mapping[str, 
     names = {f.key: f"{name}.{i}.{f.name}" if i else name for i, f in enumerate(functions)}
     texts = [TangentPrinter(function, lambda f: names[f.key], lanes, places, together).text()]
     texts += [TangentPrinter(f, lambda f: names[f.key], lanes, None, together).text() for f in functions[1:]]
-    texts += [sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)]
+    texts += [
+        sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.sine_name(n) in text for text in texts)
+    ]
     return "\n".join([*texts, *declarations(texts), ""])
 
 

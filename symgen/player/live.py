@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.compiling.checked import checked, read
+from symgen.compiling.checked import checked, checked_function
 from symgen.compiling.events import DIRECTIONS, effects_of
 from symgen.compiling.printed import Printed
 from symgen.compiling.side import compile_side
@@ -117,7 +117,10 @@ def _code(mechanism: Mechanism, compiled: CompiledModel) -> tuple[str, list[tupl
         return javascript(functions), []
     conditions = [(event.name, event.when) for event in mechanism.events]
     side = compile_side(mechanism, compiled, "events", "Switching functions", conditions)
-    functions |= {"switching": read(side.function, abi.OBSERVE), "effects": read(effects.formulas, abi.OBSERVE)}
+    functions |= {
+        "switching": checked_function(side.function, abi.OBSERVE),
+        "effects": checked_function(effects.formulas, abi.OBSERVE),
+    }
     printed = Printed(functions)
     printed.add_effects(effects, "effects")
     directions = [DIRECTIONS[event.direction] if event.action == RESET else 2 for event in mechanism.events]

@@ -77,7 +77,7 @@ def letter_of(text: str) -> tuple[str, str]:
     return quantity, body
 
 
-def number(value: float, exact: bool = False) -> Box:
+def literal_box(value: float, exact: bool = False) -> Box:
     """Return a literal: whole, a small fraction, or rounded to six digits; with all digits where `exact`."""
     if value == int(value) and abs(value) < (1e15 if exact else 1e9):
         return _digits(str(int(value)))
@@ -86,7 +86,7 @@ def number(value: float, exact: bool = False) -> Box:
     near = Fraction(value).limit_denominator(99)
     exact = abs(float(near) - value) <= 4e-16 * abs(value)
     if exact and abs(near.numerator) < 1000 and near.denominator not in _DECIMAL:
-        return over(number(float(near.numerator)), number(float(near.denominator)))
+        return over(literal_box(float(near.numerator)), literal_box(float(near.denominator)))
     return _digits(f"{value:.6g}")
 
 
@@ -96,7 +96,7 @@ def _digits(text: str) -> Box:
     return Box("number", text=text, width=wide)
 
 
-def is_number(box: Box) -> bool:
+def is_literal(box: Box) -> bool:
     """Whether a box is a literal."""
     return box.kind == "number" or (box.kind == "over" and all(p.kind == "number" for p in box.parts))
 
@@ -136,13 +136,13 @@ def transposed(base: Box) -> Box:
     return power(base, name("T"))
 
 
-def call(function: str, arguments: Sequence[Box], python: str = "") -> Box:
+def function_box(function: str, arguments: Sequence[Box], python: str = "") -> Box:
     """Return a function of arguments; `python`: its name for Python, where that is another one."""
     wide = 0.55 * len(function) + sum(a.width for a in arguments) + 1.0 * len(arguments) + 0.8
     return Box("call", tuple(arguments), text=function, index=python, width=wide)
 
 
-def matrix(entries: Sequence[Sequence[Box]]) -> Box:
+def matrix_box(entries: Sequence[Sequence[Box]]) -> Box:
     """Return a matrix."""
     widths = [max([box.width for box in column]) for column in zip(*entries, strict=True)]
     flat = tuple(box for line in entries for box in line)
@@ -156,7 +156,7 @@ def cases(pieces: Sequence[tuple[Box, Box | None]]) -> Box:
     return Box("cases", tuple(flat), width=wide)
 
 
-def dot(base: Box) -> Box:
+def dotted(base: Box) -> Box:
     """Return the rate of a quantity."""
     return Box("dot", (base,), width=base.width)
 

@@ -19,7 +19,7 @@ def attribute(text: str) -> str:
     return escape(text, quote=True)
 
 
-def short(text: str) -> str:
+def shortened(text: str) -> str:
     """Return a line of code, its end left out where it is long."""
     return text if len(text) <= 60 else text[:57] + "..."
 
@@ -42,7 +42,7 @@ def fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked:
     return f'{start}<div class="fold">{inside}</div></details>'
 
 
-def table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
+def html_table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
     """Return a table of HTML; the last `numbers` columns are numbers."""
     rows = []
     for i, line in enumerate(lines):

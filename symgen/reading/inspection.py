@@ -149,7 +149,7 @@ def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechan
     return run, mechanism if run.tree is None else run.mechanism, choice
 
 
-def facts_of(whole: Mechanism, settings: Settings, with_method: bool) -> dict[str, Any]:
+def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> dict[str, Any]:
     """Return all facts, expressions as text.
 
     Parameters

@@ -12,11 +12,11 @@ from symgen.methods._formula import FormulaStep, needed
 from symgen.reading.boxes import (
     Box,
     bracket,
-    call,
-    dot,
+    dotted,
+    function_box,
     latex,
+    literal_box,
     name,
-    number,
     over,
     plain,
     power,
@@ -29,13 +29,13 @@ _QUANTITIES = {"gamma": "gamma", "nu": "nu", "phi": "Phi", "f": "f", "v": "v"}
 _SIGNS = {"add": "+", "sub": "-"}
 #: Names of results of functions.
 _PLACES = {
-    "rates.q": dot(name("q")),
-    "rates.v": dot(name("v")),
-    "rates.work": dot(name("W")),
+    "rates.q": dotted(name("q")),
+    "rates.v": dotted(name("v")),
+    "rates.work": dotted(name("W")),
     "multipliers": name("lambda"),
     "residual": name("r"),
     "change": name("delta"),
-    "v": dot(name("v")),
+    "v": dotted(name("v")),
     "q": name("Q"),
     "law_": name("S"),
     "dense": name("D"),
@@ -195,7 +195,7 @@ class _LawReader:
             return _FORMS[kind](*parts)
         payload = str(operation.payload[0]) if operation.payload else ""
         if kind == "constant":
-            return number(float(operation.payload[0]))
+            return literal_box(float(operation.payload[0]))
         if kind == "quantity":
             return row(name("N"), name("v")) if payload == "q_rates" else name(_QUANTITIES[payload])
         if kind in ("keep", "keep_constraints", "keep_factor", "stored_factor"):
@@ -219,7 +219,7 @@ def _factor(box: Box) -> Box:
 
 
 def _inverse(box: Box) -> Box:
-    return power(box, number(-1.0))
+    return power(box, literal_box(-1.0))
 
 
 def _times(*boxes: Box) -> Box:
@@ -234,8 +234,8 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "mul": lambda a, b: _times(a, b),
     "div": lambda a, b: over(a, b),
     "pow": lambda a, b: power(_factor(a), b),
-    "sqrt": lambda a: call("sqrt", [a]),
-    "min": lambda a, b: call("min", [a, b]),
+    "sqrt": lambda a: function_box("sqrt", [a]),
+    "min": lambda a, b: function_box("min", [a, b]),
     "dot": lambda a, b: row(transposed(_factor(a)), _factor(b)),
     "product": lambda a, x: _times(a, x),
     "transposed": lambda a, y: row(transposed(a), _factor(y)),
@@ -262,13 +262,13 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "weighted_dependent": lambda r: row(_D, name("P"), _G, transposed(_D)),
     "geometry": lambda r: row(name("Phi"), sign(","), name("nu"), sign(","), _D),
     "gauged": lambda x: _times(_G, x),
-    "partition_quality": lambda a, b: over(call("det", [b]), call("det", [a])),
-    "zeros": lambda: number(0.0),
+    "partition_quality": lambda a, b: over(function_box("det", [b]), function_box("det", [a])),
+    "zeros": lambda: literal_box(0.0),
     "power": lambda: name("P"),
     "driving": lambda a: row(name("b"), _factor(a), sign("+"), name("c")),
     "at_velocity": lambda x, v: row(_factor(x), sign("|"), v),
-    "mass_rate": lambda x, v: row(dot(_M), _factor(x)),
-    "constraint_rate_transposed": lambda y, v: row(transposed(dot(_D)), _factor(y)),
+    "mass_rate": lambda x, v: row(dotted(_M), _factor(x)),
+    "constraint_rate_transposed": lambda y, v: row(transposed(dotted(_D)), _factor(y)),
     "flag": lambda: name("flag"),
     "holonomic_or": lambda x: name("Phi"),
 }

@@ -90,7 +90,7 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
         if e.slot is not None
     ]
     wanted += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
-    entries, lines = list[Computed](), assignments(source)
+    entries, lines = list[Computed](), assigned_lines(source)
     for function, target, row, what in wanted:
         line = lines.get((function, access.write(target)))
         if line is not None:
@@ -98,7 +98,7 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
     return entries
 
 
-def assignments(source: str) -> dict[tuple[str, str], tuple[int, str]]:
+def assigned_lines(source: str) -> dict[tuple[str, str], tuple[int, str]]:
     """Return number and text, without its comment, of the line that assigns an element in each function, by both."""
     lines: dict[tuple[str, str], tuple[int, str]] = {}
     function = ""

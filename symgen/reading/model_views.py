@@ -160,13 +160,13 @@ class Shown:
         AssemblyError
             If the mechanism cannot be closed.
         """
-        from symgen.reading.inspection import Inspection, facts_of
+        from symgen.reading.inspection import Inspection, equation_facts
 
         own = {f"method.{name}": x for name, x in arguments.mapping("options", options, "texts by name").items()}
         settings = Settings(
             method or default("method"), options=own, coordinates=coordinates, shape=shape, parameters=parameters or {}
         )
-        return Inspection(self.mechanism, settings, facts_of(self.mechanism, settings, method is not None))
+        return Inspection(self.mechanism, settings, equation_facts(self.mechanism, settings, method is not None))
 
     @takes
     def view(self, settings: Settings | None = None, *, live: bool = True, **changes: Unpack[RunKeywords]) -> Page:

@@ -19,20 +19,20 @@ from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_part
 from symgen.player.motion_page import rates_script
-from symgen.reading.boxes import dot, name, row, sign, transposed
+from symgen.reading.boxes import dotted, name, row, sign, transposed
 from symgen.reading.html import (
     attribute,
     equation,
     equations,
     fold,
+    html_table,
     math,
     of_factor,
     of_jacobian,
     picture,
     section,
-    short,
+    shortened,
     small,
-    table,
 )
 from symgen.reading.law import law
 from symgen.reading.listing import Computed, code_listing, computed, file_listing, sections
@@ -210,7 +210,7 @@ class EquationPage:
             between = " and ".join(dict.fromkeys(joint.bodies))
             link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        parts = [fold(f"{len(self.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
+        parts = [fold(f"{len(self.mechanism.joints)} joints", html_table(lines), len(lines) <= 13)]
         if self.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
@@ -218,7 +218,7 @@ class EquationPage:
                 for x in self.mechanism.topology.links
             ]
             cut = ", ".join(self.mechanism.topology.cut) or "no joint"
-            parts.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
+            parts.append(fold(f"the tree; loops are closed by {cut}", html_table(tree)))
         return parts
 
     def _coordinates(self) -> list[str]:
@@ -231,7 +231,7 @@ class EquationPage:
                     letter = math(self.sheet.writer.symbol(quantity.name))
                     value = [f"{self.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
-                parts.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
+                parts.append(fold(f"{len(quantities)} {title.lower()}", html_table(lines)))
         return parts
 
     def _joint(self, joint: Joint, code: bool) -> str:
@@ -264,7 +264,7 @@ class EquationPage:
 
     def _lines_of(self, name: str) -> str:
         links = [
-            f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(short(c.text))}</code></a>'
+            f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(shortened(c.text))}</code></a>'
             for c in self._computed.get(name, ())
         ]
         return f'<p class="small">computed by {" · ".join(links)}</p>' if links else ""
@@ -327,8 +327,8 @@ class EquationPage:
             both = [str(block.tree_operations), str(block.operations)]
             blocks.append([escape(block.name), escape(block.purpose), *both])
         return [
-            fold("by joint, each with what it shares within itself", table(lines, numbers=4)),
-            fold("by emitted function", table(blocks, numbers=2), True),
+            fold("by joint, each with what it shares within itself", html_table(lines, numbers=4)),
+            fold("by emitted function", html_table(blocks, numbers=2), True),
         ]
 
     def _code(self, listed: Mapping[str, str] | None) -> list[str]:
@@ -352,6 +352,6 @@ _OFFERED = "Scripts find it at work: window.symgen.rates(t, y, p) returns the ra
 _POWER = "energies, and the power of forces without potential; b v' + c is that of drivers without rows"
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
 _MOTION = row(
-    *(name("M"), dot(name("v")), sign("+"), transposed(name("D")), name("lambda"), sign("="), name("f"), sign(",")),
-    *(name("D"), dot(name("v")), sign("="), name("gamma")),
+    *(name("M"), dotted(name("v")), sign("+"), transposed(name("D")), name("lambda"), sign("="), name("f"), sign(",")),
+    *(name("D"), dotted(name("v")), sign("="), name("gamma")),
 )

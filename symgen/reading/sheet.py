@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from symgen.describe.formula_text import to_text
-from symgen.reading.boxes import Box, bracket, dot, matrix, name, row, sign
+from symgen.reading.boxes import Box, bracket, dotted, matrix_box, name, row, sign
 from symgen.reading.structure import structure
 from symgen.reading.typeset import Sum, Typesetter, atom
 from symgen.vocabulary.expressions import call
@@ -115,7 +115,7 @@ class Sheet:
         return Equation(left, atom(entries), key)
 
     def _matrix(self, nodes: Iterable[Iterable[int]]) -> Box:
-        return matrix([[self.writer.box(n) for n in line] for line in nodes])
+        return matrix_box([[self.writer.box(n) for n in line] for line in nodes])
 
     def whole(self) -> list[Equation]:
         """Return M, and D where it has rows, as matrices; for small mechanisms."""
@@ -159,7 +159,7 @@ class Sheet:
         pairs = zip(e.coordinates, e.q_rates, strict=True)
         moving = [(q, n) for q, n in pairs if g.nodes[n].op != "input"]
         whole = (*moving, *zip(e.states, e.state_rates, strict=True))
-        return [Equation(dot(name(x.name)), self.writer.sum(n), x.name) for x, n in whole]
+        return [Equation(dotted(name(x.name)), self.writer.sum(n), x.name) for x, n in whole]
 
     def energies(self) -> list[Equation]:
         """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""

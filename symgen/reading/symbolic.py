@@ -13,7 +13,7 @@ from symgen.base.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
 from symgen.ir.graph import Graph
-from symgen.reading.boxes import Box, dot, latex, matrix, name
+from symgen.reading.boxes import Box, dotted, latex, matrix_box, name
 from symgen.reading.quantity_names import input_names
 from symgen.reading.typeset import Writer
 
@@ -70,7 +70,7 @@ class Symbolic:
     def _build(self, node: int) -> Any:
         op, args, payload = self.graph.nodes[node]
         if op == "const":
-            return number(float(payload))  # type: ignore[arg-type]  # a constant's payload is a float
+            return exact_literal(float(payload))  # type: ignore[arg-type]  # a constant's payload is a float
         if op == "input":
             return self.symbols[self.graph.key(node)]
         values = [self._built[a] for a in args]
@@ -95,7 +95,7 @@ class Symbolic:
         return _CONDITIONS[op](*map(operand, args), evaluate=False)
 
 
-def number(value: float) -> Any:
+def exact_literal(value: float) -> Any:
     """Return a literal that prints with all its digits and no more."""
     return sp.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sp.Float(repr(value), 17)
 
@@ -112,7 +112,7 @@ class Boxed(Translator):
     def box(self, value: Any) -> Box:
         """Return an expression or a matrix, with all digits of numbers."""
         if isinstance(value, sp.MatrixBase):
-            return matrix([[self.box(x) for x in line] for line in value.tolist()])
+            return matrix_box([[self.box(x) for x in line] for line in value.tolist()])
         return self._writer.box(self.node(value))
 
     def _build(self, e: Any) -> int:
@@ -130,5 +130,5 @@ class Boxed(Translator):
 
 def _name(e: Any) -> Box:
     if isinstance(e, sp.Derivative) and {str(x) for x in e.variables} == {"t"}:
-        return reduce(lambda box, _: dot(box), e.variables, _name(e.expr))
+        return reduce(lambda box, _: dotted(box), e.variables, _name(e.expr))
     return name(e.func.__name__ if isinstance(e, AppliedUndef) else str(e))

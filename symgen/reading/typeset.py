@@ -18,11 +18,11 @@ from symgen.reading.boxes import (
     atoms,
     bare,
     bracket,
-    call,
     cases,
-    is_number,
+    function_box,
+    is_literal,
+    literal_box,
     name,
-    number,
     over,
     power,
     python,
@@ -66,7 +66,7 @@ def _side_by_side(factors: Sequence[Box]) -> Box:
         return factors[0]
     parts = [factors[0]]
     for before, factor in pairwise(factors):
-        parts += [sign("*"), factor] if is_number(before) and is_number(factor) else [factor]
+        parts += [sign("*"), factor] if is_literal(before) and is_literal(factor) else [factor]
     return row(*parts)
 
 
@@ -125,7 +125,7 @@ class Writer:
         op, args, payload = self.graph.nodes[node]
         if op == "const":
             value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
-            return (Term(value < 0.0, (number(abs(value), self.exact),)),)
+            return (Term(value < 0.0, (literal_box(abs(value), self.exact),)),)
         if op == "input":
             return atom(self.inputs[self.graph.key(node)])
         sums = [self._written[a] for a in args]
@@ -144,12 +144,12 @@ class Writer:
         if op == "where":
             return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
         if op in _CONDITIONS:
-            return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
+            return atom(cases([(literal_box(1.0), self._condition(node)), (literal_box(0.0), None)]))
         if op == "table":
             table, what = of_table(payload)
             marks = "'" * DERIVATIVES.index(what)
-            return atom(call(table + marks, [as_box(s) for s in sums], python_name(payload)))
-        return atom(call(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
+            return atom(function_box(table + marks, [as_box(s) for s in sums], python_name(payload)))
+        return atom(function_box(op, [as_box(s) for s in sums], _PYTHON.get(op, "")))
 
     def _condition(self, node: int) -> Box:
         """Return a node, 0 or 1 in the graph, as a condition."""
@@ -161,8 +161,8 @@ class Writer:
         if op == "not":
             return row(sign("not"), bracket(self._condition(args[0])))
         if op == "defined":
-            return call("defined", [as_box(self._written[args[0]])])
-        return row(as_box(self._written[node]), sign("!="), number(0.0))
+            return function_box("defined", [as_box(self._written[args[0]])])
+        return row(as_box(self._written[node]), sign("!="), literal_box(0.0))
 
 
 def texts(equations: Equations) -> Callable[[int], str]:
@@ -268,11 +268,11 @@ def _whole(terms: Sum) -> Box:
 
 
 def _square(terms: Sum) -> Term:
-    return Term(False, (power(_whole(terms), number(2.0)),))
+    return Term(False, (power(_whole(terms), literal_box(2.0)),))
 
 
 def _product(a: Term, b: Term) -> Term:
-    factors = sorted(a.factors + b.factors, key=lambda box: not is_number(box))
+    factors = sorted(a.factors + b.factors, key=lambda box: not is_literal(box))
     if len(factors) > 1 and factors[0].kind == "number" and factors[0].text == "1":
         factors = factors[1:]
     return Term(a.negative != b.negative, tuple(factors), a.below + b.below)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from symgen.report import words
-from symgen.report.comparison_findings import costs, findings, methods, representatives, settings_text
+from symgen.report.comparison_findings import costs, findings_of_rows, methods, representatives, settings_text
 from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
 from symgen.report.picture import sketched
@@ -59,7 +59,7 @@ def comparison(
     source = beside_the_source(list(studies))
     if source is not None:
         sections.append(source)
-    title = f"Error against run time: {words.listed(names)}"
+    title = f"Error against run time: {words.enumeration(names)}"
     return Document(title, tuple(lead), tuple(facts), command, tuple(sections))
 
 
@@ -116,7 +116,7 @@ def _one(study: Study) -> Section:
     return Section(
         study.mechanism,
         text,
-        findings(study),
+        findings_of_rows(study),
         (_summary(study), *_at_table(study), *_cost_table(study)),
         pictures(study),
         (Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),),
@@ -137,10 +137,10 @@ def _summary(study: Study) -> DocumentTable:
                 _error_text(row),
                 words.seconds(row.run_seconds),
                 words.ratio(row.cost_ratio),
-                words.number(row.position_violation_max),
-                words.number(row.velocity_violation_max),
-                words.number(row.acceleration_violation_max),
-                words.number(row.energy_drift_max),
+                words.rounded(row.position_violation_max),
+                words.rounded(row.velocity_violation_max),
+                words.rounded(row.acceleration_violation_max),
+                words.rounded(row.energy_drift_max),
             )
         )
     notes = _marks([row for row, _ in representatives(study)])
@@ -154,7 +154,7 @@ def _marks(rows: Sequence[Row]) -> tuple[str, ...]:
 
 
 def _error_text(row: Row, on_front: bool = False) -> str:
-    return words.number(row.error) + " *" * row.below_reference + " ^" * on_front
+    return words.rounded(row.error) + " *" * row.below_reference + " ^" * on_front
 
 
 def _at_table(study: Study) -> tuple[DocumentTable, ...]:
@@ -162,7 +162,7 @@ def _at_table(study: Study) -> tuple[DocumentTable, ...]:
         return ()
     rows = tuple(
         (
-            *(words.exact(x.error), x.method, x.integrator, words.seconds(x.seconds)),
+            *(words.exact_number(x.error), x.method, x.integrator, words.seconds(x.seconds)),
             *map(words.ratio, (x.ratio, x.ratio_low, x.ratio_high)),
         )
         for x in study.at
@@ -203,8 +203,8 @@ def _all_rows(study: Study) -> DocumentTable:
                 *(row.label, row.integrator, words.setting(row.step, row.rtol)),
                 TableCell(row.status_text, _MOODS[row.status]),
                 *(_error_text(row, i in study.front), words.seconds(row.run_seconds), words.percent(spread), both),
-                *map(words.number, (row.relative_error, row.velocity_error, row.reaction_error)),
-                *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
+                *map(words.rounded, (row.relative_error, row.velocity_error, row.reaction_error)),
+                *(str(row.evaluations), str(row.iterations), words.rounded(row.energy_drift_max)),
             )
         )
     notes = [*_marks(study.rows), *([FRONT] if len(study.rows) > 1 else [])]
@@ -240,6 +240,6 @@ def _all_violations(study: Study) -> DocumentTable:
     headings = ("method", "integrator", "setting", *(f"{sign} {kind}" for sign, _ in levels for kind, _ in kinds))
     rows = []
     for row in study.rows:
-        values = [words.number(getattr(row, f"{level}_violation_{kind}")) for _, level in levels for _, kind in kinds]
+        values = [words.rounded(getattr(row, f"{level}_violation_{kind}")) for _, level in levels for _, kind in kinds]
         rows.append((row.label, row.integrator, words.setting(row.step, row.rtol), *values))
     return DocumentTable("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)

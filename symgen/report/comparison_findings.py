@@ -65,7 +65,7 @@ def settings_text(study: Study) -> str:
     return "; ".join([shared, *([", ".join(others)] if others else [])])
 
 
-def findings(study: Study) -> tuple[str, ...]:
+def findings_of_rows(study: Study) -> tuple[str, ...]:
     """Return the findings of the rows, most important first; those without numbers are left out."""
     sentences = [
         _reference(study),
@@ -92,7 +92,7 @@ def _reference(study: Study) -> str:
     marked = sum(row.below_reference for row in study.rows)
     text = (
         f"errors are distances to a reference motion ({words.readable(study.how)}), which may itself be off by about "
-        f"{words.number(study.estimated_error)} m"
+        f"{words.rounded(study.estimated_error)} m"
     )
     if marked:
         lie = words.counted(marked, "row lies", "rows lie")
@@ -112,7 +112,7 @@ def _cheapest(study: Study) -> str:
         if not good or study.estimated_error > target or (parts and len(good) == len(rows)):
             continue
         best = good[0]
-        text = f"below {words.exact(target)} m, {_name(best)} ({words.seconds(best.run_seconds)}"
+        text = f"below {words.exact_number(target)} m, {_name(best)} ({words.seconds(best.run_seconds)}"
         other = next((r for r in good if r.label != best.label), None)
         if other is not None:
             times = words.ratio(other.run_seconds / best.run_seconds)
@@ -128,7 +128,7 @@ def _best(study: Study) -> str:
     best = min(rows, key=lambda r: r.error or 0.0)
     limit = max(best.error or 0.0, study.estimated_error)
     alike = sum((r.error or 0.0) <= limit for r in rows)
-    text = f"the smallest error, {words.number(best.error)} m, is that of {_name(best)}"
+    text = f"the smallest error, {words.rounded(best.error)} m, is that of {_name(best)}"
     if alike > 1:
         text += f"; {alike} runs are as accurate as the reference can show"
     return text
@@ -152,7 +152,7 @@ def _statuses(study: Study) -> list[str]:
             if len(rows) == 1:
                 sentences.append(f"1 run {one}: {first}")
             else:
-                each = words.listed([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
+                each = words.enumeration([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
                 sentences.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
     return sentences
 
@@ -167,13 +167,13 @@ def _wrong(study: Study) -> str:
     if not _trusted(study):
         return ""
     if not rows:
-        return f"no run that ended ok is off by more than {words.exact(WRONG)} m"
+        return f"no run that ended ok is off by more than {words.exact_number(WRONG)} m"
     worst = max(rows, key=lambda r: r.error or 0.0)
     count = words.counted(len(rows), "run")
-    each = words.listed([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
+    each = words.enumeration([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
     return (
-        f"{count} ended ok although off by more than {words.exact(WRONG)} m, as steps or tolerances were too "
-        f"coarse or another branch was taken: {each}; the worst is {_name(worst)}, {words.number(worst.error)} m"
+        f"{count} ended ok although off by more than {words.exact_number(WRONG)} m, as steps or tolerances were too "
+        f"coarse or another branch was taken: {each}; the worst is {_name(worst)}, {words.rounded(worst.error)} m"
     )
 
 
@@ -183,10 +183,10 @@ def _ranked(study: Study, values: dict[str, float], unit: str) -> str:
     large = sorted(((x, m) for m, x in values.items() if x >= ROUNDING), reverse=True)
     parts = []
     if small:
-        parts.append(f"below {words.exact(ROUNDING)} with {words.listed(small)}")
+        parts.append(f"below {words.exact_number(ROUNDING)} with {words.enumeration(small)}")
     if large:
         rest = f" and less with {words.counted(len(large) - MOST, 'other')}" if len(large) > MOST else ""
-        parts.append(", ".join(f"{words.number(x)} {unit} with {m}" for x, m in large[:MOST]) + rest)
+        parts.append(", ".join(f"{words.rounded(x)} {unit} with {m}" for x, m in large[:MOST]) + rest)
     return "; ".join(parts)
 
 
@@ -204,11 +204,11 @@ def _energy(study: Study) -> str:
         return ""
     low = min(rows, key=lambda r: r.energy_drift_max)
     high = max(rows, key=lambda r: r.energy_drift_max)
-    if words.number(low.energy_drift_max) == words.number(high.energy_drift_max):
-        return f"largest energy error at the same settings: {words.number(low.energy_drift_max)} J with every method"
+    if words.rounded(low.energy_drift_max) == words.rounded(high.energy_drift_max):
+        return f"largest energy error at the same settings: {words.rounded(low.energy_drift_max)} J with every method"
     return (
-        f"largest energy error at the same settings: from {words.number(low.energy_drift_max)} J with {low.label} to "
-        f"{words.number(high.energy_drift_max)} J with {high.label}"
+        f"largest energy error at the same settings: from {words.rounded(low.energy_drift_max)} J with {low.label} to "
+        f"{words.rounded(high.energy_drift_max)} J with {high.label}"
     )
 
 
@@ -229,9 +229,8 @@ def _costs(study: Study) -> str:
     parts = [f"{method} {words.ratio(middle)}" for method, middle, *_ in medians]
     if len(parts) > 2 * MOST:
         parts = [*parts[:MOST], "...", *parts[-MOST:]]
-    return (
-        f"run time as a multiple of that of {YARDSTICK} at the same integrator and step, medians: {words.listed(parts)}"
-    )
+    listed = words.enumeration(parts)
+    return f"run time as a multiple of that of {YARDSTICK} at the same integrator and step, medians: {listed}"
 
 
 def order(rows: Sequence[Row], estimated: float) -> float | None:

@@ -10,7 +10,7 @@ import numpy as np
 from symgen.report import words
 from symgen.report.comparison_findings import line_number, methods, representatives, settings_text
 from symgen.report.document import Picture, anchor
-from symgen.report.picture import COLOURS, DASHES, GREY, below, drawn, style
+from symgen.report.picture import COLOURS, DASHES, GREY, below, drawn, line_style
 from symgen.study.comparison.comparison_rows import Row, Study
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def _front(study: Study) -> Picture | None:
         ax.plot(*_points([row for row, _ in rows]), ".", color="#b8bec7", markersize=4.0, label="all rows")
         ax.plot(*_points(best), color=GREY, linewidth=0.8, drawstyle="steps-post")
         for method, integrator in lines:
-            look = style(line_number(method))
+            look = line_style(line_number(method))
             own = _points([row for row in best if (row.label, row.integrator) == (method, integrator)])
             ax.plot(*own, look["marker"], color=look["color"], label=f"{method}, {integrator}")
         ax.set(xscale="log", yscale="log", xlabel="run time", ylabel="error [m]")
@@ -96,7 +96,7 @@ def _ratios(study: Study) -> Picture | None:
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         for k, ((method, integrator), times) in enumerate(lines.items()):
-            look = style(line_number(method)) | {"linestyle": DASHES[integrators.index(integrator) % len(DASHES)]}
+            look = line_style(line_number(method)) | {"linestyle": DASHES[integrators.index(integrator) % len(DASHES)]}
             middle = np.array([time.ratio for time in times], dtype=float)
             spread = [middle - [t.ratio_low for t in times], [t.ratio_high for t in times] - middle]
             beside = [time.error * (1.0 + 0.03 * (k - 0.5 * len(lines))) for time in times]  # bars stay apart
@@ -177,7 +177,7 @@ def _error_against_time(
         ax = figure.subplots()
         for method, integrator in lines:
             own = [r for r in rows if (r.label, r.integrator) == (method, integrator) and _drawable(r)]
-            look = style(line_number(method))
+            look = line_style(line_number(method))
             label = f"{method}, {integrator}" if mixed else method
             errors = [max(r.error or 0.0, FLOOR) for r in own]
             ax.plot([r.run_seconds for r in own], errors, **look, markerfacecolor="none", label=label)
@@ -233,7 +233,7 @@ def _over_time(study: Study, field: str, name: str, label: str, caption: str) ->
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         for k, (method, trace, values) in enumerate(curves):
-            look = style(line_number(method))
+            look = line_style(line_number(method))
             values = np.where(np.isfinite(values), np.maximum(values, FLOOR), np.nan)
             # marks of the curves stand at different times, so that none hides another's
             every = max(1, len(values) // MARKS)

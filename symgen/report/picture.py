@@ -61,7 +61,7 @@ _LOOK: Any = {
 }
 
 
-def style(index: int) -> dict[str, Any]:
+def line_style(index: int) -> dict[str, Any]:
     """Return colour, dashes and marker of the line with a number: no two of the first hundred are alike."""
     n = len(COLOURS)
     return {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from symgen.report import words
 from symgen.report.comparison_findings import USUAL, line_number
 from symgen.report.document import DocumentTable, Picture, Section
-from symgen.report.picture import GREY, below, drawn, style
+from symgen.report.picture import GREY, below, drawn, line_style
 from symgen.study.comparison.comparison_rows import Row, Study
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def beside_the_source(studies: list[Study]) -> Section | None:
         for method, theirs in zip(METHODS, ratios, strict=True):
             if (row := measured.get(method)) is not None:
                 mine = words.with_spread(row.cost_ratio, row.cost_ratio_spread)
-                step = f"{words.exact(row.step or 0.0)} s"
+                step = f"{words.exact_number(row.step or 0.0)} s"
                 rows.append((name, mechanism, method, words.ratio(theirs), mine, step))
     headings = ("mechanism of the source", "ours", "method", "source", "symgen", "step")
     table = DocumentTable("Run time as a ratio to lagrange.", headings, tuple(rows), words=3)
@@ -73,7 +73,7 @@ def _picture(ours: dict[str, dict[str, Row]]) -> Picture:
             places.append(-float(i))
             labels.append(name)
             for k, (method, theirs) in enumerate(zip(METHODS, ratios, strict=True)):
-                y, look = -i + 0.24 * (1 - k), style(line_number(method))
+                y, look = -i + 0.24 * (1 - k), line_style(line_number(method))
                 first = i == 0
                 ax.plot(
                     *([theirs], [y], look["marker"]),

@@ -69,7 +69,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         *_left_out(study),
         _cells_section(study),
     ]
-    title = f"Stiff and extreme cases: {words.listed([Path(model).stem for model in study.models])}"
+    title = f"Stiff and extreme cases: {words.enumeration([Path(model).stem for model in study.models])}"
     return Document(title, tuple(lead), facts, command, tuple(sections))
 
 
@@ -115,7 +115,7 @@ def _limits_section(study: Stress) -> list[Section]:
     rows = tuple(
         (
             *(limit.model, f"{limit.family} {limit.case}", limit.method, limit.integrator),
-            *("none" if x is None else words.number(x, 3) for x in (limit.stable_step, limit.accurate_step)),
+            *("none" if x is None else words.rounded(x, 3) for x in (limit.stable_step, limit.accurate_step)),
         )
         for limit in study.limits
     )
@@ -154,7 +154,7 @@ def _trust_section(study: Stress) -> Section:
 
 def _trust_row(row: StressRow) -> tuple[str, ...]:
     case = f"{row.family} {row.case}"
-    return row.model, case, row.method, row.integrator, cause(row), words.number(row.error)
+    return row.model, case, row.method, row.integrator, cause(row), words.rounded(row.error)
 
 
 def _left_out(study: Stress) -> list[Section]:
@@ -190,5 +190,5 @@ def _cell_row(row: StressRow) -> tuple[str | TableCell, ...]:
     integrator = row.chosen or row.integrator
     return (
         *(row.model, row.case, row.method, integrator, TableCell(row.outcome, _MOODS.get(row.outcome, "bad")), status),
-        *(words.number(row.error), words.number(row.reference_error), str(row.evaluations)),
+        *(words.rounded(row.error), words.rounded(row.reference_error), str(row.evaluations)),
     )

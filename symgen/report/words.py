@@ -13,7 +13,7 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 NONE = "–"
 
 
-def number(x: float | None, digits: int = 2) -> str:
+def rounded(x: float | None, digits: int = 2) -> str:
     """Return a number to some digits: 0.25, 1500, 3.1×10⁻⁷."""
     if x is None:
         return NONE
@@ -27,7 +27,7 @@ def number(x: float | None, digits: int = 2) -> str:
     return power if float(mantissa) == 1.0 else f"{mantissa}×{power}".replace("-", "−")
 
 
-def exact(x: float) -> str:
+def exact_number(x: float) -> str:
     """Return a chosen, not measured, number with all its digits: 0.001, 5×10⁻⁵, 10⁻⁸."""
     mantissa, _, exponent = f"{x:g}".partition("e")
     if not exponent:
@@ -38,7 +38,7 @@ def exact(x: float) -> str:
 
 def readable(text: str) -> str:
     """Return a sentence of a result with its numbers and signs as in the rest of the report."""
-    text = re.sub(r"\b\d+(\.\d+)?e[-+]\d+", lambda m: exact(float(m.group())), text)
+    text = re.sub(r"\b\d+(\.\d+)?e[-+]\d+", lambda m: exact_number(float(m.group())), text)
     return text.replace("|Phi|", "|Φ|").replace("|D v - nu|", "|D v − ν|")
 
 
@@ -69,7 +69,7 @@ def with_spread(x: float | None, spread: float | None) -> str:
     return f"{ratio(x)} ± {ratio(spread)}" if spread is not None else ratio(x)
 
 
-def listed(words: Sequence[str], last: str = "and") -> str:
+def enumeration(words: Sequence[str], last: str = "and") -> str:
     """Return words as an enumeration: a, b and c."""
     if len(words) < 2:
         return "".join(words)
@@ -83,4 +83,4 @@ def sentence(text: str) -> str:
 
 def setting(step: float | None, rtol: float | None) -> str:
     """Return a step or a tolerance in words: step 0.001 s, rtol 10⁻⁸."""
-    return f"rtol {exact(rtol)}" if rtol is not None else f"step {exact(step or 0.0)} s"
+    return f"rtol {exact_number(rtol)}" if rtol is not None else f"step {exact_number(step or 0.0)} s"

@@ -35,7 +35,7 @@ def contract(result: Result) -> dict[str, Any]:
         "lam": result._final_multipliers,
         **({"outputs": result.outputs.row()} if result.columns("outputs") else {}),
     }
-    facts: dict[str, Any] = finite(
+    facts: dict[str, Any] = json_value(
         {
             **{name: getattr(result, name) for name in _FIRST},
             "seconds": seconds,
@@ -55,12 +55,12 @@ def contract(result: Result) -> dict[str, Any]:
     return facts
 
 
-def finite(value: Any) -> Any:
+def json_value(value: Any) -> Any:
     """Return `value` with every number that JSON cannot express replaced by None."""
     if isinstance(value, Mapping):
-        return {key: finite(item) for key, item in value.items()}
+        return {key: json_value(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [finite(item) for item in value]
+        return [json_value(item) for item in value]
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
@@ -69,4 +69,4 @@ def finite(value: Any) -> Any:
 def series(table: Labelled) -> dict[str, list[float | None]]:
     """Return a table as JSON has it: lists by key; numbers that are not finite are None."""
     columns = {name: table.values[:, i].tolist() for i, name in enumerate(table.names)}
-    return columns if np.all(np.isfinite(table.values)) else finite(columns)
+    return columns if np.all(np.isfinite(table.values)) else json_value(columns)

@@ -300,7 +300,7 @@ class Forces:
         return values
 
 
-def jacobian(outcome: Motion, t: float, y: Array) -> Array:
+def constraint_jacobian(outcome: Motion, t: float, y: Array) -> Array:
     """Return D at one state, shape (m, nv)."""
     from symgen.layout.probe import Ready
 
@@ -342,4 +342,4 @@ def _weighed(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:
     compiled, w = outcome.compiled, outcome.w
     weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])
     gauge = compiled.section(w, "gauge")
-    return np.sqrt(gauge)[:, np.newaxis] * jacobian(outcome, t, y).T * weights, weights
+    return np.sqrt(gauge)[:, np.newaxis] * constraint_jacobian(outcome, t, y).T * weights, weights

@@ -20,7 +20,7 @@ from symgen.base.memory import require
 from symgen.result.contract import contract
 from symgen.result.export import SAVED, netcdf, to_xarray, with_last_state, write_columns
 from symgen.result.labelled import Array, Labelled
-from symgen.result.signals import TABLES, accelerations
+from symgen.result.signals import TABLES, acceleration_table
 from symgen.result.tables import MotionTables
 
 if TYPE_CHECKING:
@@ -203,7 +203,7 @@ class Result(MotionTables):
     @cached_property
     def a(self) -> Labelled:
         """Accelerations v', named after the velocities: ``crank.ax``, ``crank.alpha``."""
-        return accelerations(self.outcome.accelerations, self.v)
+        return acceleration_table(self.outcome.accelerations, self.v)
 
     @cached_property
     def violations(self) -> Labelled:
@@ -346,6 +346,6 @@ class Result(MotionTables):
         return f"<Result of {self.mechanism}, {self.method}, {self.integrator}: {status_in_words(self)}>"
 
     def _repr_html_(self) -> str:
-        from symgen.result.summary import html
+        from symgen.result.summary import summary_table
 
-        return html(self)
+        return summary_table(self)

@@ -96,10 +96,10 @@ def _read(option: str, path: Path, use: Callable[[Recorded], _Value]) -> _Value:
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
     read = {".nc": _of_dataset, ".csv": _of_csv, ".parquet": _of_parquet}[ending]
-    return checked(option, path, lambda path: use(read(path, f"{option} '{path.name}'")), SAVED[ending])
+    return checked_file(option, path, lambda path: use(read(path, f"{option} '{path.name}'")), SAVED[ending])
 
 
-def checked(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
+def checked_file(option: str, path: Path, read: Callable[[Path], _Value], libraries: Sequence[str]) -> _Value:
     """Return the value of `read` for a file, with sentences about files that are missing or hold something else."""
     need(option, *libraries)
     check_name(option, path)

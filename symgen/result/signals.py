@@ -160,7 +160,7 @@ def accelerated(velocity: str) -> str:
     return f"{body}.{ACCELERATIONS[component]}"
 
 
-def accelerations(values: Array, velocities: Labelled) -> Labelled:
+def acceleration_table(values: Array, velocities: Labelled) -> Labelled:
     """Return accelerations as a table, by the columns of the velocities."""
     units = tuple(f"{unit}^2" for unit in velocities.units)
     return Labelled(values, tuple(map(accelerated, velocities.names)), units)

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from symgen.result.contract import finite
+from symgen.result.contract import json_value
 from symgen.result.labelled import Labelled, html_table
 from symgen.result.result import FAILED
 
@@ -76,7 +76,7 @@ def status_in_words(result: Result) -> str:
     return f"{text} ({'; '.join(parts)})"
 
 
-def html(result: Result) -> str:
+def summary_table(result: Result) -> str:
     """Return the summary as an HTML table."""
     rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
     return html_table((), rows)
@@ -89,4 +89,4 @@ def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
         values = table.values[:, i]
         numbers = (values[-1], values.min(), values.max()) if len(values) else (math.nan,) * 3
         entries[name] = {"unit": unit, **dict(zip(("final", "min", "max"), map(float, numbers), strict=True))}
-    return {name: finite(entry) for name, entry in entries.items()}
+    return {name: json_value(entry) for name, entry in entries.items()}

@@ -21,7 +21,7 @@ from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, p
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled
 from symgen.result.plots import panels
-from symgen.result.saved import check_names, checked, dataset_of
+from symgen.result.saved import check_names, checked_file, dataset_of
 from symgen.result.signals import TABLES
 
 if TYPE_CHECKING:
@@ -50,13 +50,13 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool = 
     InputError
         If the motions are of different mechanisms, or have no outputs.
     """
-    first, second = recorded(result), None if beside is None else recorded(beside)
+    first, second = playable_motion(result), None if beside is None else playable_motion(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
     return page(first, *(_live(first.mechanism, result.run_facts()) if live else (None, "")), second)
 
 
-def recorded(result: MotionTables) -> Recording:
+def playable_motion(result: MotionTables) -> Recording:
     """Return a motion as a page plays it.
 
     Raises
@@ -272,7 +272,7 @@ def _dataset(option: str, path: Path) -> xr.Dataset:
         check_names(dataset["kind_of_energy"].values.tolist())
         return dataset
 
-    return checked(option, path, read, SAVED[".nc"])
+    return checked_file(option, path, read, SAVED[".nc"])
 
 
 def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:

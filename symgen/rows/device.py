@@ -22,7 +22,7 @@ from numba import config, cuda, float64, int64, types
 
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.layout.records import SIZES, SPAN, Kept, Observed, Outputs, State
 from symgen.layout.redundancy import never
 from symgen.layout.scheme_records import TABLEAU
@@ -94,7 +94,7 @@ def simulated() -> bool:
 
 
 @viewing
-def same(value: Any) -> Any:
+def bare_value(value: Any) -> Any:
     """Replace `symgen.loopcode.bare.bare`: CUDA counts no references."""
     return value
 
@@ -156,7 +156,7 @@ def on_device(function: Any, **meanings: Any) -> Any:
     **meanings
         Further meanings of global names on the device: helpers, and sizes.
     """
-    common: dict[str, Any] = {"bare": same, "part": cut, **PLAIN, **meanings}
+    common: dict[str, Any] = {"bare": bare_value, "part": cut, **PLAIN, **meanings}
     if simulated():
         common["math"] = ForgivingMath()
     return Instances(common, _compiled, everything=True).of(function)
@@ -237,7 +237,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)
-    rates, observed_by = rates_of(law)[0], model.observe if need.joints else nothing
+    rates, observed_by = rate_functions(law)[0], model.observe if need.joints else nothing
     width, n_p, nw, n_room, n_stored = need.width, max(1, need.n_p), need.nw, need.working, need.stored
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
     n_passages, n_memory, n_rows = N_PASSAGES, max(1, need.memory), need.rows

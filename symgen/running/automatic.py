@@ -306,7 +306,7 @@ def stiff_by_steps(run: Prepared, outcome: Outcome) -> tuple[str, ...]:
     return (f"{why}: the motion is stiff, radau5 takes longer steps",)
 
 
-def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str | None, tuple[str, ...]]:
+def automatic_choice(facts: Facts, method: str, integrator: str | None) -> tuple[str, str | None, tuple[str, ...]]:
     """Return method, integrator and the reasons, for whichever of the two is ``auto``.
 
     The rules come from measured rows (see ``docs/methods.md``): `direct-correction` in the metric of M carried runs

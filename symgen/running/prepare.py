@@ -27,7 +27,7 @@ from symgen.running.automatic import (
     SLOW,
     STRUCTURAL,
     TOGETHER,
-    decide,
+    automatic_choice,
     facts_of,
     rate_of_motion,
     slow_steps,
@@ -247,7 +247,7 @@ def preparation(
     plan = resolved(inputs, trial, purpose)
     assembled = code_and_start(plan, near)
     facts = facts_of(mechanism, *assembled.of_bodies, plan.spec.until)
-    method, integrator, notes = decide(facts, settings.method, settings.integrator)
+    method, integrator, notes = automatic_choice(facts, settings.method, settings.integrator)
     notes = *gains, *notes
     if method == STRUCTURAL and settings.method == AUTO:
         options = {**settings.options, "integrator.adaptive": "true"}
@@ -258,7 +258,7 @@ def preparation(
     if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:
         facts = replace(facts, slow=slow_steps(begin(chosen, same)))
         if facts.slow > SLOW:
-            _, integrator, notes = decide(facts, settings.method, settings.integrator)
+            _, integrator, notes = automatic_choice(facts, settings.method, settings.integrator)
             notes = *gains, *notes
             chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
             same = assembled if chosen.choice == plan.choice else None

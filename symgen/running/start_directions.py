@@ -22,7 +22,7 @@ from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.running.starts import held_of
 from symgen.runs.directions import DirectedModel, Seeds, lanes_of
-from symgen.vocabulary.rotations import multiply
+from symgen.vocabulary.rotations import composed_rotation
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel, ModelInfo
@@ -172,7 +172,7 @@ class StartDirections:
             for k in range(3):
                 axis = [0.0, 0.0, 0.0, 0.0]
                 axis[k + 1] = 0.5
-                motion[first : first + 4, at + k] = multiply(e, tuple(axis))  # type: ignore[arg-type]  # four numbers
+                motion[first : first + 4, at + k] = composed_rotation(e, tuple(axis))  # type: ignore[arg-type]  # four numbers
         return motion
 
     @cached_property

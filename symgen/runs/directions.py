@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.runs.run import Progress, completed
 from symgen.runs.simulation import Simulation
 from symgen.store.emitted import EmittedFunction, TangentFunction
@@ -311,7 +311,7 @@ class Observer:
     def rates(self) -> tuple[Array, Array]:
         """Rates of the state and the scratch at the outputs, with directions, shapes (k, longer ny), (k, longer nw)."""
         model, law = self.model, self.model.whole.law_module
-        rates, confirm = rates_of(law)
+        rates, confirm = rate_functions(law)
         accept, rates, confirm = (
             f.caller(kind.signature.arguments)
             for f, kind in ((law.accept, abi.ACCEPT), (rates, abi.RHS), (confirm, abi.RHS))

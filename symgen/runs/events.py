@@ -14,7 +14,7 @@ from symgen.describe.events import RECORD, RESET, STOP
 from symgen.effects.accumulation import accumulation, add_resets, latest_events, new_past
 from symgen.effects.effects import Impact
 from symgen.layout import abi
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.layout.start_records import Instant
 from symgen.loopcode.exact import compiled_form
 from symgen.loops import event_loop
@@ -205,7 +205,7 @@ class Events:
         watched, now = self.watched, float(state.clock[abi.TIME])
         chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
         compiled_form(add_resets)(self._past, chosen, now)
-        functions = *rates_of(self.compiled.law_module), watched.function
+        functions = *rate_functions(self.compiled.law_module), watched.function
         with np.errstate(all="ignore"):
             end = compiled_form(accumulation)(
                 *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self._past)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.layout import abi
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.runs.new_state import sizes_of
 from symgen.runs.simulation import Simulation
 from symgen.starts.assembler import row_chooser
@@ -101,7 +101,7 @@ class Motion:
         from symgen.runs.observe import observe_rates
 
         (sizes, outputs, observed), law = self._seen, self.compiled.law_module
-        model, iw = (sizes, *rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        model, iw = (sizes, *rate_functions(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
         w[abi.STEP_STATUS] = self.last_step
         choose = row_chooser(self.compiled) if self.start.redundant_rows else None

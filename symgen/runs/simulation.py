@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.ir.numerics import WARN
 from symgen.layout import abi
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.loops.watch import iterations_in
 from symgen.runs.changes import Changes
 from symgen.runs.events import event_state
@@ -124,7 +124,7 @@ class Simulation:
         from symgen.loops.searching import decide
         from symgen.runs.events import Events
 
-        rates, _ = rates_of(self.compiled.law_module)
+        rates, _ = rate_functions(self.compiled.law_module)
         functions = *self.setup.functions, watched.function, decide, rates
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
@@ -343,9 +343,9 @@ class Simulation:
 
     @cached_property
     def _entry(self) -> LoopEntry | None:
-        from symgen.loopcode.entry import entry_of
+        from symgen.loopcode.entry import loop_entry
 
-        entry = entry_of(self.setup.loop, (self._model, self.scheme, self.span, self.state, self._nothing))
+        entry = loop_entry(self.setup.loop, (self._model, self.scheme, self.span, self.state, self._nothing))
         if entry is not None and self._copied:
             entry.copy_before(self.snapshot.copy, self.snapshot.front)
         return entry
@@ -360,10 +360,10 @@ class Simulation:
 
         A loop that cannot be entered by its address is run with the stop flag set before its first step.
         """
-        from symgen.loopcode.entry import entry_of
+        from symgen.loopcode.entry import loop_entry
 
         arguments = self._model, self.scheme, self.span, self.state, outputs
-        if (entry := entry_of(self.setup.loop, arguments)) is not None:
+        if (entry := loop_entry(self.setup.loop, arguments)) is not None:
             self._prepared = outputs, entry
             return
         saved = self.save()

@@ -20,7 +20,7 @@ from symgen.base.errors import InputError
 from symgen.describe.events import RESET
 from symgen.describe.friction import MODE, REVERSE, SLIP, STICK
 from symgen.layout import abi
-from symgen.layout.probe import rates_of
+from symgen.layout.probe import rate_functions
 from symgen.loopcode.entry import direct
 from symgen.loopcode.exact import compiled_form
 from symgen.runs.box import INSIDE, new_box, solve_box
@@ -300,5 +300,5 @@ class Transitions:
     @cached_property
     def _rates(self) -> tuple[Any, Any]:
         arrays = 0.0, self._y, self.simulation.state.p, self._scratch, self._counters, self._rate
-        first, second = (direct(f, abi.RHS, *arrays) for f in rates_of(self.simulation.compiled.law_module))
+        first, second = (direct(f, abi.RHS, *arrays) for f in rate_functions(self.simulation.compiled.law_module))
         return first, second

@@ -18,7 +18,7 @@ from symgen.native import types
 from symgen.native.compiler import compiler, interpreted
 from symgen.native.read_tables import Written
 from symgen.store.identity import content, source_stamp, sources_digest
-from symgen.store.jit import Arguments, CacheEntry, MachineFunction, arguments_of, kinds_of, syntax_tree
+from symgen.store.jit import Arguments, CacheEntry, MachineFunction, argument_types, arguments_of, syntax_tree
 
 if TYPE_CHECKING:
     from symgen.native.language import Function
@@ -58,7 +58,7 @@ class EmittedFunction(MachineFunction):
         """
         from symgen.native.read import read
 
-        return read(self, kinds_of(arguments))
+        return read(self, argument_types(arguments))
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
@@ -66,10 +66,10 @@ class EmittedFunction(MachineFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.native.llvm import module
+        from symgen.native.llvm import llvm_module
 
         function = self.read(arguments)
-        return _compiled(self, function, module(function, _symbol, _is_short, _together()), symbol)
+        return _compiled(self, function, llvm_module(function, _symbol, _is_short, _together()), symbol)
 
 
 class NodesFunction(EmittedFunction):
@@ -94,11 +94,11 @@ class NodesFunction(EmittedFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.native.nodes import module
+        from symgen.native.nodes import node_module
 
         number, array, whole = types.float64, types.float64[::1], types.int64[::1]
         function = self.read((number, array, array, array, whole, array))
-        return _compiled(self, function, module(function, symbol, _symbol, _is_short), symbol)
+        return _compiled(self, function, node_module(function, symbol, _symbol, _is_short), symbol)
 
 
 class TangentFunction(EmittedFunction):

@@ -17,7 +17,7 @@ from typing import Any
 
 from symgen.base.errors import SymgenError
 from symgen.store import private, upkeep
-from symgen.store.identity import digest
+from symgen.store.identity import combined_digest
 from symgen.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_location, cache_root, private_folder
 
 _STEM = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
@@ -41,12 +41,12 @@ def cached(place: str, name: str, key: str, make: Callable[[], bytes]) -> bytes:
     location = cache_location()
     if not location.persistent:
         return make()
-    path = location.path / place / f"{plain_name(name)}-{digest(key)[:32]}{private.SUFFIX}"
-    data = private.read(path, key)
+    path = location.path / place / f"{plain_name(name)}-{combined_digest(key)[:32]}{private.SUFFIX}"
+    data = private.read_entry(path, key)
     if data is None:
         data = make()
         with suppress(OSError):
-            upkeep.note_written(location.path, private.write(path, key, data))
+            upkeep.note_written(location.path, private.write_entry(path, key, data))
     return data
 
 
@@ -103,7 +103,7 @@ class Entries:
         and be about to describe it, and a Python file without description does not count anyway.
         """
         path = self.path(folder, stem)
-        text = private.read(path.with_suffix(".json"), _key(path, private.read_own(path)))
+        text = private.read_entry(path.with_suffix(".json"), _key(path, private.read_own(path)))
         metadata: dict[str, Any] | None = None if text is None else json.loads(text)
         return metadata
 
@@ -146,7 +146,7 @@ class Entries:
     def _write(self, path: Path, content: bytes, text: bytes) -> None:
         private_folder(self.root)
         private.write_own(path, content)
-        size = private.write(path.with_suffix(".json"), _key(path, content), text)
+        size = private.write_entry(path.with_suffix(".json"), _key(path, content), text)
         upkeep.note_written(self.root, len(content) + size)
 
     @contextmanager
@@ -210,7 +210,7 @@ class Entries:
 
 def _key(path: Path, content: bytes | None) -> str:
     """Return the key of the description of a module with some content at its place."""
-    return digest(path.parent.name, path.stem, content or b"")
+    return combined_digest(path.parent.name, path.stem, content or b"")
 
 
 def _unwritable(root: Path, error: OSError) -> str:

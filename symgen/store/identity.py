@@ -44,7 +44,7 @@ SOURCES: Mapping[str, tuple[str, ...]] = {
 TEMPLATES = ("looped", "parts", "curves")
 
 
-def digest(*parts: str | bytes) -> str:
+def combined_digest(*parts: str | bytes) -> str:
     """Return the SHA-256 of the parts in hexadecimal; boundaries of parts matter."""
     result = hashlib.sha256()
     for part in parts:
@@ -72,7 +72,7 @@ def source_stamp(function: Any) -> str:
     """
     files = sorted({inspect.getfile(reached) for reached in _reached(function, {})})
     # Contents without names: the same sources in another place give the same machine code.
-    return digest(*sorted(file_digest(file) for file in files), sources_digest(*SOURCES["loops"]))
+    return combined_digest(*sorted(file_digest(file) for file in files), sources_digest(*SOURCES["loops"]))
 
 
 def content(path: str) -> bytes:
@@ -104,7 +104,7 @@ def _near(module: types.ModuleType, function: Any) -> bool:
 @functools.cache
 def file_digest(path: str) -> str:
     """Return the digest of a file's content at the first request, at the latest when it was loaded."""
-    return digest(content(path))
+    return combined_digest(content(path))
 
 
 @functools.cache
@@ -116,7 +116,7 @@ def sources_digest(*places: str) -> str:
         root = os.path.join(base, place)
         for path in _sources(root):
             parts += (place + path[len(root) :] if not os.path.isabs(place) else path[len(root) :], content(path))
-    return digest(*parts)
+    return combined_digest(*parts)
 
 
 def _sources(place: str) -> Iterator[str]:

@@ -25,7 +25,7 @@ from symgen.native.calls import caller, kind_of
 from symgen.native.compiler import compiler, interpreted
 from symgen.native.machine import load, lock, processor
 from symgen.store.entries import cached, plain_name
-from symgen.store.identity import SOURCES, content, digest, file_digest, source_stamp, sources_digest
+from symgen.store.identity import SOURCES, combined_digest, content, file_digest, source_stamp, sources_digest
 from symgen.store.stats import CompilationClock
 from symgen.store.upkeep import NATIVE
 
@@ -143,7 +143,7 @@ class MachineFunction(ABC):
         return self._symbol(self.key(arguments))
 
     def _symbol(self, key: str) -> str:
-        name = f"{self.__name__}_{digest(key)[:32]}"
+        name = f"{self.__name__}_{combined_digest(key)[:32]}"
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
     def _loaded(self, arguments: Arguments) -> MachineCode:
@@ -298,7 +298,7 @@ def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
     return tuple(types.ArrayType(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
 
 
-def kinds_of(arguments: Arguments) -> tuple[Kind, ...]:
+def argument_types(arguments: Arguments) -> tuple[Kind, ...]:
     """Return types of arguments in the language of emitted functions.
 
     Raises
@@ -357,4 +357,4 @@ def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
 def _lines(file: str) -> tuple[str, ...]:
     """Return the lines of a file, none of one that has been edited since it was loaded."""
     text = content(file)
-    return tuple(text.decode().split("\n")) if digest(text) == file_digest(file) else ()
+    return tuple(text.decode().split("\n")) if combined_digest(text) == file_digest(file) else ()

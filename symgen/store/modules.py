@@ -201,6 +201,6 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
     return module
 
 
-def interpreted(function: Any) -> Any:
+def plain_function(function: Any) -> Any:
     """Return the plain Python form of an emitted function: one call a run is not worth compilation."""
     return getattr(function, "py_func", function)

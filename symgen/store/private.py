@@ -28,15 +28,15 @@ _READ = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0
 _WRITE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | _ANY
 
 
-def read(path: Path, key: str) -> bytes | None:
+def read_entry(path: Path, key: str) -> bytes | None:
     """Return the content for a key, or nothing.
 
     Parameters
     ----------
     path : Path
-        File written by `write`.
+        File written by `write_entry`.
     key : str
-        The same text as for `write`: a file renamed or copied to another key's place is a miss.
+        The same text as for `write_entry`: a file renamed or copied to another key's place is a miss.
 
     Returns
     -------
@@ -79,7 +79,7 @@ def read_own(path: Path) -> bytes | None:
         return None
 
 
-def write(path: Path, key: str, data: bytes) -> int:
+def write_entry(path: Path, key: str, data: bytes) -> int:
     """Write data for a key so that a reader gets all of them or the former content; return the size of the file.
 
     Parameters

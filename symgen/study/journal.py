@@ -22,7 +22,7 @@ from symgen.base.escapes import printable
 from symgen.base.files import check_name
 from symgen.base.plugins import stamps
 from symgen.base.version import __version__
-from symgen.store.identity import SOURCES, digest, sources_digest
+from symgen.store.identity import SOURCES, combined_digest, sources_digest
 from symgen.store.locks import file_lock
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def code_identity() -> str:
     from symgen.compiling.pipeline import generator_digest
     from symgen.ir.program import FORMAT
 
-    return digest(__version__, str(FORMAT), generator_digest(), sources_digest(*SOURCES["cells"]), *stamps())
+    return combined_digest(__version__, str(FORMAT), generator_digest(), sources_digest(*SOURCES["cells"]), *stamps())
 
 
 # -- the file ----------------------------------------------------------------------------------------------------------

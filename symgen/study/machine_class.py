@@ -12,7 +12,7 @@ from symgen.base.memory import processors
 LIBRARIES = ("numpy", "llvmlite", "numba", "sympy", "scipy")
 
 
-def processor() -> str:
+def processor_model() -> str:
     """Return the model of the processor, or its architecture where the model is unavailable."""
     try:
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
@@ -28,7 +28,7 @@ def machine_class() -> str:
     """Return processor, architecture, cores and system in words."""
     n = processors()
     core = "1 core" if n == 1 else f"{n} cores"
-    return f"{processor()} ({platform.machine()}), {core}, {platform.system()}"
+    return f"{processor_model()} ({platform.machine()}), {core}, {platform.system()}"
 
 
 def versions() -> dict[str, str]:

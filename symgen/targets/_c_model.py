@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.compiling.checked import checked, read
+from symgen.compiling.checked import checked, checked_function
 from symgen.compiling.events import DIRECTIONS, effects_of
 from symgen.compiling.printed import Printed
 from symgen.compiling.side import Side, compile_side
@@ -21,7 +21,7 @@ from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of, velocity_of
-from symgen.native.c99 import broken, c_functions, c_number
+from symgen.native.c99 import broken_line, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
@@ -215,8 +215,10 @@ class CModel:
             sides["formulas_of_outputs"] = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
         if events:
             sides["formulas_of_events"] = self._switching
-        functions |= {name: read(side.function, abi.OBSERVE) for name, side in sides.items()}
-        return functions | ({"formulas_of_effects": read(self.effects.formulas, abi.OBSERVE)} if self.effects else {})
+        functions |= {name: checked_function(side.function, abi.OBSERVE) for name, side in sides.items()}
+        return functions | (
+            {"formulas_of_effects": checked_function(self.effects.formulas, abi.OBSERVE)} if self.effects else {}
+        )
 
     @cached_property
     def _switching(self) -> Side:
@@ -284,7 +286,7 @@ class CModel:
 
 
 def _list(words: Iterable[object]) -> str:
-    return broken(", ".join(map(str, words)))
+    return broken_line(", ".join(map(str, words)))
 
 
 def sources(values: Mapping[str, Any]) -> dict[str, str]:

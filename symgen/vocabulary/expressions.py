@@ -98,7 +98,7 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
 BENT = ("abs", "min", "max", "both", "either")
 
 
-def names(expression: Expr) -> Iterator[str]:
+def names_in(expression: Expr) -> Iterator[str]:
     """Yield every name that `expression` refers to, those of readings too, in order of appearance (with repeats)."""
     for node in _leaves(expression):
         if not isinstance(node, Number):
@@ -135,13 +135,13 @@ def with_names(expression: Expr, of: Mapping[Name | Reading, str]) -> Expr:
     return Name(of[expression]) if isinstance(expression, Name | Reading) and expression in of else expression
 
 
-def number(value: float) -> Number:
+def literal_of(value: float) -> Number:
     """Return `value` as a literal."""
     return Number(float(value))
 
 
-ZERO = number(0.0)
-ONE = number(1.0)
+ZERO = literal_of(0.0)
+ONE = literal_of(1.0)
 
 
 def call(function: str, *arguments: Expr) -> Expr:
@@ -156,7 +156,7 @@ def call(function: str, *arguments: Expr) -> Expr:
     return Call(function, tuple(arguments))
 
 
-def total(*terms: Expr) -> Expr:
+def sum_of_terms(*terms: Expr) -> Expr:
     """Return the sum of terms, those that are the number 0 left out."""
     result: Expr = ZERO
     for term in terms:
@@ -183,10 +183,10 @@ def product(*factors: Expr) -> Expr:
 
 def dot(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
     """Return the scalar product of two vectors."""
-    return total(*map(product, a, b))
+    return sum_of_terms(*map(product, a, b))
 
 
-def cross(a: Sequence[Expr], b: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
+def vector_product(a: Sequence[Expr], b: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
     """Return the vector product of two vectors in space."""
     x, y, z = (difference(product(a[i - 2], b[i - 1]), product(a[i - 1], b[i - 2])) for i in range(3))
     return x, y, z

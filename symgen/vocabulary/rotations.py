@@ -12,7 +12,7 @@ EulerParameters = tuple[float, float, float, float]
 Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
 
 
-def multiply(a: EulerParameters, b: EulerParameters) -> EulerParameters:
+def composed_rotation(a: EulerParameters, b: EulerParameters) -> EulerParameters:
     """Return the orientation of a turn `b` about axes turned by `a`."""
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],

@@ -11,7 +11,7 @@ import symgen
 from symgen.base.errors import InputError
 from symgen.breaks.motions import refuse_jumps
 from symgen.study.stress.bench import Level
-from symgen.study.stress.cells import CellReference, RunTask, compute
+from symgen.study.stress.cells import CellReference, RunTask, compute_cell
 
 MASS, ARM, INERTIA, G = 1.0, 0.5, 0.1, 9.81
 
@@ -99,7 +99,7 @@ def test_rows_whose_own_motion_jumps_fail(coordinates):
 def test_rows_of_stress_whose_motion_jumps_are_refused():
     mechanism = mechanism_of(cart("0 if t < late else 0.1"))
     level = Level("at half the time", (0.5,), mechanism, until=1.0, step=1e-2)
-    found = compute(RunTask(level, "lagrange", "rk4", compute(CellReference(level))))
+    found = compute_cell(RunTask(level, "lagrange", "rk4", compute_cell(CellReference(level))))
     assert found["outcome"] == "refused" and "a value that jumps by 0.1 m at t = 0.5 s" in found["reason"]
 
 

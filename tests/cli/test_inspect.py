@@ -16,7 +16,7 @@ from symgen.describe.validate import validate
 from symgen.formulate.formulate import formulate
 from symgen.reading.boxes import latex, name
 from symgen.reading.quantity_names import functions, input_names
-from symgen.reading.symbolic import number
+from symgen.reading.symbolic import exact_literal
 from symgen.reading.typeset import texts
 
 
@@ -117,9 +117,9 @@ def test_latex_names(text, expected):
 
 
 def test_numbers_are_shown_with_all_digits():
-    assert str(number(3.0)) == "3"
-    assert sp.sstr(number(0.1), full_prec=False) == "0.1"
-    assert sp.sstr(number(1 / 6), full_prec=False) == repr(1 / 6)
+    assert str(exact_literal(3.0)) == "3"
+    assert sp.sstr(exact_literal(0.1), full_prec=False) == "0.1"
+    assert sp.sstr(exact_literal(1 / 6), full_prec=False) == repr(1 / 6)
 
 
 def test_text(capsys):

@@ -150,7 +150,7 @@ def test_processes_of_a_study_load_what_this_one_has(loaded: Path) -> None:
     assert of_plugin(None) == {"here": ""}
 
 
-@pytest.mark.parametrize("identity", [journal.code_identity, recipe.code_identity], ids=["journal", "sweep"])
+@pytest.mark.parametrize("identity", [journal.code_identity, recipe.run_code_identity], ids=["journal", "sweep"])
 def test_journals_and_sweeps_depend_on_the_text(identity, loaded: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = identity()
     monkeypatch.setitem(plugins._files, str(loaded), b"another text")

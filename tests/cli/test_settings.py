@@ -27,7 +27,8 @@ WITHOUT = {
         *("method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs", "coordinates"),
         *EVENTS,
     },
-    "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_step", "max_attempts", "coordinates"},
+    "stress": {*settings.setting_names()}
+    - {"max_violation", "max_energy_error", "max_step", "max_attempts", "coordinates"},
     "sweep": {"verify", "repeat", "shape", "events"},
 }
 #: Defaults of commands that are not those of a single run.
@@ -54,8 +55,8 @@ def rows(name):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_setting_is_an_option_of_every_command_that_runs(name):
     found = options(COMMANDS[name])
-    assert {n for n in settings.names() if n not in found} == WITHOUT[name]
-    for setting in set(settings.names()) - WITHOUT[name]:
+    assert {n for n in settings.setting_names() if n not in found} == WITHOUT[name]
+    for setting in set(settings.setting_names()) - WITHOUT[name]:
         option = found[setting]
         assert settings.flag(setting) in option.opts
         if settings.about(setting).kind is not dict:
@@ -73,7 +74,7 @@ def test_the_page_has_a_row_for_every_option_and_no_other(name):
 
 
 def test_defaults_in_the_page_are_those_of_the_table():
-    for setting in set(settings.names()) - WITHOUT["run"]:
+    for setting in set(settings.setting_names()) - WITHOUT["run"]:
         about, usual = settings.about(setting), settings.default(setting)
         said = rows("run")[settings.flag(setting)][1].replace("`", "")
         if isinstance(usual, float):
@@ -95,10 +96,10 @@ def test_tolerances_that_the_table_names_are_those_of_a_run():
 def test_python_says_every_setting():
     text = inspect.getdoc(symgen.Model.simulate)
     page = (PAGES / "python.md").read_text(encoding="utf-8")
-    for name in settings.names():
+    for name in settings.setting_names():
         assert f"\n{name} : " in text and f"`{name}`" in page, name
         assert settings.about(name).help in text, name
-    assert settings.names() == tuple(f.name for f in fields(symgen.Settings))
+    assert settings.setting_names() == tuple(f.name for f in fields(symgen.Settings))
 
 
 def test_generate_has_the_options_of_the_table():

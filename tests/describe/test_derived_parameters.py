@@ -11,7 +11,7 @@ from symgen.cli import main
 from symgen.describe import load as load_mechanism
 from symgen.describe.builder import MechanismBuilder
 from symgen.describe.digest import digest
-from symgen.describe.evaluate import in_order, parameter_values
+from symgen.describe.evaluate import evaluation_order, parameter_values
 from symgen.describe.parser import FormulaNames, parse
 from symgen.ensemble.sweep import sweep
 
@@ -149,7 +149,7 @@ def test_an_undefined_value_names_the_parameter(model):
 def test_long_chains_need_no_deep_calls():
     known = FormulaNames("", {f"a{i}": f"a{i}" for i in range(5001)})
     formulas = {f"a{i}": parse(f"a{i + 1} + 1", known, "") for i in range(5000)} | {"a5000": None}
-    assert in_order(formulas, "parameters") == [f"a{i}" for i in range(5000, -1, -1)]
+    assert evaluation_order(formulas, "parameters") == [f"a{i}" for i in range(5000, -1, -1)]
 
 
 def test_catalogue_parameters_are_numbers_still():

@@ -16,7 +16,7 @@ from symgen.cli import main
 from symgen.describe.validate import validate
 from symgen.drawing import build_scene
 from symgen.drawing.paper import Path as Stroke
-from symgen.drawing.paper import View, axes, on_paper
+from symgen.drawing.paper import View, on_paper, view_axes
 from symgen.drawing.scene import Disc, Poses, Solid
 
 #: A four-bar whose links are too short to meet: at best each of the three open gaps is a third of what is missing.
@@ -190,7 +190,7 @@ def test_wrong_shapes_are_refused(shape: Any, told: str) -> None:
 
 def test_space_is_seen_by_an_orthogonal_frame() -> None:
     scene = build_scene(load("heavy-top").mechanism)
-    eye = axes(scene, View(0.3, 0.7))
+    eye = view_axes(scene, View(0.3, 0.7))
     assert eye @ eye.T == pytest.approx(np.eye(3), abs=1e-15)
     assert np.linalg.det(eye) == pytest.approx(1.0)
     assert Poses(scene.frames, [0.0] * 3 + [1.0, 0.0, 0.0, 0.0], True).turns[0] == pytest.approx(np.eye(3))

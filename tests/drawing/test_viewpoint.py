@@ -7,7 +7,7 @@ from matplotlib.path import Path as Outline
 from symgen.api import Model, load
 from symgen.describe.builder import MechanismBuilder
 from symgen.drawing import Drawing, build_scene
-from symgen.drawing.paper import Circle, axes, on_paper
+from symgen.drawing.paper import Circle, on_paper, view_axes
 from symgen.drawing.paper import Path as Stroke
 from symgen.drawing.scene import Line
 from symgen.drawing.viewpoint import USUAL
@@ -17,7 +17,7 @@ Part = Stroke | Circle
 
 def seen(view: object, scene: object, line: np.ndarray) -> np.ndarray:
     """Return points of the ground frame as the eye has them, flat."""
-    return np.asarray(line @ axes(scene, view)[:2].T)  # type: ignore[arg-type]
+    return np.asarray(line @ view_axes(scene, view)[:2].T)  # type: ignore[arg-type]
 
 
 def across(a: np.ndarray, b: np.ndarray) -> float:
@@ -28,7 +28,7 @@ def across(a: np.ndarray, b: np.ndarray) -> float:
 
 def test_a_rod_behind_another_one_is_seen() -> None:
     """Two bars that lie behind each other along the usual view: the drawing looks from elsewhere."""
-    direction = axes(load("heavy-top").draw().scene, USUAL)[2]
+    direction = view_axes(load("heavy-top").draw().scene, USUAL)[2]
     both = MechanismBuilder("both", space="spatial", gravity=(0.0, 0.0, -9.81))
     for name, at in (("near", 0.4 * direction), ("far", -0.4 * direction)):
         ends = {"p": (0.0, 0.0, -0.5), "q": (0.0, 0.0, 0.5)}

@@ -8,7 +8,7 @@ from symgen.base.files import templates_folder
 from symgen.emit.emit import table_codes
 from symgen.emit.lanes import Inlined
 from symgen.emit.looped import emit_machine, emit_shared_model
-from symgen.emit.module import module
+from symgen.emit.module import module_source
 from symgen.emit.parts import Parts
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Correction
@@ -35,7 +35,7 @@ def test_templates_that_are_rendered_alone(monkeypatch):
     monkeypatch.setattr(jinja2.Template, "render", noted)
     emit_machine("generator")
     emit_shared_model("generator")
-    module("title", [], [], {}, {})
+    module_source("title", [], [], {}, {})
     x, y = (0.0, 1.0, 2.0), (1.0, 2.0, 4.0)
     table_codes([Interpolation("line", x, y), Interpolation("curve", x, y, ((1.0, 0.0, 0.0, 0.0),) * 2)])
     assert given.keys() == ALONE

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.ensemble.axes import Grid, make_grid, parse
+from symgen.ensemble.axes import Grid, axis_values, make_grid
 
 
 @pytest.mark.parametrize(
@@ -21,17 +21,17 @@ from symgen.ensemble.axes import Grid, make_grid, parse
     ],
 )
 def test_text_stands_for_values(text, expected):
-    np.testing.assert_allclose(parse(text, "x"), expected, rtol=1e-14)
+    np.testing.assert_allclose(axis_values(text, "x"), expected, rtol=1e-14)
 
 
 def test_ends_are_exact():
     for text in ("lin(0.1, 0.7, 7)", "log(0.1, 0.7, 7)"):
-        found = parse(text, "x")
+        found = axis_values(text, "x")
         assert (found[0], found[-1]) == (0.1, 0.7)
 
 
 def test_uniform_draws_the_same_values_for_the_same_seed():
-    first, again, other = (parse(f"uniform(-2, 3, 20000, {seed})", "x") for seed in (7, 7, 8))
+    first, again, other = (axis_values(f"uniform(-2, 3, 20000, {seed})", "x") for seed in (7, 7, 8))
     np.testing.assert_array_equal(first, again)
     assert not np.array_equal(first, other)
     assert first.min() >= -2.0 and first.max() < 3.0
@@ -63,7 +63,7 @@ def test_uniform_draws_the_same_values_for_the_same_seed():
 )
 def test_other_text_is_refused_in_one_sentence(text, said):
     with pytest.raises(InputError, match=said) as caught:
-        parse(text, "x")
+        axis_values(text, "x")
     assert "\n" not in str(caught.value)
 
 

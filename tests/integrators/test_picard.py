@@ -8,7 +8,7 @@ import pytest
 import symgen
 from benchmarks.extended import motion
 from symgen import MechanismBuilder, Settings
-from symgen.integrators.picard import coefficients, integrals, lobatto, rates_of
+from symgen.integrators.picard import coefficients, legendre_integrals, lobatto, rates_of
 from symgen.running.prepare import prepare
 
 CONSTANT = {"options": {"integrator.adaptive": "false"}}
@@ -66,8 +66,12 @@ def test_coefficients_integrate_polynomials():
     assert terms == pytest.approx(polynomial(0.3), abs=1e-13)
     x = np.array([2.0 * 0.3 - 1.0])
     legendre = [np.polynomial.Legendre.basis(k, domain=[0, 1]) for k in range(9)]
-    np.testing.assert_allclose(integrals(9, x)[0][:, 0], [p.integ(1, lbnd=0)(0.3) for p in legendre], atol=1e-15)
-    np.testing.assert_allclose(integrals(9, x)[1][:, 0], [p.integ(2, lbnd=0)(0.3) for p in legendre], atol=1e-15)
+    np.testing.assert_allclose(
+        legendre_integrals(9, x)[0][:, 0], [p.integ(1, lbnd=0)(0.3) for p in legendre], atol=1e-15
+    )
+    np.testing.assert_allclose(
+        legendre_integrals(9, x)[1][:, 0], [p.integ(2, lbnd=0)(0.3) for p in legendre], atol=1e-15
+    )
 
 
 def test_unknown_rates_leave_out_coordinates_whose_rate_is_a_velocity():

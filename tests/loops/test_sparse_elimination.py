@@ -13,7 +13,7 @@ from symgen.compiling.pipeline import choose_method, generate
 from symgen.layout.records import Sizes
 from symgen.layout.redundancy import leave_out_rest
 from symgen.loops import sparse
-from symgen.loops.newton import Pattern, Terms, alpha_plan, elimination_order, make_plan, projection_plan, stage_plan
+from symgen.loops.newton import Pattern, Terms, alpha_plan, elimination_order, newton_plan, projection_plan, stage_plan
 
 NOTHING = np.zeros(0, dtype=np.int64)
 
@@ -25,7 +25,7 @@ class Solver:
         self.rows, self.columns = (x.astype(np.int64) for x in np.nonzero(matrix))
         terms = Terms(self.rows, self.columns, np.zeros_like(self.rows), np.arange(len(self.rows)))
         self.n, self.left_out = len(matrix), left_out
-        self.plan, self.numbers = make_plan(self.n, 1, terms, left_out, len(self.rows), motion=motion)
+        self.plan, self.numbers = newton_plan(self.n, 1, terms, left_out, len(self.rows), motion=motion)
 
     def factorise(self, matrix):
         """Return the skipped pivots; room grows as the loops let it."""
@@ -246,7 +246,7 @@ def test_plans_put_numbers_where_the_formula_says(name, method):
     if method == "ggl":
         a, h = rng.uniform(-1.0, 1.0, (2, 2)), 0.3
         plan, numbers = stage_plan(pattern, a, 2 * pattern.size)
-        sparse.assemble(plan, np.append(values, 1.0), np.append(1.0, h * a), numbers)
+        sparse.assemble_matrix(plan, np.append(values, 1.0), np.append(1.0, h * a), numbers)
         expected = np.block([[(i == j) * by[i][:, :n] for j in range(2)] for i in range(2)])
         for i in range(2):
             for j in range(2):
@@ -257,9 +257,9 @@ def test_plans_put_numbers_where_the_formula_says(name, method):
         sources = np.zeros(size)
         sources[: pattern.size], sources[-1] = values[0], 1.0
         delta = 0.2 * rng.uniform(-1.0, 1.0, nv)
-        sparse.multiply(plan, sources)
+        sparse.multiply_sources(plan, sources)
         sparse.turn_rows(plan, sources, delta)
-        sparse.assemble(plan, sources, np.array([1.0, 0.7, 0.4, -0.4, 30.0]), numbers)
+        sparse.assemble_matrix(plan, sources, np.array([1.0, 0.7, 0.4, -0.4, 30.0]), numbers)
         motion = np.eye(nv)
         if nq != nv:
             motion = -by[0][:nq, n + nq :]

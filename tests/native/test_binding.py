@@ -8,7 +8,7 @@ import pytest
 
 from native import printed
 from symgen import load
-from symgen.compiling.checked import read
+from symgen.compiling.checked import checked_function
 from symgen.compiling.printed import meanings_of, source_of
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
@@ -33,7 +33,11 @@ class Bound:
     def __init__(self, compiled, layout, others, folder):
         joints, now, conditions, work = others
         *own, observe = Assembly(compiled).own
-        emitted = {id(f): read(f, kind) for f, kind in zip((*own, observe), KINDS, strict=True) if hasattr(f, "read")}
+        emitted = {
+            id(f): checked_function(f, kind)
+            for f, kind in zip((*own, observe), KINDS, strict=True)
+            if hasattr(f, "read")
+        }
         arguments = ((layout, *own), observe, joints), now, conditions, work
 
         def room(name):

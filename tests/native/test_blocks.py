@@ -41,7 +41,7 @@ def optimised(folder, text: str) -> tuple[str, str]:
     direct = load_module(written(folder, text)).f
     function = direct.read(arguments_of(direct))
     symbol = emitted._symbol(function)
-    return str(machine.optimised(llvm.module(function, emitted._symbol, lambda called: True))), symbol
+    return str(machine.optimised(llvm.llvm_module(function, emitted._symbol, lambda called: True))), symbol
 
 
 def block_lengths(text: str) -> list[int]:

@@ -15,7 +15,7 @@ from symgen.native.calls import (
     SOURCE,
     caller,
     kind_of,
-    numbers,
+    slot_values,
     slots,
     trampoline,
 )
@@ -53,7 +53,7 @@ def test_slots_and_what_is_in_them():
     matrix = np.zeros((2, 3))
     values = Pair(matrix, (7, True))
     assert list(slots(RECORD)) == ["ptr", "i64", "i64", "i64", "i1"]
-    assert list(numbers(RECORD, values)) == [matrix.ctypes.data, 2, 3, 7, 1]
+    assert list(slot_values(RECORD, values)) == [matrix.ctypes.data, 2, 3, 7, 1]
     assert kind_of(values) == RECORD and kind_of(np.float64(1.0)) is float64 and kind_of(np.True_) is boolean
     with pytest.raises(TypeError, match="no str"):
         kind_of("x")
@@ -62,7 +62,7 @@ def test_slots_and_what_is_in_them():
 @pytest.mark.parametrize("value", [None, [1.0], np.zeros(2, int), np.zeros((1, 2)), np.zeros(4)[::2]])
 def test_another_array_is_refused(value):
     with pytest.raises(TypeError, match="expected an array"):
-        list(numbers(ArrayType(float64, 1), value))
+        list(slot_values(ArrayType(float64, 1), value))
 
 
 def test_a_call_takes_arguments_apart(address):

@@ -11,7 +11,7 @@ from support import golden
 
 from symgen.ir.program import LANES
 from symgen.native.language import ArrayLength, Assign, Return
-from symgen.native.llvm import is_copied, module
+from symgen.native.llvm import is_copied, llvm_module
 from symgen.native.machine import optimised
 from symgen.native.read import Foreign, read
 from symgen.store.emitted import EmittedFunction
@@ -74,7 +74,7 @@ def test_loops_over_lanes_become_vectors(emitted):
     """Of all sums and products half at least: the others are what is left over where lanes do not fill vectors."""
     law = load_module(emitted / "lagrange_lanes.py")
     f = law.rhs.read((NUMBER, ARRAY))
-    text = str(optimised(module(f, lambda x: x.name, lambda x: False)))
+    text = str(optimised(llvm_module(f, lambda x: x.name, lambda x: False)))
     found = re.findall(r"= f(?:add|sub|mul|div)\b[^<\n]*?(<\d+ x double>|double)", text)
     assert sum(x != "double" for x in found) >= len(found) / 2 > 50
     assert not re.search(r'call i32 @"?(sine|cosine|turned)', text)

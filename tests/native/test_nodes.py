@@ -129,10 +129,12 @@ def f(y, out):
 def test_other_code_has_no_such_form(tmp_path, body):
     rhs = load_module(written(tmp_path, f"def rhs(t, y, p, w, iw, ydot):\n{body}\n", head=HEAD)).rhs
     array, whole = types.float64[::1], types.int64[::1]
-    from symgen.native.nodes import module
+    from symgen.native.nodes import node_module
 
     with pytest.raises(Foreign):
-        module(rhs.read((types.float64, array, array, array, whole, array)), "f", lambda f: f.name, lambda f: False)
+        node_module(
+            rhs.read((types.float64, array, array, array, whole, array)), "f", lambda f: f.name, lambda f: False
+        )
 
 
 @pytest.mark.parametrize("method", ["augmented-lagrangian", "null-space", "coordinate-partitioning"])

@@ -25,7 +25,7 @@ def both(request):
     text = f"""
 define void @try_sines{n}(ptr %x, ptr %s, ptr %c) {{
   %v = load <{n} x double>, ptr %x, align 8
-  %r = call {sines.kind(n)} {sines.name(n)}(<{n} x double> %v)
+  %r = call {sines.kind(n)} {sines.sine_name(n)}(<{n} x double> %v)
   %a = extractvalue {sines.kind(n)} %r, 0
   %b = extractvalue {sines.kind(n)} %r, 1
   store <{n} x double> %a, ptr %s, align 8

@@ -22,7 +22,7 @@ from symgen.describe.validate import validate
 from symgen.player import live
 from symgen.player.moving import write_film
 from symgen.player.recording import PlottedGroup, Recording, is_coarse, packed, shorts
-from symgen.result.viewed import recorded, view_file
+from symgen.result.viewed import playable_motion, view_file
 
 
 @pytest.fixture(scope="module")
@@ -289,7 +289,7 @@ def pictures(path: Path) -> list[int]:
 )
 def test_a_gif_lasts_as_long_as_the_motion_or_as_it_can(settings: Any, lasting: int, tmp_path: Path) -> None:
     result = load("pendulum").simulate(**settings)
-    assert sum(pictures(write_film(tmp_path / "a.gif", recorded(result)))) == lasting
+    assert sum(pictures(write_film(tmp_path / "a.gif", playable_motion(result)))) == lasting
 
 
 def test_a_gif_has_25_pictures_a_second(tmp_path: Path) -> None:

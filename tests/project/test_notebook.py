@@ -82,7 +82,7 @@ def every_call() -> list[Any]:
 def test_no_call_hides_its_arguments(call: Any) -> None:
     parameters = inspect.signature(call).parameters.values()
     assert not [p.name for p in parameters if p.kind is p.VAR_KEYWORD]
-    text, table = inspect.getdoc(call) or "", settings.names()
+    text, table = inspect.getdoc(call) or "", settings.setting_names()
     for p in parameters:
         if p.kind is p.KEYWORD_ONLY and p.name in table and "**changes" in text:
             assert p.default == settings.default(p.name)
@@ -91,7 +91,7 @@ def test_no_call_hides_its_arguments(call: Any) -> None:
 
 def test_keywords_are_the_settings_of_the_table() -> None:
     """Names and types; a start may be a result as well, times an array, and a condition one text."""
-    assert keywords.names(keywords.RunKeywords) == settings.names()
+    assert keywords.keyword_names(keywords.RunKeywords) == settings.setting_names()
     wider = {"start": " | Ended", "times": "", "stop_when": "str | ", "record_when": "str | "}
     own = inspect.get_annotations(symgen.Settings)
     for kind in (keywords.DrivenKeywords, keywords.StateKeywords, keywords.PlaceKeywords, keywords.RunKeywords):

@@ -192,9 +192,9 @@ def test_lines_of_methods_can_be_told_apart():
     from symgen.methods import METHODS
     from symgen.report.comparison_findings import line_number
 
-    looks = [tuple(map(str, picture.style(line_number(m)).values())) for m in METHODS.names]
+    looks = [tuple(map(str, picture.line_style(line_number(m)).values())) for m in METHODS.names]
     assert len(set(looks)) == len(looks)
-    assert len({(picture.style(i)["color"], str(picture.style(i)["linestyle"])) for i in range(28)}) == 28
+    assert len({(picture.line_style(i)["color"], str(picture.line_style(i)["linestyle"])) for i in range(28)}) == 28
 
 
 def test_studies_with_nothing_to_draw_still_make_a_page():

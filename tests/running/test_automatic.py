@@ -18,7 +18,7 @@ from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.methods import METHODS
 from symgen.result import points
-from symgen.running.automatic import STIFF_RATIO, Facts, decide, facts_of, linearised
+from symgen.running.automatic import STIFF_RATIO, Facts, automatic_choice, facts_of, linearised
 from symgen.running.plan import Purpose
 from symgen.running.prepare import make_plan, prepare
 from symgen.starts.assembly import state_scales
@@ -97,7 +97,7 @@ def test_nothing_is_gathered_where_nothing_is_asked():
     ],
 )
 def test_rules(changes, method, integrator, word):
-    found = decide(facts(**changes), "auto", "auto")
+    found = automatic_choice(facts(**changes), "auto", "auto")
     assert found[:2] == (method, integrator)
     assert any(word in reason for reason in found[2]), found[2]
 
@@ -106,7 +106,7 @@ def test_rules(changes, method, integrator, word):
 @pytest.mark.parametrize("decay", [1.0, 1e6])
 def test_what_is_chosen_fits(method, decay):
     """Whatever the method asked for, the integrator chosen beside it solves its form."""
-    _, integrator, reasons = decide(facts(fastest_decay=decay), method, "auto")
+    _, integrator, reasons = automatic_choice(facts(fastest_decay=decay), method, "auto")
     assert forms_in_common(method, integrator), f"{method} with {integrator}"
     assert reasons and reasons[0].startswith(f"integrator {integrator}: ")
     make_plan(load("pendulum").mechanism, Settings(method=method, integrator=integrator))
@@ -118,7 +118,7 @@ def test_stiffness_is_relative_to_the_motion():
 
 
 def test_a_stiff_mechanism_with_a_method_for_explicit_integrators_only():
-    _, integrator, (reason,) = decide(facts(fastest_decay=1e6), "null-space", "auto")
+    _, integrator, (reason,) = automatic_choice(facts(fastest_decay=1e6), "null-space", "auto")
     assert integrator == "dop853" and "null-space has no form for implicit integrators" in reason
 
 

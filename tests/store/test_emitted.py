@@ -158,7 +158,7 @@ class TestLanguage:
         )
 
     def test_an_error_of_the_compiler_is_an_error(self, law, monkeypatch):
-        monkeypatch.setattr("symgen.native.llvm.module", lambda *_: "define nonsense")
+        monkeypatch.setattr("symgen.native.llvm.llvm_module", lambda *_: "define nonsense")
         with pytest.raises(RuntimeError, match="LLVM IR parsing error"):
             load_module(law).rhs(*state())
 

@@ -133,7 +133,7 @@ def test_a_kill_at_any_moment_leaves_a_valid_pair_or_a_miss(entries):
                 source = entries.path(FOLDER, stem).read_text()
                 assert len(source) == metadata["length"]
                 assert source.startswith(f"i = {metadata['i']}\n")
-        data = private.read(file, "key")
+        data = private.read_entry(file, "key")
         assert data is None or (len(data) == 100000 and len(set(data)) == 1)
     assert valid  # else nothing was tested
     with entries.building(FOLDER):  # the lock of a killed process is free
@@ -143,7 +143,7 @@ def test_a_kill_at_any_moment_leaves_a_valid_pair_or_a_miss(entries):
 
 def test_what_a_killed_process_left_is_removed_after_a_while(entries, monkeypatch):
     entries.put(FOLDER, "model", SOURCE, {})
-    private.write(entries.root / upkeep.NATIVE / "x" / "f.bin", "key", b"")
+    private.write_entry(entries.root / upkeep.NATIVE / "x" / "f.bin", "key", b"")
     left = [entries.path(FOLDER, "model").with_name(".tmp-1"), entries.root / upkeep.NATIVE / "x" / ".tmp-2"]
     for path in left:
         path.write_text("half")
@@ -210,8 +210,8 @@ class TestUpkeep:
     def fill(self, entries: Entries) -> None:
         entries.put(FOLDER, "model", SOURCE, {})
         entries.put(FOLDER, "lagrange", SOURCE * 2, {})
-        private.write(entries.root / upkeep.NATIVE / "package.module" / "f-1.bin", "key", b"x" * 1000)
-        private.write(entries.root / upkeep.BYTECODE / "model-1.bin", "key", b"x" * 100)
+        private.write_entry(entries.root / upkeep.NATIVE / "package.module" / "f-1.bin", "key", b"x" * 1000)
+        private.write_entry(entries.root / upkeep.BYTECODE / "model-1.bin", "key", b"x" * 100)
 
     def test_info(self, entries):
         assert upkeep.info(entries.root) == EMPTY

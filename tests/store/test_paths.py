@@ -88,63 +88,63 @@ class TestPrivateFiles:
         return tmp_path / "deep" / "folder" / "file.bin"
 
     def test_round_trip(self, path):
-        assert private.read(path, "key") is None
-        private.write(path, "key", b"data")
-        assert private.read(path, "key") == b"data"
+        assert private.read_entry(path, "key") is None
+        private.write_entry(path, "key", b"data")
+        assert private.read_entry(path, "key") == b"data"
         assert mode(path) == 0o600
         assert mode(path.parent) == mode(path.parent.parent) == 0o700
 
     @pytest.mark.parametrize("length", [0, 5, 40, -1])
     def test_truncated_file_is_a_miss_and_removed(self, path, length):
-        private.write(path, "key", b"some data")
+        private.write_entry(path, "key", b"some data")
         path.write_bytes(path.read_bytes()[:length])
-        assert private.read(path, "key") is None
+        assert private.read_entry(path, "key") is None
         assert not path.exists()
 
     def test_every_changed_byte_is_noticed(self, path):
-        private.write(path, "key", b"some data")
+        private.write_entry(path, "key", b"some data")
         good = path.read_bytes()
         for place in range(len(good)):
             path.write_bytes(good[:place] + bytes([good[place] ^ 1]) + good[place + 1 :])
-            assert private.read(path, "key") is None
+            assert private.read_entry(path, "key") is None
 
     def test_file_of_another_key_is_a_miss(self, path):
-        private.write(path, "key", b"data")
-        assert private.read(path, "other key") is None
+        private.write_entry(path, "key", b"data")
+        assert private.read_entry(path, "other key") is None
 
     def test_file_that_others_can_write_is_a_miss(self, path):
-        private.write(path, "key", b"data")
+        private.write_entry(path, "key", b"data")
         path.chmod(0o620)
-        assert private.read(path, "key") is None
+        assert private.read_entry(path, "key") is None
 
     def test_folder_that_others_can_enter_is_a_miss(self, path):
-        private.write(path, "key", b"data")
+        private.write_entry(path, "key", b"data")
         path.parent.chmod(0o755)
-        assert private.read(path, "key") is None
+        assert private.read_entry(path, "key") is None
         with pytest.raises(PermissionError):
-            private.write(path, "key", b"data")
+            private.write_entry(path, "key", b"data")
 
     def test_file_of_somebody_else_is_a_miss(self, path):
         if os.geteuid() != 0:
             pytest.skip("only the superuser can give files away")
-        private.write(path, "key", b"data")
+        private.write_entry(path, "key", b"data")
         os.chown(path, 4711, 4711)
-        assert private.read(path, "key") is None
+        assert private.read_entry(path, "key") is None
 
     def test_links_are_not_followed(self, path, tmp_path):
-        private.write(path, "key", b"data")
+        private.write_entry(path, "key", b"data")
         os.replace(path, tmp_path / "elsewhere")
         path.symlink_to(tmp_path / "elsewhere")
-        assert private.read(path, "key") is None
+        assert private.read_entry(path, "key") is None
 
     def test_full_disk_leaves_nothing_behind(self, path, monkeypatch):
-        private.write(path, "key", b"data")
+        private.write_entry(path, "key", b"data")
 
         def full(*_: object) -> None:
             raise OSError(28, "No space left on device")
 
         monkeypatch.setattr(os, "replace", full)
         with pytest.raises(OSError, match="No space"):
-            private.write(path, "key", b"other data")
-        assert private.read(path, "key") == b"data"
+            private.write_entry(path, "key", b"other data")
+        assert private.read_entry(path, "key") == b"data"
         assert [file.name for file in path.parent.iterdir()] == ["file.bin"]

@@ -14,9 +14,9 @@ from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff
 from symgen.study.stress import effort
 from symgen.study.stress.bench import Base
-from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
+from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
 from symgen.study.stress.families import levels_of
-from symgen.study.stress.study import pairs, stress
+from symgen.study.stress.study import method_pairs, stress
 from tests.study.test_reference import start_of
 
 
@@ -65,9 +65,9 @@ def test_what_is_predicted():
 def test_a_prediction_is_below_what_a_run_takes():
     """A damper that decays fast, yet can be integrated: the prediction must not stop a run that could be made."""
     level = levels_of("damping", Base.of("four-bar"), False)[2]
-    known = compute(CellReference(level))
+    known = compute_cell(CellReference(level))
     assert known["decay"] > 1e4
-    found = compute(RunTask(level, "lagrange", "dop853", known))
+    found = compute_cell(RunTask(level, "lagrange", "dop853", known))
     plan, _ = plan_of("four-bar", "lagrange", "dop853", until=level.until)
     assert found["outcome"] == "ok"
     assert 0.1 * found["evaluations"] < effort.predicted(plan, known["decay"]) < found["evaluations"]
@@ -77,7 +77,7 @@ def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     level = levels_of("damping", Base.of("four-bar"), False)[4]
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
     monkeypatch.setattr("symgen.running.prepare.code_and_start", None)
-    found = compute(RunTask(level, "lagrange", "dop853", known))
+    found = compute_cell(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
 
 
@@ -88,9 +88,9 @@ def test_cells_without_a_reference_are_not_run(monkeypatch):
         ({"unusable": "none at hand"}, "none at hand"),
         ({"unusable": None, "estimated_error": 0.02}, "the two reference runs differ by 0.02 m"),
     ):
-        found = compute(RunTask(level, "lagrange", "rk4", known))
+        found = compute_cell(RunTask(level, "lagrange", "rk4", known))
         assert (found["outcome"], found["status"], found["reason"]) == ("unjudged", "not run", why)
-        assert compute(LimitTask(level, "lagrange", "rk4", known))["stable_step"] is None
+        assert compute_cell(LimitTask(level, "lagrange", "rk4", known))["stable_step"] is None
 
 
 # -- what is compiled --------------------------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ def test_pairs_without_a_looped_shape():
 def test_pairs_are_left_out_when_the_time_of_compilation_is_used_up():
     mechanism, other = symgen.load("four-bar").mechanism, symgen.load("driven-four-bar").mechanism
     each = effort.straight_seconds(mechanism)
-    asked = [pair for name in METHODS.names for pair in pairs(name)]
+    asked = [pair for name in METHODS.names for pair in method_pairs(name)]
     straight = {pair for pair in asked if effort.needs_straight(*pair)}
     out = effort.left_out([mechanism, other], asked, 1.5 * each)
     kept = straight - {x[1:3] for x in out if x[0] == "four-bar"}
@@ -168,14 +168,14 @@ def test_a_reference_over_its_budget_says_so(monkeypatch):
 @pytest.mark.slow
 def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     level = levels_of("gravity", Base.of("slider-crank"), False)[1]
-    best = compute(CellReference(level))
+    best = compute_cell(CellReference(level))
     monkeypatch.setattr("symgen.study.references.motion.BUDGET", 100)
-    found = compute(CellReference(level))
+    found = compute_cell(CellReference(level))
     assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
     np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)
     longer = levels_of("duration", Base.of("slider-crank"), False)[1]
     monkeypatch.setattr(routes, "BUDGET", 100)  # a run is stopped some time after that, the slower one at least
-    failed = compute(CellReference(longer))
+    failed = compute_cell(CellReference(longer))
     assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by ")
     assert "does not come to" in failed["unusable"]
 

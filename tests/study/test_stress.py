@@ -16,11 +16,11 @@ from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import reference
 from symgen.study.references.solvers import fastest_modes
 from symgen.study.stress.bench import Base, Level
-from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
+from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
 from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.findings import largest_root
-from symgen.study.stress.stress_rows import save_csv
-from symgen.study.stress.study import pairs, stress
+from symgen.study.stress.stress_rows import save_stress_csv
+from symgen.study.stress.study import method_pairs, stress
 from tests.study.test_reference import start_of
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -132,7 +132,7 @@ def test_families_say_why_they_do_not_apply():
 def damped():
     """The four-bar with a stiff damper, its reference, and the fastest decay by the independent equations."""
     level = levels_of("damping", Base.of("four-bar"), False)[1]
-    known = compute(CellReference(level))
+    known = compute_cell(CellReference(level))
     values = symgen.load(level.mechanism).parameters(level.parameters)
     equations = CompiledEquations(level.mechanism, values)
     y = equations.project(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
@@ -143,22 +143,22 @@ def damped():
 def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
     level, known, fastest = damped
     for method in ("lagrange", "coordinate-partitioning"):
-        found = compute(LimitTask(level, method, "rk4", known))
+        found = compute_cell(LimitTask(level, method, "rk4", known))
         assert found["stable_step"] == pytest.approx(2.785 / fastest, rel=0.04)
 
 
 def test_the_size_of_a_point_on_a_link_is_that_of_its_motion():
     """Else nothing of a pendulum would be within a tenth of its size: the largest step would be that of an error."""
     level = levels_of("duration", Base.of("pendulum"), True)[0]
-    known = compute(CellReference(level))
+    known = compute_cell(CellReference(level))
     assert known["size"] == pytest.approx(1.0, rel=1e-3)
-    found = compute(LimitTask(level, "lagrange", "rk4", known))
+    found = compute_cell(LimitTask(level, "lagrange", "rk4", known))
     assert found["accurate_step"] < found["stable_step"] and found["stable_step"] > 0.02
 
 
 def test_an_l_stable_integrator_has_no_such_limit(damped):
     level, known, fastest = damped
-    found = compute(LimitTask(level, "ggl", "radau5", known))
+    found = compute_cell(LimitTask(level, "ggl", "radau5", known))
     assert found["stable_step"] > 10.0 * 2.785 / fastest
 
 
@@ -203,11 +203,11 @@ def test_cells_see_a_force_between_two_places(space, tmp_path):
         f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["6.6 if 0.9996 < a.x < 1.0004 else 0", 0.0{rest}]\n'
     )
     level = Level("past", (1.0,), symgen.load(path).mechanism, 2.0, 1e-3)
-    known = compute(CellReference(level))
+    known = compute_cell(CellReference(level))
     times, edge, faster = np.linspace(0.0, 2.0, 51), 0.7 - 4e-4, math.sqrt(1.0 + 2.0 * 6.6 * 8e-4)
     expected = np.where(times < edge, 0.3 + times, 1.0 + 4e-4 + faster * (times - edge - (faster - 1.0) / 6.6))
     assert np.abs(np.array(known["q"])[:, 0] - expected).max() < 1e-6
-    found = compute(RunTask(level, "lagrange", "dop853", known))
+    found = compute_cell(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "ok" and found["error"] < 1e-6
 
 
@@ -216,10 +216,10 @@ def test_what_is_too_slow_is_told_without_a_clock():
     from dataclasses import replace
 
     known = {"unusable": None, "estimated_error": 0.0, "decay": 0.0, "parameters": {}}
-    predicted = compute(RunTask(replace(level, step=1e-7), "lagrange", "rk4", known))
+    predicted = compute_cell(RunTask(replace(level, step=1e-7), "lagrange", "rk4", known))
     assert predicted["outcome"] == "too slow" and predicted["evaluations"] == 0
     assert predicted["reason"] == "4e+08 evaluations, more than 5e+06"
-    refused = compute(RunTask(level, "lagrange", "generalized-alpha", known))
+    refused = compute_cell(RunTask(level, "lagrange", "generalized-alpha", known))
     assert refused["outcome"] == "refused" and "one that solves the form of lagrange" in refused["reason"]
 
 
@@ -268,7 +268,7 @@ def test_rows_come_in_order_and_fit_the_contract(tmp_path):
     assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings"}
     assert found["cells"] == len(study.rows) == sum(found["outcomes"].values())
     assert not [row for row in study.false_successes if row.method == "auto"]
-    path = save_csv(study, tmp_path / "cells.csv")
+    path = save_stress_csv(study, tmp_path / "cells.csv")
     with path.open(newline="") as handle:
         rows = list(csv.DictReader(handle))
     assert len(rows) == len(study.rows)
@@ -296,10 +296,10 @@ def test_several_processes_find_the_same():
 
 
 def test_pairs_of_methods_and_integrators():
-    assert pairs("lagrange") == tuple(("lagrange", name) for name in ("rk4", "dop853", "picard", "radau5"))
-    assert pairs("lagrange", constant_steps=True) == (("lagrange", "rk4"),)
-    assert pairs("ggl") == (("ggl", "radau5"),)
-    assert pairs("auto") == (("auto", "auto"),) and pairs("auto", constant_steps=True) == ()
+    assert method_pairs("lagrange") == tuple(("lagrange", name) for name in ("rk4", "dop853", "picard", "radau5"))
+    assert method_pairs("lagrange", constant_steps=True) == (("lagrange", "rk4"),)
+    assert method_pairs("ggl") == (("ggl", "radau5"),)
+    assert method_pairs("auto") == (("auto", "auto"),) and method_pairs("auto", constant_steps=True) == ()
 
 
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):

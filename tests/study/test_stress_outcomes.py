@@ -8,7 +8,7 @@ import pytest
 from report.made import stress_row
 
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
-from symgen.study.stress.cells import largest
+from symgen.study.stress.cells import largest_number
 from symgen.study.stress.findings import cause, explained, findings, largest_root
 from symgen.study.stress.stress_rows import Map, Stress
 
@@ -67,14 +67,14 @@ def test_the_largest_step_is_found_within_a_percent_or_so(limit):
         tried.append(step)
         return step <= limit
 
-    found = largest(holds, 1e-3, 1.0)
+    found = largest_number(holds, 1e-3, 1.0)
     assert limit / 1.012 < found <= limit
     assert len(tried) < 30
 
 
 def test_no_largest_step():
-    assert largest(lambda step: True, 1e-3, 1.0) == 1.0
-    assert largest(lambda step: False, 1e-3, 1.0) is None
+    assert largest_number(lambda step: True, 1e-3, 1.0) == 1.0
+    assert largest_number(lambda step: False, 1e-3, 1.0) is None
 
 
 def test_roots_of_the_feedback():

@@ -17,7 +17,7 @@ from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
 from symgen.layout.compiled import ModelInfo
 from symgen.store.emitted import EmittedFunction, Origin, imported
-from symgen.store.identity import digest
+from symgen.store.identity import combined_digest
 from symgen.vocabulary.infos import LawInfo
 
 _counter = itertools.count()
@@ -97,7 +97,7 @@ class Emitted:
             exec(compile(source, f"<{stem}>", "exec"), module.__dict__)
             self.modules[stem] = module
         if compiled:
-            stamp = digest(*(source for source, _ in self.generated.modules.values()))
+            stamp = combined_digest(*(source for source, _ in self.generated.modules.values()))
             for stem, module in self.modules.items():
                 origin = Origin(f"{stem} {stamp}", self.generated.modules[stem][0].encode())
                 for function in vars(module).values():

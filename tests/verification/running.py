@@ -18,7 +18,7 @@ from benchmarks.plain.motion import integrate
 from benchmarks.plain.start import start
 from benchmarks.plain.system import System, read
 from symgen.api import Model, load
-from symgen.store.modules import interpreted
+from symgen.store.modules import plain_function
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
 _COMMAND = "import sys; from symgen.cli import main; sys.exit(main(sys.argv[1:]))"
@@ -101,8 +101,8 @@ def rates(compiled, start) -> np.ndarray:
     """Return the rates of a state by emitted code as plain Python."""
     y, p, w = start.y.copy(), start.p.copy(), start.w.copy()
     law, ydot, counters = compiled.law_module, np.zeros(compiled.info.ny), np.zeros(64, dtype=np.int64)
-    if interpreted(law.rhs)(0.0, y, p, w, counters, ydot) != 0:
-        interpreted(law.confirm)(0.0, y, p, w, counters, ydot)
+    if plain_function(law.rhs)(0.0, y, p, w, counters, ydot) != 0:
+        plain_function(law.confirm)(0.0, y, p, w, counters, ydot)
     return ydot
 
 
@@ -111,7 +111,7 @@ def of_bodies(run) -> np.ndarray:
     info, start, first_state = run.bodies.info, run.start, run.body_start.y
     out = np.zeros(info.nq + 2 * info.nv)
     ydot = rates(run.compiled, start)
-    interpreted(run.compiled.model.bodies)(0.0, start.y.copy(), start.p.copy(), start.w.copy(), ydot, out)
+    plain_function(run.compiled.model.bodies)(0.0, start.y.copy(), start.p.copy(), start.w.copy(), ydot, out)
     for first, _ in info.spins:  # both signs mean the same orientation
         out[first : first + 4] *= np.sign(out[first : first + 4] @ first_state[first : first + 4])
     return out

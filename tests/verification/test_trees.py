@@ -17,7 +17,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.topology import spanning_tree
 from symgen.running.plan import Purpose
 from symgen.running.prepare import prepare
-from symgen.store.modules import interpreted
+from symgen.store.modules import plain_function
 from verification.running import model_of, of_bodies
 
 SEED = 12
@@ -175,15 +175,15 @@ def test_the_metric_of_bodies_is_their_identity_pulled_back(name):
     def speeds(v: np.ndarray) -> np.ndarray:
         state, out = y.copy(), np.zeros(info.nq + 2 * info.nv)
         state[own.nq : own.nq + own.nv] = v
-        interpreted(compiled.model.bodies)(0.0, state, p, w.copy(), np.zeros(own.ny), out)
+        plain_function(compiled.model.bodies)(0.0, state, p, w.copy(), np.zeros(own.ny), out)
         return out[info.nq : info.nq + info.nv]
 
     still = speeds(np.zeros(own.nv))
     b = np.array([speeds(unit) - still for unit in np.eye(own.nv)]).T
-    interpreted(compiled.law_module.geometry)(0.0, y, p, w)
+    plain_function(compiled.law_module.geometry)(0.0, y, p, w)
     d, residual = compiled.jacobian(w), np.cos(np.arange(own.m) + 0.3)
     compiled.section(w, "residual")[:] = residual
-    interpreted(compiled.law_module.spread)(p, w)
+    plain_function(compiled.law_module.spread)(p, w)
     inverse = np.linalg.inv(b.T @ b)
     expected = -inverse @ d.T @ np.linalg.solve(d @ inverse @ d.T, residual)
     found = compiled.section(w, "change")

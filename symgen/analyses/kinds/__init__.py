@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from symgen.base.errors import InputError
 from symgen.base.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
-from symgen.base.keywords import names as names_of
+from symgen.base.keywords import keyword_names as names_of
 from symgen.base.registry import Registry
 from symgen.base.settings import Settings, changed
 

@@ -66,7 +66,7 @@ def inverse(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    from symgen.analyses.inverse import inverse as efforts_of
+    from symgen.analyses.inverse import inverse_dynamics as efforts_of
 
     counting = OF_MOTIONS if motion is None else [name for name in OF_MOTIONS if name not in OF_DRIVEN]
     whole = settings_of("inverse", settings, changes, counting)

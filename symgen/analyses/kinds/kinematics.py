@@ -54,7 +54,7 @@ def kinematics(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    from symgen.analyses.kinematics import kinematics as motion_of
+    from symgen.analyses.kinematics import driven_motion as motion_of
 
     return motion_of(model.mechanism, settings_of("kinematics", settings, changes, OF_MOTIONS), times, transmission)
 

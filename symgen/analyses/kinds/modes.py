@@ -125,7 +125,7 @@ def locus(
     **changes
         Other settings are refused; those of a run count where `at` is a time.
     """
-    from symgen.analyses.locus import locus as locus_of
+    from symgen.analyses.locus import eigenvalue_locus as locus_of
     from symgen.analyses.places import NamedPlace
 
     place = NamedPlace(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)

@@ -30,7 +30,7 @@ ADAPTIVE = False
 
 
 @called
-def weights(count: int, times: Any, low: float, high: float, nodes: Any, factors: Any, out: Any) -> None:
+def lagrange_integrals(count: int, times: Any, low: float, high: float, nodes: Any, factors: Any, out: Any) -> None:
     """Set `out` to integrals from `low` to `high` of the Lagrange polynomials on the first `count` of `times`."""
     for i in range(count):
         out[i] = 0.0
@@ -122,7 +122,7 @@ def attempt(
         return 0.0
     coefficients = part(run.room, 3 * width, 2 * DEPTH)
     times = part(run.room, 3 * width + 2 * DEPTH, DEPTH + 1)
-    weights(used, past, t, following, scheme.nodes, scheme.factors, coefficients)
+    lagrange_integrals(used, past, t, following, scheme.nodes, scheme.factors, coefficients)
     combine(width, 1.0, 0, used, scheme.count, coefficients, run.memory, run.y, predicted)
     evaluate(system, run, following, predicted, rate)
     run.control[abi.EVALUATIONS] += 1
@@ -131,7 +131,7 @@ def attempt(
     times[0] = following
     for j in range(corrected):
         times[j + 1] = past[j]
-    weights(corrected + 1, times, t, following, scheme.nodes, scheme.factors, coefficients)
+    lagrange_integrals(corrected + 1, times, t, following, scheme.nodes, scheme.factors, coefficients)
     for i in range(width):
         run.trial[i] = run.y[i] + coefficients[0] * rate[i]
     older = part(coefficients, 1, DEPTH)

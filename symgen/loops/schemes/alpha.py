@@ -37,8 +37,8 @@ from symgen.loopcode.vectors import weigh
 from symgen.loops import sparse
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
-from symgen.loops.schemes.implicit import ended, is_settled
-from symgen.loops.sparse import multiply, solve, turn_rows
+from symgen.loops.schemes.implicit import is_settled, newton_verdict
+from symgen.loops.sparse import multiply_sources, solve, turn_rows
 
 _MOST_ITERATIONS = 20
 #: As in the frame: whether steps follow the error estimate.
@@ -130,7 +130,7 @@ def attempt(
             k[i] = run.trial[nq + i]
         if fresh:
             system.tangent(following, run.trial, k, run.p, run.w, scheme.slopes)
-            multiply(scheme.plan, scheme.slopes)
+            multiply_sources(scheme.plan, scheme.slopes)
             turn_rows(scheme.plan, scheme.slopes, change)
             factors[0], factors[1], factors[2], factors[3] = 1.0, by_velocity, by_position, -by_position
             if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
@@ -156,7 +156,7 @@ def attempt(
         rate = run.w[abi.SPEED] / run.w[abi.LENGTH]
         at_floor = math.sqrt(moved) * rate * by_position < 1e-12 * length
         moved = math.sqrt(moved) / (rate + math.sqrt(total))
-        end = ended(moved, last, 1e-12, 1e-7, at_floor)
+        end = newton_verdict(moved, last, 1e-12, 1e-7, at_floor)
         if end != 0:
             break
         fresh, last = moved > 0.05 * last, moved
@@ -174,12 +174,12 @@ def attempt(
             rest[i] = run.w[sizes.auxiliary + (i - sizes.states if i > 0 else 0)]
             run.trial[first + i] = run.y[first + i] + 0.5 * h * (begun[first + i] + rest[i])
     if ADAPTIVE and not between:
-        return step_error(system, scheme, span, run, following, h)
+        return alpha_step_error(system, scheme, span, run, following, h)
     return 0.0
 
 
 @called
-def step_error(system: Any, scheme: Any, span: Any, run: Any, following: float, h: float) -> float:
+def alpha_step_error(system: Any, scheme: Any, span: Any, run: Any, following: float, h: float) -> float:
     """Return the error estimate over the tolerance of a step just solved."""
     sizes = system.sizes
     nq, nv, n, width, count = sizes.nq, sizes.nv, sizes.unknowns, sizes.width, sizes.nv + sizes.states
@@ -207,7 +207,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, following: float, 
             moved[in_state(sizes, i)] = h * h * by_velocity * turned * 2.0 / (h + steps[1])
     for i in range(nv):
         right[i] = h * h * by_position * turn[i]
-    shifted(system, scheme, run, h, right, moved)
+    shift_positions(system, scheme, run, h, right, moved)
     for i in range(nq):
         moved[i] -= run.trial[i]
     share = weights_of(span, run)
@@ -233,7 +233,7 @@ def filtered(system: Any, scheme: Any, run: Any, following: float) -> None:
 
 
 @called
-def shifted(system: Any, scheme: Any, run: Any, h: float, off: Any, moved: Any) -> None:
+def shift_positions(system: Any, scheme: Any, run: Any, h: float, off: Any, moved: Any) -> None:
     """Set the positions of `moved` to those of a step just solved whose displacement is `off` longer."""
     nv, n, count = system.sizes.nv, system.sizes.unknowns, system.sizes.nv + system.sizes.states
     a1, a0 = part(run.room, 3 * n, nv), part(run.room, 3 * n + count, nv)

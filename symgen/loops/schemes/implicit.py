@@ -68,7 +68,7 @@ def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any
                 run.trial[i] += factor * rates[j * (ny - first) + i - first]
 
 
-def ended(moved: float, last: float, least: float, poor: float, at_floor: bool) -> int:
+def newton_verdict(moved: float, last: float, least: float, poor: float, at_floor: bool) -> int:
     """Return 1 where a Newton iteration has converged, -1 where it fails, 0 where it continues.
 
     It has converged where its correction is small, or where only rounding keeps it larger.
@@ -189,7 +189,7 @@ def attempt(
                 length = max(length, run.scales[i] * abs(run.trial[i]))
             at_floor = math.sqrt(moved) * h < 1e-12 * length
             moved = math.sqrt(moved) / (run.w[abi.SPEED] / run.w[abi.LENGTH] + math.sqrt(size))
-            end = ended(moved, last, 1e-13, 1e-9, at_floor)
+            end = newton_verdict(moved, last, 1e-13, 1e-9, at_floor)
             if end == 0 and moved > 0.3 * last:
                 end = 1 if is_rounding(system, scheme, run, h, low, high, k, rates, right, terms) else 0
             if end != 0:

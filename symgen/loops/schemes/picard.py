@@ -205,7 +205,7 @@ def attempt(
     single[ADRIFT] = 0.0
     if not converged:
         crosses = run.control[abi.IN_ZONE] == 1 and run.control[abi.BARRED] == 0 and run.gauges[abi.FALL] > 0.0
-        return crossed(system, scheme, span, run, t, following, h) if crosses else math.inf
+        return step_across(system, scheme, span, run, t, following, h) if crosses else math.inf
     single[ALONE] = 1.0 if alone else 0.0
     coefficients = part(run.room, _WIDE + _COEFFICIENTS * width, 2 * size)
     expand(rows, weights, first, rates, scheme.legendre, coefficients, squares)
@@ -233,7 +233,7 @@ def attempt(
 
 
 @called
-def crossed(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> float:
+def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> float:
     """Try a step across a singular position, where iterations diverge, by `dop853`; return its error."""
     width, tableau = system.sizes.width, scheme.tableau
     begin(system, run, t)

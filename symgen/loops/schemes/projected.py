@@ -25,7 +25,7 @@ from symgen.loopcode.loop_instances import called
 from symgen.loops import sparse
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
-from symgen.loops.sparse import multiply, solve, turn_rows
+from symgen.loops.sparse import multiply_sources, solve, turn_rows
 
 _MOST_ITERATIONS = 100
 #: h^2/4 a is at least this many times the largest mass: below, the iterations of short steps would not converge.
@@ -38,7 +38,7 @@ def lead(system: Any, scheme: Any, run: Any, t: float, h: float, penalty: float,
     quarter, factors = 0.25 * h * h, part(run.room, 0, 5)
     system.tangent(t, run.trial, k, run.p, run.w, scheme.slopes)
     factors[0], factors[1], factors[2], factors[3], factors[4] = 1.0, 0.5 * h, quarter, -quarter, quarter * penalty
-    multiply(scheme.plan, scheme.slopes)
+    multiply_sources(scheme.plan, scheme.slopes)
     turn_rows(scheme.plan, scheme.slopes, shift)
     return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
 

@@ -26,7 +26,7 @@ from symgen.loops.schemes.lie import exponential_rate
 
 
 @called
-def turned(q: Any, e: int, x: Any, at: int, sign: float, result: Any, to: int) -> None:
+def rotate_vector(q: Any, e: int, x: Any, at: int, sign: float, result: Any, to: int) -> None:
     """Write R x to index `to` of `result`, or R^T x for a sign of -1; Euler parameters begin at `e` of `q`."""
     s, a, b, c = q[e], sign * q[e + 1], sign * q[e + 2], sign * q[e + 3]
     x0, x1, x2 = x[at], x[at + 1], x[at + 2]
@@ -87,8 +87,8 @@ def attempt(
         for b in range(0, bodies.shape[0], 2):
             e, j = bodies[b], bodies[b + 1]
             displaced(moved, j, way)
-            turned(y, e, way, 0, 1.0, change, j - 3)
-            turned(y, e, y, nq + j - 3, -1.0, twist, j - 3)
+            rotate_vector(y, e, way, 0, 1.0, change, j - 3)
+            rotate_vector(y, e, y, nq + j - 3, -1.0, twist, j - 3)
             for i in range(3):
                 twist[j - 3 + i] += moved[nv + j - 3 + i]
         advance(system, run, change, trial)
@@ -97,7 +97,7 @@ def attempt(
         for i in range(nq + nv, ny):
             trial[i] = y[i] + moved[nv + i - nq]
         for b in range(0, bodies.shape[0], 2):
-            turned(trial, bodies[b], twist, bodies[b + 1] - 3, 1.0, trial, nq + bodies[b + 1] - 3)
+            rotate_vector(trial, bodies[b], twist, bodies[b + 1] - 3, 1.0, trial, nq + bodies[b + 1] - 3)
         if s < tableau.stages:
             evaluate(system, run, t + tableau.nodes[s] * h, trial, rate)
             stage = part(stages, s * width, width)
@@ -107,7 +107,7 @@ def attempt(
             for b in range(0, bodies.shape[0], 2):
                 e, j = bodies[b], bodies[b + 1]
                 screw_rate(twist, j, moved, stage)
-                turned(trial, e, rate, nq + j - 3, -1.0, stage, nv + j - 3)
+                rotate_vector(trial, e, rate, nq + j - 3, -1.0, stage, nv + j - 3)
                 x, z, w = twist[j], twist[j + 1], twist[j + 2]
                 stage[nv + j - 3] -= z * twist[j - 1] - w * twist[j - 2]
                 stage[nv + j - 2] -= w * twist[j - 3] - x * twist[j - 1]

@@ -18,7 +18,7 @@ from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
 from symgen.describe.repeats import without_repeats
 from symgen.lower.windings import measures_of, turns
-from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names, table_of
+from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names_in, table_of
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 
 #: Fields of the vocabulary's structs that hold the name of a body.
@@ -237,4 +237,4 @@ class _Rewriting:
         """Whether a formula depends on parameters alone."""
         if isinstance(e, Number):
             return True
-        return all(name in self.parameters and name not in self.own for name in names(e))
+        return all(name in self.parameters and name not in self.own for name in names_in(e))

@@ -17,7 +17,7 @@ from symgen.base.arguments import one_of, words
 from symgen.base.arguments import path as argument_path
 from symgen.base.errors import InputError
 from symgen.base.files import check_writable, headed, write_csv
-from symgen.result.contract import finite
+from symgen.result.contract import json_value
 from symgen.result.labelled import html_table
 from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
@@ -382,7 +382,7 @@ class Study:
             "rows": [asdict(row) | {"on_front": i in self.front} for i, row in enumerate(self.rows)],
             "at": [asdict(time) for time in self.at],
         }
-        return cast(dict[str, Any], finite(contract))
+        return cast(dict[str, Any], json_value(contract))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the rows as a pandas data frame."""

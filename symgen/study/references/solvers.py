@@ -139,7 +139,7 @@ def by_steps(
     if scheme.step is not None:  # no error exceeds an infinite tolerance, so that every step is the largest allowed
         more = {"atol": np.inf, "max_step": scheme.step}
     elif scheme.name == "Radau":
-        more["jac"] = lambda t, y: jacobian(rate, t, y)
+        more["jac"] = lambda t, y: difference_jacobian(rate, t, y)
     # each jump of a force takes some tiny steps as well
     patience = MORE_PATIENCE if compares else PATIENCE
 
@@ -200,7 +200,7 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
     bound, rate = longest_of(equations, times), limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "dense_output": compares}
     if scheme.name == "BDF":
-        more["jac"] = lambda t, y: jacobian(rate, t, y)
+        more["jac"] = lambda t, y: difference_jacobian(rate, t, y)
 
     def part(first: float, y: Array, times: Array) -> Array:
         if times[-1] <= first:
@@ -260,7 +260,7 @@ def unseen_in(
     return float(np.max(np.abs(change) / scale))
 
 
-def jacobian(rate: Callable[[float, Array], Array], t: float, y: Array) -> Array:
+def difference_jacobian(rate: Callable[[float, Array], Array], t: float, y: Array) -> Array:
     """Return the Jacobian of rates by central differences, shape (2 n, 2 n).
 
     SciPy's own differences enlarge the step of a coordinate that no rate depends on, at every call, until it overflows.
@@ -338,7 +338,7 @@ def is_stiff(equations: CompiledEquations, y: Array, until: float) -> bool:
 
 def fastest_modes(equations: CompiledEquations, y: Array) -> tuple[float, float]:
     """Return the fastest decay and the fastest growth of the linearised equations at a state [1/s]."""
-    slopes = jacobian(equations.rate, 0.0, y)
+    slopes = difference_jacobian(equations.rate, 0.0, y)
     if not np.all(np.isfinite(slopes)):
         return 0.0, 0.0
     real = np.linalg.eigvals(slopes).real

@@ -16,7 +16,7 @@ import sympy as sp
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.formulate.translate import to_sympy
-from symgen.vocabulary.expressions import ZERO, Expr, Reading, names, readings
+from symgen.vocabulary.expressions import ZERO, Expr, Reading, names_in, readings
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -135,7 +135,7 @@ class ReferenceFormulas:
 
     def _effort(self, effort: Effort) -> dict[int, Any]:
         measure = effort.measure
-        reads = effort.potential != ZERO and "s" in set(names(effort.potential))
+        reads = effort.potential != ZERO and "s" in set(names_in(effort.potential))
         if isinstance(measure, Spin | PointSpeed):
             assert not reads, "velocities have no value"
             rate = self._spin(measure) if isinstance(measure, Spin) else self._speed(measure)

@@ -24,7 +24,7 @@ from symgen.layout import abi
 from symgen.loops.integrator import adapts
 from symgen.lower.looped.law import is_loopable
 from symgen.reruns.verification import verified
-from symgen.result.contract import finite
+from symgen.result.contract import json_value
 from symgen.result.judge import judge
 from symgen.result.points import Points
 from symgen.result.result import INTERRUPTED
@@ -73,11 +73,11 @@ class LimitTask(RunTask):
     """Find the largest constant step of a method and an integrator for a case."""
 
 
-def compute(task: CellReference | RunTask) -> Fields:
+def compute_cell(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
     if isinstance(task, CellReference):
         return reference_of(task.level)
-    fields: Fields = finite(_limit(task) if isinstance(task, LimitTask) else _run(task))
+    fields: Fields = json_value(_limit(task) if isinstance(task, LimitTask) else _run(task))
     return fields
 
 
@@ -223,8 +223,8 @@ def _limit(task: LimitTask) -> Fields:
         return ran[step]
 
     first = task.level.step
-    stable = largest(lambda h: attempt(h)[0], first, task.level.until)
-    accurate = largest(lambda h: attempt(h)[1], first, task.level.until)
+    stable = largest_number(lambda h: attempt(h)[0], first, task.level.until)
+    accurate = largest_number(lambda h: attempt(h)[1], first, task.level.until)
     if stable is not None and accurate is not None:
         stable = max(stable, accurate)  # what is accurate follows the motion, also beyond a step that does not
     return {"stable_step": stable, "accurate_step": accurate}
@@ -234,7 +234,7 @@ def _constant(task: LimitTask) -> dict[str, str]:
     return {"integrator.adaptive": "false"} if INTEGRATORS.get(task.integrator).adaptive else {}
 
 
-def largest(holds: Callable[[float], bool], first: float, top: float) -> float | None:
+def largest_number(holds: Callable[[float], bool], first: float, top: float) -> float | None:
     """Return the largest number below which a condition holds, by a scan upwards and bisection of its logarithm.
 
     Parameters

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 from symgen.base.arguments import path as argument_path
 from symgen.base.errors import InputError
 from symgen.base.files import check_writable, headed, need, write_csv
-from symgen.result.contract import finite
+from symgen.result.contract import json_value
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 
@@ -162,7 +162,7 @@ class Stress:
             "false_successes": [{**asdict(row), "why": explained(row)} for row in self.false_successes],
             "findings": list(findings(self)),
         }
-        return cast(dict[str, Any], finite(contract))
+        return cast(dict[str, Any], json_value(contract))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the cells as a pandas data frame."""
@@ -186,10 +186,10 @@ class Stress:
             return write_report(self, file)
         if file.suffix.lower() != ".csv":
             raise InputError("save", "a file ending in .csv, .html, .md, .pdf", f"'{file}'")
-        return save_csv(self, file)
+        return save_stress_csv(self, file)
 
 
-def save_csv(study: Stress, path: Path, units: bool = False) -> Path:
+def save_stress_csv(study: Stress, path: Path, units: bool = False) -> Path:
     """Write the rows of a study to a CSV file, with units if requested; it appears whole or not at all."""
     check_writable("csv", path)
     rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]

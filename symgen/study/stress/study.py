@@ -26,7 +26,7 @@ from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.cell_references import without_reference
-from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
+from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
 from symgen.study.stress.effort import BUDGET, left_out
 from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
@@ -44,7 +44,7 @@ Motions = Sequence[tuple[CellReference, Outcome]]
 Task = TypeVar("Task", bound=CellReference | RunTask)
 
 
-def pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], ...]:
+def method_pairs(method: str, constant_steps: bool = False) -> tuple[tuple[str, str], ...]:
     """Return a method paired with its integrators in a study.
 
     Parameters
@@ -190,7 +190,9 @@ class _Study:
     @cached_property
     def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
         """Pairs that are not run, by mechanism; those of families of their own are small."""
-        everything = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
+        everything = [
+            pair for name in self.methods for pair in (method_pairs(name)[:1] if self.quick else method_pairs(name))
+        ]
         out = []
         for base in self.bases:
             mechanisms = [base.stressed, *(level.mechanism for level in self.levels if level.model == base.name)]
@@ -224,7 +226,7 @@ class _Study:
         """Return the finished tasks with their outcomes, and whether the study was interrupted."""
         cells = [_cell(task) for task in tasks]
         done, interrupted = run_cells(
-            cells, compute, self.journal, self.jobs, lambda status: self.progress(what, status)
+            cells, compute_cell, self.journal, self.jobs, lambda status: self.progress(what, status)
         )
         return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
 
@@ -238,7 +240,7 @@ class _Study:
         if level.pairs is not None:
             return tuple(pair for pair in level.pairs if pair[0] in self.methods)
         names = [n for n in self.methods if level.methods is None or n in level.methods]
-        fitting = [pairs(name, level.constant_steps) for name in names]
+        fitting = [method_pairs(name, level.constant_steps) for name in names]
         return tuple(pair for fit in fitting for pair in (fit[:1] if self.quick else fit))
 
     def _searches(self, motions: Motions) -> Iterator[LimitTask]:
