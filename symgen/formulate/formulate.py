@@ -20,9 +20,8 @@ from symgen.formulate.measures import DerivedMeasure, ModelNodes, exertion
 from symgen.formulate.of_time import time_function
 from symgen.formulate.tree import energies_on_tree
 from symgen.ir.program import MODE_NUMBERS, of_table
-from symgen.joints._space import is_of_axes
 from symgen.vocabulary.expressions import ZERO
-from symgen.vocabulary.measures import GROUND, Holonomic, Row, StiffHolonomic
+from symgen.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
 from symgen.vocabulary.quantities import Quantity
 
 
@@ -320,3 +319,11 @@ def _omissions(mechanism: Mechanism) -> list[Omission]:
                 Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin")
             )
     return omissions
+
+
+def is_of_axes(row: Holonomic) -> bool:
+    """Whether a row holds two axes parallel: `parallel` of joints in space makes pairs of them."""
+    measure = row.measure
+    if row.label == "first" and isinstance(measure, Sum) and len(measure.terms) == 1:
+        measure = measure.terms[0][1]
+    return row.label in ("first", "second") and isinstance(measure, Dot)

@@ -29,14 +29,6 @@ def parallel(a: Triad, b: Triad) -> tuple[Holonomic, ...]:
     )
 
 
-def is_of_axes(row: Holonomic) -> bool:
-    """Whether a row is one of `parallel`."""
-    measure = row.measure
-    if row.label == "first" and isinstance(measure, Sum) and len(measure.terms) == 1:
-        measure = measure.terms[0][1]
-    return row.label in ("first", "second") and isinstance(measure, Dot)
-
-
 def not_turned(a: Triad, b: Triad) -> Holonomic:
     """Row that keeps the first directions together, ``angle``: torque on the first body about the axis."""
     return Holonomic("angle", Dot(a.second, b.first), unit="rad")
