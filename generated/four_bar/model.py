@@ -2,7 +2,7 @@
 
 digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 2f2faf4a02ce3130
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
-0 fill-ins in the factor of D D^T
+6 of 8 rows eliminated without a division, together with velocities that they fix
 
 Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.
 
@@ -50,8 +50,6 @@ w[76:85]    mass: diagonal of M
 w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
 w[94:102]   row_weight: factors that make rows of different units comparable
 w[102:114]  jacobian: entries of D that are not constant
-w[114:130]  lower: L of the factorisation of D G D^T, below the diagonal
-w[130:138]  reciprocal: reciprocals of the pivots of D G D^T, 0 for rows left out
 
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
@@ -74,8 +72,6 @@ CHANGE = 67
 MASS = 76
 GAUGE = 85
 JACOBIAN = 102
-LOWER = 114
-RECIPROCAL = 130
 POSITION_VIOLATION = 0  # numbers in w
 VELOCITY_VIOLATION = 1
 KINETIC = 2
@@ -112,7 +108,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 217 operations, 99577 before sharing."""
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 129 operations, 1986 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -123,12 +119,8 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[MASK + 1]  # A.y
-    mask_2 = w[MASK + 2]  # B.x
-    mask_3 = w[MASK + 3]  # B.y
     mask_4 = w[MASK + 4]  # C.x
     mask_5 = w[MASK + 5]  # C.y
-    mask_7 = w[MASK + 7]  # D.y
     gauge_2 = w[GAUGE + 2]  # crank.omega
     gauge_5 = w[GAUGE + 5]  # coupler.omega
     gauge_8 = w[GAUGE + 8]  # rocker.omega
@@ -138,185 +130,84 @@ def geometry(t, y, p, w):
     s2 = -s0
     s3 = q0 - s0
     s4 = q1 - s1
-    s5 = 4.0*math.cos(q5)
-    s6 = -s5
-    s7 = q3 - q0 - s5 - s0
-    s8 = 4.0*math.sin(q5)
-    s9 = q4 - q1 - s8 - s1
-    s10 = 2.5*math.cos(q8)
-    s11 = q6 - q3 + s10 - s5
-    s12 = 2.5*math.sin(q8)
-    s13 = q7 - q4 + s12 - s8
-    s14 = q6 - 10.0 - s10
-    s15 = q7 - s12
-    s16 = s1*gauge_2
-    s17 = s0*gauge_2
-    s18 = s8*gauge_5
-    s19 = s5*gauge_5
-    s20 = s12*gauge_8
-    s21 = s10*gauge_8
-    s22 = s1*s16
-    s23 = 1.0 + s22
-    s24 = s0*s16
-    s25 = -1.0 + s22
-    s26 = s0*s17
-    s27 = 1.0 + s26
-    s28 = s8*s18
-    s29 = 1.0 + s23 + s28
-    s30 = s5*s18
-    s31 = -1.0 + s28
-    s32 = s5*s19
-    s33 = 1.0 + s27 + s32
-    s34 = s12*s20
-    s35 = 1.0 + 1.0 + s28 + s34
-    s36 = s10*s20
-    s37 = 1.0 - s34
-    s38 = s10*s21
-    s39 = 1.0 + 1.0 + s32 + s38
-    s40 = s12*s21
-    s41 = 1.0 + s38
-    s42 = 1.0/s23
-    s43 = s24*s42
-    s44 = -s43
-    s45 = s25*s42
-    s46 = s24*s43
-    s47 = s27 - s46
-    s48 = s25*s43 - s1*s17
-    s49 = -1.0 + s26 - s46
-    s50 = 1.0*(s47 > mask_1 + 1e-12*s27)
-    s51 = s50/max(s47, 1e-300)
-    s52 = s48*s51
-    s53 = s49*s51
-    s54 = s29 - s25*s45 - s48*s52
-    s55 = s24*s45 - (s24 + s30) - s49*s52
-    s56 = 1.0/(1.0 + s34)
-    s57 = s36*s56
-    s58 = s37*s56
-    s59 = s40*s56
-    s60 = s41 - s36*s57
-    s61 = s36 + s37*s57
-    s62 = 1.0 - s38 + s40*s57
-    s63 = 1.0*(s60 > mask_7 + 1e-12*s41)
-    s64 = s63/max(s60, 1e-300)
-    s65 = s61*s64
-    s66 = s62*s64
-    s67 = 1.0*(s54 > mask_2 + 1e-12*s29)
-    s68 = s67/max(s54, 1e-300)
-    s69 = s55*s68
-    s70 = s31*s68
-    s71 = s30*s68
-    s72 = s33 - s46 - s49*s53 - s55*s69
-    s73 = s8*s19 + s31*s69
-    s74 = -1.0 + s32 + s30*s69
-    s75 = 1.0*(s72 > mask_3 + 1e-12*s33)
-    s76 = s75/max(s72, 1e-300)
-    s77 = s73*s76
-    s78 = s74*s76
-    s79 = s35 - s37*s58 - s61*s65 - s31*s70 - s73*s77
-    s80 = s30*s70 - (s30 + s36 + s40*s58 + s62*s65) + s74*s77
-    s81 = 1.0*(s79 > mask_4 + 1e-12*s35)
-    s82 = s81/max(s79, 1e-300)
-    s83 = s80*s82
-    s84 = s39 - s40*s59 - s62*s66 - s30*s71 - s74*s78 - s80*s83
-    s85 = 1.0*(s84 > mask_5 + 1e-12*s39)
-    s86 = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
-    s87 = s47/s27
-    s88 = s54/s29
-    s89 = s72/s33
-    s90 = s79/s35
-    s91 = s84/s39
-    s92 = min(min(min(min(min(1.0, mask_1 + s87), mask_2 + s88), mask_3 + s89), mask_4 + s90), mask_5 + s91)
-    s93 = s60/s41
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = -s7
+    s9 = q3 - q0 - s7 - s0
+    s10 = 4.0*s6
+    s11 = q4 - q1 - s10 - s1
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = q6 - q3 + s14 - s7
+    s16 = 2.5*s13
+    s17 = q7 - q4 + s16 - s10
+    s18 = q6 - 10.0 - s14
+    s19 = q7 - s16
+    s20 = 1.0 + 1.0 + s10*(s10*gauge_5) + s16*(s16*gauge_8)
+    s21 = 1.0 + 1.0 + s7*(s7*gauge_5) + s14*(s14*gauge_8)
+    s22 = s1 + s1
+    s23 = s0 + s0
+    s24 = 5.0*s13
+    s25 = 5.0*s12
+    s26 = 8.0*(s1*s6 + s0*s5)
+    s27 = 1.0/(1.0/gauge_8 + 6.25)
+    s28 = s24*s27
+    s29 = 1.0/(1.0/gauge_2 + 5.0)
+    s30 = s26*s29
+    s31 = s22*s29
+    s32 = 8.0*s6 - s22*s30
+    s33 = s23*s30 - 8.0*s5
+    s34 = 1.0/(1.0/gauge_5 + 16.0 - s26*s30)
+    s35 = s32*s34
+    s36 = s24*s28 + s22*s31 + s32*s35
+    s37 = s25*s28 + s23*s31 - s33*s35
+    s38 = 1.0*(s36 > mask_4 + 1e-12*s20)
+    s39 = s25*(s25*s27) + s23*(s23*s29) + s33*(s33*s34) - s37*(s37*(s38/max(s36, 1e-300)))
+    s40 = math.sqrt(s3*s3 + s4*s4 + s9*s9 + s11*s11 + s15*s15 + s17*s17 + s18*s18 + s19*s19)
+    s41 = s36/s20
+    s42 = s39/s21
     # outputs
     w[RESIDUAL] = s3  # A.x
     w[RESIDUAL + 1] = s4  # A.y
-    w[RESIDUAL + 2] = s7  # B.x
-    w[RESIDUAL + 3] = s9  # B.y
-    w[RESIDUAL + 4] = s11  # C.x
-    w[RESIDUAL + 5] = s13  # C.y
-    w[RESIDUAL + 6] = s14  # D.x
-    w[RESIDUAL + 7] = s15  # D.y
-    w[POSITION_VIOLATION] = s86  # position_violation
-    w[POSITION_MEASURE] = s86  # position_measure
+    w[RESIDUAL + 2] = s9  # B.x
+    w[RESIDUAL + 3] = s11  # B.y
+    w[RESIDUAL + 4] = s15  # C.x
+    w[RESIDUAL + 5] = s17  # C.y
+    w[RESIDUAL + 6] = s18  # D.x
+    w[RESIDUAL + 7] = s19  # D.y
+    w[POSITION_VIOLATION] = s40  # position_violation
+    w[POSITION_MEASURE] = s40  # position_measure
     w[JACOBIAN] = s1  # D A.x, crank.omega
     w[JACOBIAN + 1] = s2  # D A.y, crank.omega
     w[JACOBIAN + 2] = s1  # D B.x, crank.omega
-    w[JACOBIAN + 3] = s8  # D B.x, coupler.omega
+    w[JACOBIAN + 3] = s10  # D B.x, coupler.omega
     w[JACOBIAN + 4] = s2  # D B.y, crank.omega
-    w[JACOBIAN + 5] = s6  # D B.y, coupler.omega
-    w[JACOBIAN + 6] = s8  # D C.x, coupler.omega
-    w[JACOBIAN + 7] = -s12  # D C.x, rocker.omega
-    w[JACOBIAN + 8] = s6  # D C.y, coupler.omega
-    w[JACOBIAN + 9] = s10  # D C.y, rocker.omega
-    w[JACOBIAN + 10] = s12  # D D.x, rocker.omega
-    w[JACOBIAN + 11] = -s10  # D D.y, rocker.omega
-    w[PIVOT + 1] = s87  # A.y
-    w[PIVOT + 2] = s88  # B.x
-    w[PIVOT + 3] = s89  # B.y
-    w[PIVOT + 4] = s90  # C.x
-    w[PIVOT + 5] = s91  # C.y
-    w[PIVOT + 7] = s93  # D.y
-    w[RANK] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50  # rank
-    w[SMALLEST_PIVOT] = min(s92, mask_7 + s93)  # smallest_pivot
+    w[JACOBIAN + 5] = s8  # D B.y, coupler.omega
+    w[JACOBIAN + 6] = s10  # D C.x, coupler.omega
+    w[JACOBIAN + 7] = -s16  # D C.x, rocker.omega
+    w[JACOBIAN + 8] = s8  # D C.y, coupler.omega
+    w[JACOBIAN + 9] = s14  # D C.y, rocker.omega
+    w[JACOBIAN + 10] = s16  # D D.x, rocker.omega
+    w[JACOBIAN + 11] = -s14  # D D.y, rocker.omega
+    w[PIVOT + 4] = s41  # C.x
+    w[PIVOT + 5] = s42  # C.y
+    w[RANK] = 1.0 + 1.0 + 1.0*(s39 > mask_5 + 1e-12*s21) + 4.0 + s38  # rank
+    w[SMALLEST_PIVOT] = min(min(1.0, mask_4 + s41), mask_5 + s42)  # smallest_pivot
     w[SHORTEST_ROW] = 1.0  # shortest_row
-    w[LOWER] = s44
-    w[LOWER + 1] = s45
-    w[LOWER + 2] = s44
-    w[LOWER + 3] = s52
-    w[LOWER + 4] = s53
-    w[LOWER + 5] = -s57
-    w[LOWER + 6] = s58
-    w[LOWER + 7] = s59
-    w[LOWER + 8] = s65
-    w[LOWER + 9] = s66
-    w[LOWER + 10] = s69
-    w[LOWER + 11] = s70
-    w[LOWER + 12] = -s71
-    w[LOWER + 13] = -s77
-    w[LOWER + 14] = s78
-    w[LOWER + 15] = s83
-    w[RECIPROCAL] = s42
-    w[RECIPROCAL + 1] = s51
-    w[RECIPROCAL + 2] = s56
-    w[RECIPROCAL + 3] = s64
-    w[RECIPROCAL + 4] = s68
-    w[RECIPROCAL + 5] = s76
-    w[RECIPROCAL + 6] = s82
-    w[RECIPROCAL + 7] = s85/max(s84, 1e-300)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """The correction -D^+ times the section `residual`, of v, or of q by N: 105 operations, 6984 before sharing."""
+    """The correction -D^+ times the section `residual`, of v, or of q by N: 150 operations, 51826 before sharing."""
     # inputs
+    mask_4 = w[MASK + 4]  # C.x
+    mask_5 = w[MASK + 5]  # C.y
     gauge_2 = w[GAUGE + 2]  # crank.omega
     gauge_5 = w[GAUGE + 5]  # coupler.omega
     gauge_8 = w[GAUGE + 8]  # rocker.omega
-    lower_0 = w[LOWER]
-    lower_1 = w[LOWER + 1]
-    lower_2 = w[LOWER + 2]
-    lower_3 = w[LOWER + 3]
-    lower_4 = w[LOWER + 4]
-    lower_5 = w[LOWER + 5]
-    lower_6 = w[LOWER + 6]
-    lower_7 = w[LOWER + 7]
-    lower_8 = w[LOWER + 8]
-    lower_9 = w[LOWER + 9]
-    lower_10 = w[LOWER + 10]
-    lower_11 = w[LOWER + 11]
-    lower_12 = w[LOWER + 12]
-    lower_13 = w[LOWER + 13]
-    lower_14 = w[LOWER + 14]
-    lower_15 = w[LOWER + 15]
-    reciprocal_0 = w[RECIPROCAL]
-    reciprocal_1 = w[RECIPROCAL + 1]
-    reciprocal_2 = w[RECIPROCAL + 2]
-    reciprocal_3 = w[RECIPROCAL + 3]
-    reciprocal_4 = w[RECIPROCAL + 4]
-    reciprocal_5 = w[RECIPROCAL + 5]
-    reciprocal_6 = w[RECIPROCAL + 6]
-    reciprocal_7 = w[RECIPROCAL + 7]
     residual_0 = w[RESIDUAL]  # A.x
     residual_1 = w[RESIDUAL + 1]  # A.y
     residual_2 = w[RESIDUAL + 2]  # B.x
@@ -337,36 +228,52 @@ def spread(p, w):
     jacobian_9 = w[JACOBIAN + 9]  # D C.y, rocker.omega
     jacobian_10 = w[JACOBIAN + 10]  # D D.x, rocker.omega
     jacobian_11 = w[JACOBIAN + 11]  # D D.y, rocker.omega
+    pivot_4 = w[PIVOT + 4]  # C.x
+    pivot_5 = w[PIVOT + 5]  # C.y
     # intermediate terms
-    s0 = lower_0*residual_0 - residual_1
-    s1 = lower_1*residual_0 - residual_2 - lower_3*s0
-    s2 = lower_5*residual_6 - residual_7
-    s3 = lower_2*residual_0 - residual_3 - lower_4*s0 - lower_10*s1
-    s4 = lower_6*residual_6 - residual_4 - lower_8*s2 - lower_11*s1 - lower_13*s3
-    s5 = reciprocal_7*(lower_7*residual_6 - residual_5 - lower_9*s2 - lower_12*s1 - lower_14*s3 - lower_15*s4)
-    s6 = reciprocal_6*s4
-    s7 = lower_15*s5
-    s8 = s6 - s7
-    s9 = reciprocal_5*s3 - lower_13*s8
-    s10 = lower_14*s5
-    s11 = s9 - s10
-    s12 = reciprocal_4*s1 - lower_10*s11 - lower_11*s8
-    s13 = lower_12*s5
-    s14 = s12 - s13
-    s15 = reciprocal_3*s2 - lower_8*s8 - lower_9*s5
-    s16 = reciprocal_2*residual_6 + lower_5*s15 + lower_6*s8 + lower_7*s5
-    s17 = reciprocal_1*s0 - lower_3*s14 - lower_4*s11
-    s18 = reciprocal_0*residual_0 + lower_0*s17 + lower_1*s14 + lower_2*s11
+    s0 = jacobian_0 + jacobian_2
+    s1 = jacobian_1 + jacobian_4
+    s2 = jacobian_7 - jacobian_10
+    s3 = jacobian_9 - jacobian_11
+    s4 = jacobian_3*s0 + jacobian_5*s1
+    s5 = 1.0/(1.0/gauge_8 + jacobian_10*jacobian_10 + jacobian_11*jacobian_11)
+    s6 = s2*s5
+    s7 = s3*s5
+    s8 = 1.0/(1.0/gauge_2 + jacobian_0*jacobian_0 + jacobian_1*jacobian_1 + s0*s0 + s1*s1)
+    s9 = s4*s8
+    s10 = s0*s8
+    s11 = s1*s8
+    s12 = jacobian_3 + jacobian_6 - s0*s9
+    s13 = jacobian_5 + jacobian_8 - s1*s9
+    s14 = 1.0/(1.0/gauge_5 + jacobian_3*jacobian_3 + jacobian_5*jacobian_5 - s4*s9)
+    s15 = s12*s14
+    s16 = s13*s14
+    s17 = s3*s6 + s1*s10 + s13*s15
+    s18 = 1.0*(pivot_4 > mask_4 + 1e-12)/max(s2*s6 + s0*s10 + s12*s15, 1e-300)
+    s19 = s17*s18
+    s20 = residual_0 + residual_2
+    s21 = residual_1 + residual_3
+    s22 = residual_6*jacobian_10 + residual_7*jacobian_11
+    s23 = residual_0*jacobian_0 + residual_1*jacobian_1 + s0*s20 + s1*s21
+    s24 = s9*s23 - (jacobian_3*s20 + jacobian_5*s21)
+    s25 = residual_6 - residual_4 - s20 + s6*s22 + s10*s23 - s15*s24
+    s26 = 1.0*(pivot_5 > mask_5 + 1e-12)/max(s3*s7 + s1*s11 + s13*s16 - s17*s19, 1e-300)*(residual_7 - residual_5 - s21 + s7*s22 + s11*s23 - s16*s24 - s19*s25)
+    s27 = s19*s26 - s18*s25
+    s28 = s14*s24 - s15*s27 + s16*s26
+    s29 = s11*s26 - (s8*s23 + s9*s28 + s10*s27)
+    s30 = s7*s26 - (s5*s22 + s6*s27)
+    s31 = residual_0 + jacobian_0*s29
+    s32 = residual_1 + jacobian_1*s29
     # outputs
-    w[CHANGE] = s13 - s12 - s18  # crank.vx
-    w[CHANGE + 1] = s17 + s10 - s9  # crank.vy
-    w[CHANGE + 2] = gauge_2*(s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4)  # crank.omega
-    w[CHANGE + 3] = s14 + s7 - s6  # coupler.vx
-    w[CHANGE + 4] = s11 - s5  # coupler.vy
-    w[CHANGE + 5] = gauge_5*(s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8)  # coupler.omega
-    w[CHANGE + 6] = s8 - s16  # rocker.vx
-    w[CHANGE + 7] = s5 + s15  # rocker.vy
-    w[CHANGE + 8] = gauge_8*(s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11)  # rocker.omega
+    w[CHANGE] = -s31  # crank.vx
+    w[CHANGE + 1] = -s32  # crank.vy
+    w[CHANGE + 2] = s29  # crank.omega
+    w[CHANGE + 3] = -(residual_2 + s31 + jacobian_2*s29 + jacobian_3*s28)  # coupler.vx
+    w[CHANGE + 4] = -(residual_3 + s32 + jacobian_4*s29 + jacobian_5*s28)  # coupler.vy
+    w[CHANGE + 5] = s28  # coupler.omega
+    w[CHANGE + 6] = -(residual_6 + jacobian_10*s30)  # rocker.vx
+    w[CHANGE + 7] = -(residual_7 + jacobian_11*s30)  # rocker.vy
+    w[CHANGE + 8] = s30  # rocker.omega
     return 0
 
 

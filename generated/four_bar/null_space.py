@@ -56,16 +56,14 @@ w[76:85]    mass: diagonal of M
 w[85:94]    gauge: diagonal of G, the metric in which rank is decided: 1, or 1/l^2 for a rotation of a body of length l
 w[94:102]   row_weight: factors that make rows of different units comparable
 w[102:114]  jacobian: entries of D that are not constant
-w[114:130]  lower: L of the factorisation of D G D^T, below the diagonal
-w[130:138]  reciprocal: reciprocals of the pivots of D G D^T, 0 for rows left out
-w[138:147]  dependent: 1 at dependent velocities, else 0
-w[147:219]  dense: a dense matrix, row by row
-w[219:282]  basis: directions of motion that constraints allow
-w[282:345]  trial: `basis` before its columns are orthogonal
-w[345:394]  small: M in these directions
-w[394:401]  reduced: forces, then accelerations in these directions
-w[401:410]  force: forces, one a velocity
-w[410:419]  weighed: M times a direction or an acceleration
+w[114:123]  dependent: 1 at dependent velocities, else 0
+w[123:195]  dense: a dense matrix, row by row
+w[195:258]  basis: directions of motion that constraints allow
+w[258:321]  trial: `basis` before its columns are orthogonal
+w[321:370]  small: M in these directions
+w[370:377]  reduced: forces, then accelerations in these directions
+w[377:386]  force: forces, one a velocity
+w[386:395]  weighed: M times a direction or an acceleration
 """
 
 import math
@@ -75,20 +73,20 @@ from numba import njit
 from model import geometry, measure, spread
 
 MULTIPLIERS = 19  # sections of w
+MASK = 27
 RESIDUAL = 43
+PIVOT = 59
 CHANGE = 67
 GAUGE = 85
 JACOBIAN = 102
-LOWER = 114
-RECIPROCAL = 130
-DEPENDENT = 138
-DENSE = 147
-BASIS = 219
-TRIAL = 282
-SMALL = 345
-REDUCED = 394
-FORCE = 401
-WEIGHED = 410
+DEPENDENT = 114
+DENSE = 123
+BASIS = 195
+TRIAL = 258
+SMALL = 321
+REDUCED = 370
+FORCE = 377
+WEIGHED = 386
 SMALLEST_PIVOT = 4  # numbers in w
 LENGTH_SCALE = 6
 POSITION_MEASURE = 8
@@ -283,7 +281,7 @@ def weigh(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def finish(t, y, p, w, ydot):
-    """q', power and multipliers: 117 operations, 12266 before sharing."""
+    """q', power and multipliers: 163 operations, 80041 before sharing."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -303,6 +301,8 @@ def finish(t, y, p, w, ydot):
     p22 = p[22]  # 9.81*coupler_mass
     p20 = p[20]  # 2.083333333333333*rocker_mass
     p23 = p[23]  # 9.81*rocker_mass
+    mask_4 = w[MASK + 4]  # C.x
+    mask_5 = w[MASK + 5]  # C.y
     jacobian_0 = w[JACOBIAN]  # D A.x, crank.omega
     jacobian_1 = w[JACOBIAN + 1]  # D A.y, crank.omega
     jacobian_2 = w[JACOBIAN + 2]  # D B.x, crank.omega
@@ -318,30 +318,6 @@ def finish(t, y, p, w, ydot):
     gauge_2 = w[GAUGE + 2]  # crank.omega
     gauge_5 = w[GAUGE + 5]  # coupler.omega
     gauge_8 = w[GAUGE + 8]  # rocker.omega
-    lower_0 = w[LOWER]
-    lower_1 = w[LOWER + 1]
-    lower_2 = w[LOWER + 2]
-    lower_3 = w[LOWER + 3]
-    lower_4 = w[LOWER + 4]
-    lower_5 = w[LOWER + 5]
-    lower_6 = w[LOWER + 6]
-    lower_7 = w[LOWER + 7]
-    lower_8 = w[LOWER + 8]
-    lower_9 = w[LOWER + 9]
-    lower_10 = w[LOWER + 10]
-    lower_11 = w[LOWER + 11]
-    lower_12 = w[LOWER + 12]
-    lower_13 = w[LOWER + 13]
-    lower_14 = w[LOWER + 14]
-    lower_15 = w[LOWER + 15]
-    reciprocal_0 = w[RECIPROCAL]
-    reciprocal_1 = w[RECIPROCAL + 1]
-    reciprocal_2 = w[RECIPROCAL + 2]
-    reciprocal_3 = w[RECIPROCAL + 3]
-    reciprocal_4 = w[RECIPROCAL + 4]
-    reciprocal_5 = w[RECIPROCAL + 5]
-    reciprocal_6 = w[RECIPROCAL + 6]
-    reciprocal_7 = w[RECIPROCAL + 7]
     ydot_9 = ydot[9]  # rate of crank.vx
     ydot_10 = ydot[10]  # rate of crank.vy
     ydot_11 = ydot[11]  # rate of crank.omega
@@ -351,6 +327,8 @@ def finish(t, y, p, w, ydot):
     ydot_15 = ydot[15]  # rate of rocker.vx
     ydot_16 = ydot[16]  # rate of rocker.vy
     ydot_17 = ydot[17]  # rate of rocker.omega
+    pivot_4 = w[PIVOT + 4]  # C.x
+    pivot_5 = w[PIVOT + 5]  # C.y
     # intermediate terms
     s0 = p0*ydot_9
     s1 = p1*ydot_12
@@ -358,23 +336,39 @@ def finish(t, y, p, w, ydot):
     s3 = p21 + p0*ydot_10
     s4 = p22 + p1*ydot_13
     s5 = p23 + p2*ydot_16
-    s6 = gauge_2*(p18*ydot_11)
-    s7 = gauge_5*(p19*ydot_14)
-    s8 = gauge_8*(p20*ydot_17)
-    s9 = s0 + jacobian_0*s6
-    s10 = s2 + jacobian_10*s8
-    s11 = lower_0*s9 - (s3 + jacobian_1*s6)
-    s12 = s0 - jacobian_2*s6 - s1 - jacobian_3*s7 + lower_1*s9 - lower_3*s11
-    s13 = lower_5*s10 - (s5 + jacobian_11*s8)
-    s14 = s3 - jacobian_4*s6 - s4 - jacobian_5*s7 + lower_2*s9 - lower_4*s11 - lower_10*s12
-    s15 = s1 - jacobian_6*s7 - s2 - jacobian_7*s8 + lower_6*s10 - lower_8*s13 - lower_11*s12 - lower_13*s14
-    s16 = s4 - jacobian_8*s7 - s5 - jacobian_9*s8 + lower_7*s10 - lower_9*s13 - lower_12*s12 - lower_14*s14
-    s17 = reciprocal_7*(s16 - lower_15*s15)
-    s18 = reciprocal_6*s15 - lower_15*s17
-    s19 = reciprocal_5*s14 - lower_13*s18 - lower_14*s17
-    s20 = reciprocal_4*s12 - lower_10*s19 - lower_11*s18 - lower_12*s17
-    s21 = reciprocal_3*s13 - lower_8*s18 - lower_9*s17
-    s22 = reciprocal_1*s11 - lower_3*s20 - lower_4*s19
+    s6 = jacobian_0 + jacobian_2
+    s7 = jacobian_1 + jacobian_4
+    s8 = jacobian_7 - jacobian_10
+    s9 = jacobian_9 - jacobian_11
+    s10 = jacobian_3*s6 + jacobian_5*s7
+    s11 = 1.0/(1.0/gauge_8 + jacobian_10*jacobian_10 + jacobian_11*jacobian_11)
+    s12 = s8*s11
+    s13 = s9*s11
+    s14 = 1.0/(1.0/gauge_2 + jacobian_0*jacobian_0 + jacobian_1*jacobian_1 + s6*s6 + s7*s7)
+    s15 = s10*s14
+    s16 = s6*s14
+    s17 = s7*s14
+    s18 = jacobian_3 + jacobian_6 - s6*s15
+    s19 = jacobian_5 + jacobian_8 - s7*s15
+    s20 = 1.0/(1.0/gauge_5 + jacobian_3*jacobian_3 + jacobian_5*jacobian_5 - s10*s15)
+    s21 = s18*s20
+    s22 = s19*s20
+    s23 = s9*s12 + s7*s16 + s19*s21
+    s24 = 1.0*(pivot_4 > mask_4 + 1e-12)/max(s8*s12 + s6*s16 + s18*s21, 1e-300)
+    s25 = s23*s24
+    s26 = jacobian_10*s2 - p20*ydot_17 + jacobian_11*s5
+    s27 = jacobian_0*s0 - p18*ydot_11 + jacobian_1*s3 + s1*s6 + s4*s7
+    s28 = jacobian_3*s1 - p19*ydot_14 + jacobian_5*s4 - s15*s27
+    s29 = s12*s26 + s16*s27 + s21*s28
+    s30 = 1.0*(pivot_5 > mask_5 + 1e-12)/max(s9*s13 + s7*s17 + s19*s22 - s23*s25, 1e-300)*(s25*s29 - (s13*s26 + s17*s27 + s22*s28))
+    s31 = s24*s29 + s25*s30
+    s32 = s20*s28 - s21*s31 + s22*s30
+    s33 = s14*s27 - s15*s32 - s16*s31 + s17*s30
+    s34 = s11*s26 - s12*s31 + s13*s30
+    s35 = jacobian_0*s33
+    s36 = jacobian_1*s33
+    s37 = s31 + s35 + jacobian_2*s33 + jacobian_3*s32
+    s38 = s4 + s30 - (s36 + jacobian_4*s33 + jacobian_5*s32)
     # outputs
     ydot[0] = v0  # rate of crank.x
     ydot[1] = v1  # rate of crank.y
@@ -385,14 +379,14 @@ def finish(t, y, p, w, ydot):
     ydot[6] = v6  # rate of rocker.x
     ydot[7] = v7  # rate of rocker.y
     ydot[8] = v8  # rate of rocker.theta
-    w[MULTIPLIERS] = -(reciprocal_0*s9 + lower_0*s22 + lower_1*s20 + lower_2*s19)  # A.x
-    w[MULTIPLIERS + 1] = s22  # A.y
-    w[MULTIPLIERS + 2] = s20  # B.x
-    w[MULTIPLIERS + 3] = s19  # B.y
-    w[MULTIPLIERS + 4] = s18  # C.x
-    w[MULTIPLIERS + 5] = s17  # C.y
-    w[MULTIPLIERS + 6] = -(reciprocal_2*s10 + lower_5*s21 + lower_6*s18 + lower_7*s17)  # D.x
-    w[MULTIPLIERS + 7] = s21  # D.y
+    w[MULTIPLIERS] = -(s0 + s1 - s37 - s35)  # A.x
+    w[MULTIPLIERS + 1] = -(s3 + s38 - s36)  # A.y
+    w[MULTIPLIERS + 2] = s37 - s1  # B.x
+    w[MULTIPLIERS + 3] = -s38  # B.y
+    w[MULTIPLIERS + 4] = s31  # C.x
+    w[MULTIPLIERS + 5] = -s30  # C.y
+    w[MULTIPLIERS + 6] = -(s2 + s31 - jacobian_10*s34)  # D.x
+    w[MULTIPLIERS + 7] = s30 + jacobian_11*s34 - s5  # D.y
     ydot[18] = 0.0  # rate of work
     return 0
 
