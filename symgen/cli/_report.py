@@ -101,7 +101,8 @@ def _report_file(text: str | None) -> Path | None:
 def command_again() -> str:
     """Return the command that makes the report again: this one without options for working files."""
     context = click.get_current_context()
-    parts = ["symgen", context.info_name or "", *(context.params.get("models") or (context.params["model"],))]
+    models = context.params["models"] if "models" in context.params else (context.params["model"],)
+    parts = ["symgen", context.info_name or "", *models]
     for parameter in context.command.params:
         value = context.params.get(parameter.name or "")
         flag = max(parameter.opts, key=len)

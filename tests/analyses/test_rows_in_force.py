@@ -62,7 +62,7 @@ def test_semi_implicit_steps_without_the_joint_are_those_of_the_open_mechanism(m
     nothing, n = np.zeros(0), first.compiled.info.work
     assert first.enter(first.outputs(nothing), until=0.1) == abi.DONE
     second.state.y[:n] = first.state.y[:n]
-    set_modes(first, {f"{last.name}.{axis}": (0.0, 0.0, 0.0) for axis in "xy"})
+    set_modes(first, {f"{last.name}.{axis}": (0.0, 0.0, 0.0, 0.0) for axis in "xy"})
     assert first.enter(first.outputs(nothing), until=0.2) == abi.DONE
     assert second.enter(second.outputs(nothing), until=0.1) == abi.DONE
     np.testing.assert_allclose(first.state.y[:n], second.state.y[:n], rtol=0.0, atol=1e-12)

@@ -150,7 +150,7 @@ def test_what_no_start_closes_settles_alike_in_all_units(monkeypatch):
         pull = [0.0, -rods.GRAVITY * length]
         return rods.model({"link": link}, {"pin": pin}, gravity=pull, forces=forces).equilibrium()
 
-    monkeypatch.setattr("symgen.analyses.subject.prepare", no_start)
+    monkeypatch.setattr("symgen.running.prepare.begun", no_start)
     usual = found(1.0)
     for power in (-20, -10, 12):
         other = found(2.0**power)

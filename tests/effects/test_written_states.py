@@ -95,11 +95,3 @@ def test_what_is_no_velocity_and_no_state_is_refused():
     expected = "events.x.reset.cart.x: expected the name of a velocity, such as ball.vy, or of a state, got"
     with pytest.raises(InputError, match=expected):
         cart({"level": {"rate": 0.0}}, {"x": {"when": "t > 1", "reset": {"cart.x": 1.0}}})
-
-
-def test_states_at_events_have_no_form_in_c(tmp_path):
-    model = cart({"level": {"rate": 0.0, "start": 1.0}}, {"x": {"when": "t > 0.5", "reset": {"level": "0.5*level"}}})
-    with pytest.raises(
-        InputError, match=r"--target c: events.x: expected velocities in `reset`, got the state 'level'"
-    ):
-        model.generate(tmp_path / "c", target="c")
