@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 
 #: Arrays of a state after those always copied: passages are few, and working memory is not kept.
 _BEHIND = ("passages", "room")
+#: Arrays of the state whose name in saved data is another one, which files have.
+SAVED_AS = {"passages": "events"}
 
 
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
@@ -117,7 +119,8 @@ def lengths_match(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDA
         Saved arrays by name. Data of events, and room for factors, may have any length.
     """
     own = new_state(compiled, sizes_of(compiled), memory, 0)._asdict()
-    return all(name in arrays and arrays[name].shape == a.shape for name, a in own.items() if name != "room")
+    kept = {SAVED_AS.get(name, name): array for name, array in own.items() if name != "room"}
+    return all(name in arrays and arrays[name].shape == array.shape for name, array in kept.items())
 
 
 class Snapshot:

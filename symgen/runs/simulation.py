@@ -17,7 +17,16 @@ from symgen.layout.probe import rate_functions
 from symgen.loops.watch import iterations_in
 from symgen.runs.changes import Changes
 from symgen.runs.events import event_state
-from symgen.runs.new_state import Snapshot, memory_fields, new_outputs, new_state, sizes_of, span_of, with_memory
+from symgen.runs.new_state import (
+    SAVED_AS,
+    Snapshot,
+    memory_fields,
+    new_outputs,
+    new_state,
+    sizes_of,
+    span_of,
+    with_memory,
+)
 from symgen.starts.assembler import row_chooser
 
 if TYPE_CHECKING:
@@ -137,7 +146,10 @@ class Simulation:
         """Continue from the state of another run, with the limits, outputs and inputs of this one."""
         info = self.compiled.info
         state: Any = self.state  # an `EventState` where there are events
-        names = {*state._fields, *memory_fields(self.scheme)}  # older files hold further, empty arrays
+        names = {
+            *(SAVED_AS.get(name, name) for name in state._fields),
+            *memory_fields(self.scheme),
+        }  # older files hold further, empty arrays
         taken = {name: array for name, array in saved.items() if name in names}
         # other events, or data of another version: their sides are determined again
         anew = self.events is not None and len(taken.get("hunt", ())) != len(state.hunt)
@@ -375,13 +387,14 @@ class Simulation:
         """Return copies of all arrays of the run's state, by name."""
         arrays = {name: array for name, array in self.state._asdict().items() if name != "room"}
         arrays |= {name: getattr(self.scheme, name) for name in memory_fields(self.scheme)}
-        return {name: array.copy() for name, array in arrays.items()}
+        return {SAVED_AS.get(name, name): array.copy() for name, array in arrays.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
         """Restore the result of `save`, for the same model, method, integrator, limits and events, with other stops."""
+        own = {kept: name for name, kept in SAVED_AS.items()}
         for name, array in saved.items():
-            if hasattr(self.state, name):
-                getattr(self.state, name)[:] = array
+            if hasattr(self.state, own.get(name, name)):
+                getattr(self.state, own.get(name, name))[:] = array
             else:
                 self.scheme = with_memory(self.scheme, name, array)
         if self.events is not None:

@@ -81,7 +81,7 @@ class Saved:
 
 #: Arrays that are as long in every run of a model: room for factors is made as it is needed.
 FIXED = frozenset(
-    {"y", "p", "w", "iw", "clock", "gauges", "control", "passages", "memory", "share", "metric", "scales", "hunt"}
+    {"y", "p", "w", "iw", "clock", "gauges", "control", "events", "memory", "share", "metric", "scales", "hunt"}
 )
 
 
