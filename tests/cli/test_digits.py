@@ -89,5 +89,5 @@ def test_notebooks_show_no_rounding_and_the_table_keeps_it() -> None:
     shown = Labelled(values, ("a.x", "a.y", "a.theta"), ("m", "m", "rad"))
     assert column_texts(shown) == {"a.x": "2", "a.y": "0", "a.theta": "0"} and "e-1" not in shown._repr_html_()
     assert shown.row()["a.y"] == -1e-16
-    result = load("slider-crank").simulate(until=0.5)
+    result = load("bricard").simulate(until=0.5)
     assert ROUNDING.search(str(result.q.row())) and not ROUNDING.search(result.q._repr_html_())

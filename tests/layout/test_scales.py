@@ -8,7 +8,8 @@ import pytest
 from benchmarks.rescale import Units, rescaled
 from symgen.api import load
 
-#: A light lever on a universal joint carries a body on a pin, which is doubled: rows of all kinds on a light body.
+#: A light lever on a universal joint carries a body on a pin: rows of all kinds on a light body. Rows of an axis along
+#: one of the body would be eliminated with its velocities, and lightness would spoil nothing.
 LIGHT = """
 [mechanism]
 name = "light"
@@ -32,7 +33,7 @@ axes = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]
 type = "revolute"
 between = ["lever", "load"]
 at = [[0.4, 0.3, 0.2], [0.0, 0.0, 0.0]]
-axis = [1.0, 0.0, 0.0]
+axis = [0.6, 0.0, 0.8]
 [forces.wind]
 type = "torque"
 body = "lever"

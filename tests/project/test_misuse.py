@@ -269,6 +269,7 @@ def rows():
         ("reaction", lambda x, v: x.result.reaction(v), "joint: expected the name of a joint, got {}"),
     ):
         yield from each(label, keys, call, sentence)
+    yield "gradient", lambda x: x.result.gradient("bob.x"), "gradient: expected a run with sensitivities=(...), got one"
     yield "column", lambda x: x.result["bob.z"], "quantity 'bob.z': expected a quantity of pendulum, got none of"
     yield "column long", lambda x: x.result["x" * 9999], "quantity 'xxxxxxxxxxxx"
     yield "reaction", lambda x: x.result.reaction("lin"), "joint: expected the name of a joint, got 'lin'"
@@ -292,7 +293,7 @@ def rows():
         lambda x: symgen.write_report(3, "a.html"),
         "report: expected a comparison or a stress",
     )
-    yield "report ending", lambda x: x.study.save("a.htm"), "save: expected a file ending in .csv, .html, .md, got"
+    yield "report ending", lambda x: x.study.save("a.htm"), "save: expected a file ending in .csv, .html, .md, .pdf"
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
@@ -469,11 +470,16 @@ def test_every_analysis_takes_settings_and_refuses_others(model, method):
         for p in inspect.signature(method).parameters.values()
         if p.default is p.empty and p.kind < p.VAR_POSITIONAL
     ]
-    call = partial(getattr(model, method.__name__), *needed[1:])
+    named = {
+        p.name: ("x",)
+        for p in inspect.signature(method).parameters.values()
+        if p.kind is p.KEYWORD_ONLY and p.default is p.empty
+    }
+    call = partial(getattr(model, method.__name__), *needed[1:], **named)
     for changes, sentence in (
         ({"settings": 3}, "settings: expected Settings, got 3"),
         ({"nope": 1}, "settings: expected the name of a setting, got 'nope'"),
-        ({"verify": True}, f"{method.__name__}: verify: expected one of parameters, "),
+        ({"verify": True}, f"{method.__name__}: verify: expected one of "),
     ):
         with pytest.raises(InputError) as error:
             call(**changes)
@@ -487,7 +493,7 @@ def test_no_function_with_arguments_is_left_out():
         *"list_methods list_integrators load_plugin write_report".split(),
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
         *(f"Model.{n}" for n in "inspect view sweep compare".split()),
-        *(f"Result.{n}" for n in "save plot reaction columns select series view".split()),
+        *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
         *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
         *(

@@ -268,7 +268,7 @@ def test_a_command_stays_in_its_fence():
 
 def test_files_that_cannot_be_written_are_refused(tmp_path):
     for name, sentence in (
-        ("report.pdf", "a file ending in .html, .md"),
+        ("report.doc", "a file ending in .html, .md, .pdf"),
         ("report", "a file ending in .html, .md"),
         ("nowhere/report.html", "a file in a folder that exists"),
     ):

@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Unpack
 
-from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option
+from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option, names_of, settings_of
 from symgen.base.errors import InputError
 from symgen.base.keywords import RunKeywords
-from symgen.base.settings import Settings, changed
+from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.analyses.identification import Bounds, Fit
     from symgen.analyses.model_methods import Analysed
+
+#: Settings that count: not those of outputs and checks, which the data and the fit decide.
+COUNTING = tuple(
+    name
+    for name in names_of(RunKeywords)
+    if name not in ("verify", "times", "until", "output_step", "stop_when", "record_when", "events", "repeat")
+)
 
 
 def identify(
@@ -56,7 +63,8 @@ def identify(
     """
     from symgen.analyses.identification import identify as fitted
 
-    return fitted(model.mechanism, changed(settings, changes), data, free, quantities, bias, weights)
+    own = settings_of("identify", settings, changes, COUNTING)
+    return fitted(model.mechanism, own, data, free, quantities, bias, weights)
 
 
 def command(
