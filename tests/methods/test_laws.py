@@ -132,7 +132,7 @@ def test_every_law_agrees_where_the_constraints_hold(method):
 
 def test_every_method_can_be_emitted_with_every_option():
     for name, method in KNOWN.items():
-        for option in method.options:
+        for option in (option for option in method.options if option.emitted):
             for value in option.values:
                 emitted = "identity" if value == "body" else value  # the same, in the coordinates of bodies
                 assert Emitted(mechanism_of(ROUGH), name, {option.name: value}).law_info.options[option.name] == emitted
