@@ -77,7 +77,7 @@ def test_the_whole_catalogue(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
     # strains of a stiff beam are small differences of positions
     assert rates < (1e-9 if load(name).mechanism.beams else 1e-11)
-    assert corrections < 1e-13
+    assert corrections < 1e-11
 
 
 def rows_of(program, *words):
