@@ -196,8 +196,8 @@ def test_rates_are_those_of_the_compiled_code(
         y[info.nq : info.work] += random.standard_normal(info.nv)
         w[:] = start.w
         ydot, iw = np.zeros(info.ny), np.zeros(16, dtype=np.int64)
-        compiled.law_module.geometry(0.1, y, start.p, w)
-        kept = [w[i] for i in pivots if np.isfinite(w[i])]
+        compiled.model.geometry(0.1, y, start.p, w)
+        kept = [w[i] for i in pivots if abs(w[i]) > 1e-12]  # of rows that are left out, rounding or 0
         if min(kept, default=1.0) < 1e-2:
             continue
         w[:] = start.w
