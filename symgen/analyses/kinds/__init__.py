@@ -13,13 +13,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 from symgen.base.errors import InputError
-from symgen.base.keywords import DrivenKeywords, PlaceKeywords, StateKeywords
-from symgen.base.keywords import keyword_names as names_of
+from symgen.base.keywords import DrivenKeywords, PlaceKeywords, StateKeywords, keyword_names
 from symgen.base.registry import Registry
 from symgen.base.settings import Settings, changed
 
 #: Settings of analyses about a state, and of motions that drivers prescribe.
-OF_STATES, OF_MOTIONS = names_of(StateKeywords), names_of(DrivenKeywords)
+OF_STATES, OF_MOTIONS = keyword_names(StateKeywords), keyword_names(DrivenKeywords)
 #: Those of them that count where drivers say the motion, not where it was recorded.
 OF_DRIVEN = ("start", "strict")
 
@@ -202,7 +201,7 @@ def settings_of(
 
 def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
     """Return settings of an analysis about a place; those of a run count where one leads there."""
-    counting = OF_STATES if isinstance(at, str | Mapping) else names_of(PlaceKeywords)
+    counting = OF_STATES if isinstance(at, str | Mapping) else keyword_names(PlaceKeywords)
     return settings_of(where, settings, changes, counting)
 
 

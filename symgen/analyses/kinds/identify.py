@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Unpack
 
-from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option, names_of, settings_of
+from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
 from symgen.base.errors import InputError
-from symgen.base.keywords import RunKeywords
+from symgen.base.keywords import RunKeywords, keyword_names
 from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 #: Settings that count: not those of outputs and checks, which the data and the fit decide.
 COUNTING = tuple(
     name
-    for name in names_of(RunKeywords)
+    for name in keyword_names(RunKeywords)
     if name not in ("verify", "times", "until", "output_step", "stop_when", "record_when", "events", "repeat")
 )
 
