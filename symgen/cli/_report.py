@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-#: Larger mechanisms have no sketch in reports.
-MOST_BODIES = 200
 #: Options for places and speed of work, without effect on results.
 _WORKING = ("--resume", "--journal", "--jobs")
 #: Options that name a file to write.
@@ -127,6 +125,8 @@ def sketches_of(
     models: Sequence[Model], parameters: Mapping[str, float] | None = None, start: Mapping[str, float] | None = None
 ) -> dict[str, str]:
     """Return sketches of mechanisms at their starts for the head of a report, by name."""
+    from symgen.report.picture import MOST_BODIES
+
     small = [model for model in models if len(model.mechanism.bodies) <= MOST_BODIES]
     return {model.name: model.draw(parameters, start).svg for model in small}
 

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from symgen.layout import abi
 from symgen.layout.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State, record
 from symgen.loopcode.bare import bare, part
-from symgen.loopcode.loop_instances import called
-from symgen.loopcode.loop_instances import compiled_loop as compiled_loop
+from symgen.loopcode.loop_instances import called, compiled_loop
 from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching

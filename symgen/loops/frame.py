@@ -15,7 +15,7 @@ from symgen.layout.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem
 from symgen.layout.redundancy import rows_fell
 from symgen.layout.scales import settle
 from symgen.loopcode.bare import bare
-from symgen.loopcode.loop_instances import compiled_loop as compiled_loop
+from symgen.loopcode.loop_instances import compiled_loop
 from symgen.loopcode.vectors import copied, received
 from symgen.loops.frame_parts import (
     ADAPTIVE,

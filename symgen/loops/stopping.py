@@ -17,8 +17,7 @@ from symgen.layout import ensemble_abi as e
 from symgen.layout.records import Span
 from symgen.layout.start_records import record_type
 from symgen.loopcode.bare import bare
-from symgen.loopcode.loop_instances import compiled_loop as compiled_loop
-from symgen.loopcode.loop_instances import signature_of
+from symgen.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.native import types
 from symgen.store.jit import jit
 

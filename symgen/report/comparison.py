@@ -11,7 +11,7 @@ from symgen.report.figures import pictures
 from symgen.report.picture import sketched
 from symgen.report.source import beside_the_source
 from symgen.study.comparison.comparison_rows import BEYOND, FRONT, ONE_RUN, YARDSTICK, Row, Study
-from symgen.study.machine_class import machine_class, versions
+from symgen.study.machine_class import machine_class, version_list
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
 BELOW = "* below the error of the reference itself"
@@ -48,7 +48,7 @@ def comparison(
     if any(study.interrupted for study in studies):
         lead.insert(0, "This study was interrupted: rows are missing.")
     facts = [
-        ("Versions", ", ".join(f"{name} {text}" for name, text in versions().items())),
+        ("Versions", version_list()),
         ("Machine", machine_class()),
         *_settings(studies),
         *settings,

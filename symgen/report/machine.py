@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,11 +13,11 @@ from symgen.analyses.kinds.modes import shown as shown_modes
 from symgen.base.errors import SymgenError, fitting
 from symgen.drawing.drawing import Drawing
 from symgen.report.document import Document, DocumentTable, Picture, Section
-from symgen.report.picture import of_figure
-from symgen.result.labelled import Labelled
+from symgen.report.picture import MOST_BODIES, of_figure
+from symgen.result.labelled import Labelled, columns_at
 from symgen.result.plots import drawing
 from symgen.result.summary import lines
-from symgen.study.machine_class import machine_class, versions
+from symgen.study.machine_class import machine_class, version_list
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
 
 #: Positions of the motion that have pictures; six parts of a run of whole turns are not all alike.
 POSITIONS = 7
-#: Larger mechanisms are not drawn.
-MOST_BODIES = 200
 #: Rows of a table at most.
 MOST_ROWS = 60
 #: Units of loads, in the order of the tables.
@@ -57,7 +56,7 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
     facts = [
         *lines(result),
         *((f"parameter {name}", f"{value:g}") for name, value in result.parameters.items()),
-        ("versions", ", ".join(f"{name} {text}" for name, text in versions().items())),
+        ("versions", version_list()),
         ("machine", machine_class()),
     ]
     sections = [
@@ -76,12 +75,12 @@ def _lead(result: Result) -> str:
 
 
 def _trust(result: Result) -> tuple[str, ...]:
-    """Return what the largest loads are taken over, and why they may be off."""
+    """Return the outputs behind the largest loads, and reasons for which these may be off."""
     text = f"Largest absolute values over {len(result.t)} outputs; a peak between two outputs can be higher."
     estimate = result.error_estimate
-    known = "" if estimate is None else f" A second run puts the error of the motion at about {estimate:.1e} m."
+    error = "" if estimate is None else f" A second run puts the error of the motion at about {estimate:.1e} m."
     doubt = "" if result.status == "ok" else f" The run is {result.status}: {result.reason}."
-    return (text + known + doubt,)
+    return (text + error + doubt,)
 
 
 def _motion(model: Model, result: Result) -> Iterator[Section]:
@@ -127,32 +126,21 @@ def _loads(result: Result, along: Labelled) -> Iterator[DocumentTable]:
 def _curves(result: Result, along: Labelled) -> Iterator[Picture]:
     """Yield pictures of loads, of joints and of energies, over time or over a column."""
     loads, joints = result.whole(("elements", "magnitudes")), result.whole(("joint_coordinates", "outputs"))
+    loads = columns_at(loads, [i for i, unit in enumerate(loads.units) if unit in LOADS])
+    joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
     parts = [
-        ("loads", "Efforts, forces and powers", _only(loads, LOADS)),
-        ("joints", "Coordinates of joints, and outputs", _without(joints, _RATE)),
+        ("loads", "Efforts, forces and powers", loads),
+        ("joints", "Coordinates of joints, and outputs", joints),
         ("energy", "Energies, and violations of constraints", result.whole(("energy", "violations"))),
     ]
     for name, caption, table in parts:
         if table.names and len(result.t) > 1:
             title = f"{caption} over {along.names[0]}"
-            yield of_figure(name, caption, title, lambda table=table, title=title: drawing(along, table, title))  # type: ignore[misc]
-
-
-def _only(table: Labelled, units: Sequence[str] | dict[str, str]) -> Labelled:
-    return _columns(table, [i for i, unit in enumerate(table.units) if unit in units])
-
-
-def _without(table: Labelled, ending: str) -> Labelled:
-    return _columns(table, [i for i, name in enumerate(table.names) if not name.endswith(ending)])
-
-
-def _columns(table: Labelled, chosen: Sequence[int]) -> Labelled:
-    names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
-    return Labelled(table.values[:, list(chosen)], names, units)
+            yield of_figure(name, caption, title, partial(drawing, along, table, title))
 
 
 def _at_rest(model: Model, result: Result) -> Section:
-    """Return the section of frequencies about the equilibrium that the start leads to."""
+    """Return the section of frequencies about the equilibrium that the start of the file leads to."""
     title, text, tables = "Frequencies at rest", list[str](), list[DocumentTable]()
     try:
         modes: Any = model.modes(parameters=dict(result.parameters), at="equilibrium")

@@ -24,8 +24,8 @@ GREY = "#5b6470"
 WIDTH = 5.0
 #: A vector file above this becomes pixels [bytes].
 LARGEST_SVG = 200_000
-#: Sketches at the head of a report at most.
-MOST_SKETCHES = 12
+#: Sketches at the head of a report at most, and bodies of a mechanism that is drawn.
+MOST_SKETCHES, MOST_BODIES = 12, 200
 #: Pixels per inch of those.
 DPI = 200
 

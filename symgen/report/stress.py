@@ -10,7 +10,7 @@ from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.picture import sketched
 from symgen.report.stress_figures import maps, overview, regions
 from symgen.running.automatic import AUTO
-from symgen.study.machine_class import machine_class, versions
+from symgen.study.machine_class import machine_class, version_list
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress.findings import cause, findings
@@ -54,7 +54,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
     """
     lead = ["This study was interrupted: cells are missing.", _LEAD] if study.interrupted else [_LEAD]
     facts = (
-        ("Versions", ", ".join(f"{name} {text}" for name, text in versions().items())),
+        ("Versions", version_list()),
         ("Machine", machine_class()),
         ("Cells", f"{len(study.rows)}, and {words.counted(len(study.limits), 'search', 'searches')} for largest steps"),
         ("Extent", "quick: fewer cases, one integrator a method" if study.quick else "all cases"),

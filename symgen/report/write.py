@@ -19,6 +19,7 @@ from symgen.base.files import Content, check_path, templates_folder, why, write_
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
 from symgen.report.paper import browser, print_pdf
 from symgen.study.comparison.comparison_rows import Study
+from symgen.study.saving import REPORTS
 
 if TYPE_CHECKING:
     import jinja2
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from symgen.study.stress.stress_rows import Stress
 
 #: Endings of reports -> the libraries needed.
-WRITTEN: Mapping[str, tuple[str, ...]] = {".html": ("matplotlib",), ".md": ("matplotlib",), ".pdf": ("matplotlib",)}
+WRITTEN: Mapping[str, tuple[str, ...]] = dict.fromkeys(REPORTS, ("matplotlib",))
 
 
 def check_report(where: str, path: Path) -> None:

@@ -102,6 +102,12 @@ class Labelled:
         return f"Labelled({self.values.shape[0]} outputs of {len(self.names)}: {shown})"
 
 
+def columns_at(table: Labelled, places: Sequence[int]) -> Labelled:
+    """Return the columns of a table at some places, in their order."""
+    names, units = (tuple(of[i] for i in places) for of in (table.names, table.units))
+    return Labelled(table.values[:, list(places)], names, units)
+
+
 def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: float(column[-1])) -> dict[str, str]:
     """Return a number of each column as people read it, by the names; empty where there are no rows.
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from symgen.base.errors import fitting
-from symgen.result.labelled import Labelled
+from symgen.result.labelled import Labelled, columns_at
 
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
@@ -44,8 +44,7 @@ def panels(table: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
     for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
         places.setdefault(panel_of(name, unit), []).append(i)
     for (title, unit, logarithmic), chosen in places.items():
-        names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
-        yield title, unit, logarithmic, Labelled(table.values[:, chosen], names, units)
+        yield title, unit, logarithmic, columns_at(table, chosen)
 
 
 def label(title: str, unit: str) -> str:
@@ -132,8 +131,7 @@ def _most_moving(table: Labelled) -> tuple[Labelled, int]:
         return table, 0
     change = np.nan_to_num(np.ptp(table.values, axis=0))
     chosen = sorted(np.argsort(-change, kind="stable")[:first].tolist())
-    names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
-    return Labelled(table.values[:, chosen], names, units), left
+    return columns_at(table, chosen), left
 
 
 def _lines(ax: Any, along: Any, table: Labelled, logarithmic: bool) -> None:

@@ -23,8 +23,7 @@ from symgen.layout.redundancy import FALLEN, never
 from symgen.layout.scales import still
 from symgen.layout.scheme_records import TABLEAU
 from symgen.loopcode.bare import bare, part
-from symgen.loopcode.loop_instances import Instances
-from symgen.loopcode.loop_instances import compiled_loop as compiled_loop
+from symgen.loopcode.loop_instances import Instances, compiled_loop
 from symgen.loopcode.vectors import combine, copied
 from symgen.loops import watch as watching
 from symgen.loops.frame import integrate

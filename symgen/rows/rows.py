@@ -14,8 +14,7 @@ from symgen.layout import ensemble_abi as e
 from symgen.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
 from symgen.layout.redundancy import choose_rows
 from symgen.loopcode.bare import bare, part
-from symgen.loopcode.loop_instances import called, signature_of
-from symgen.loopcode.loop_instances import compiled_loop as compiled_loop
+from symgen.loopcode.loop_instances import called, compiled_loop, signature_of
 from symgen.loops.event_loop import with_events
 from symgen.loops.frame_parts import store
 from symgen.loops.stopping import ROW, change, due, same, with_stops

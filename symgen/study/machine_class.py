@@ -42,3 +42,8 @@ def versions() -> dict[str, str]:
         except PackageNotFoundError:
             versions[name] = "not installed"
     return versions
+
+
+def version_list() -> str:
+    """Return the versions in one line: ``symgen 0.1.0, Python 3.13.0, ...``."""
+    return ", ".join(f"{name} {text}" for name, text in versions().items())

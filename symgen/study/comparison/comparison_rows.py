@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, TypedDict, cast, overload
 import msgspec
 
 from symgen.base.arguments import one_of, words
-from symgen.base.arguments import path as argument_path
 from symgen.base.errors import InputError
 from symgen.base.files import check_writable, headed, write_csv
 from symgen.result.contract import json_value
@@ -22,6 +21,7 @@ from symgen.result.labelled import html_table
 from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.equal_error import TimeAtError, front
+from symgen.study.saving import save_study
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -430,14 +430,7 @@ class Study:
         InputError
             If the ending is another, matplotlib is missing for a report, or the file cannot be written.
         """
-        file = argument_path("save", path)
-        if file.suffix.lower() in (".html", ".md", ".pdf"):
-            from symgen import write_report
-
-            return write_report(self, file)
-        if file.suffix.lower() != ".csv":
-            raise InputError("save", "a file ending in .csv, .html, .md, .pdf", f"'{file}'")
-        return save_csv([self], file)
+        return save_study(self, path, lambda file: save_csv([self], file))
 
 
 def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:

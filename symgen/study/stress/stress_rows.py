@@ -8,10 +8,9 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from symgen.base.arguments import path as argument_path
-from symgen.base.errors import InputError
 from symgen.base.files import check_writable, headed, need, write_csv
 from symgen.result.contract import json_value
+from symgen.study.saving import save_study
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 
@@ -179,14 +178,7 @@ class Stress:
         InputError
             If the ending is another, matplotlib is missing for a report, or the file cannot be written.
         """
-        file = argument_path("save", path)
-        if file.suffix.lower() in (".html", ".md", ".pdf"):
-            from symgen import write_report
-
-            return write_report(self, file)
-        if file.suffix.lower() != ".csv":
-            raise InputError("save", "a file ending in .csv, .html, .md, .pdf", f"'{file}'")
-        return save_stress_csv(self, file)
+        return save_study(self, path, lambda file: save_stress_csv(self, file))
 
 
 def save_stress_csv(study: Stress, path: Path, units: bool = False) -> Path:

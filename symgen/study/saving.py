@@ -1,0 +1,46 @@
+"""Files of studies: rows as CSV, or the report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symgen.base.arguments import path as argument_path
+from symgen.base.errors import InputError
+
+if TYPE_CHECKING:
+    from symgen.study.comparison.comparison_rows import Study
+    from symgen.study.stress.stress_rows import Stress
+
+#: Endings of reports.
+REPORTS = (".html", ".md", ".pdf")
+
+
+def save_study(study: Study | Stress, path: str | PathLike[str], save_rows: Callable[[Path], Path]) -> Path:
+    """Write a study to a file, by its ending.
+
+    Parameters
+    ----------
+    study : Study or Stress
+        The study.
+    path : path
+        The file; it appears whole or not at all.
+    save_rows : callable
+        Writes the rows to a CSV file.
+
+    Raises
+    ------
+    InputError
+        If the ending is another, matplotlib is missing for a report, or the file cannot be written.
+    """
+    file = argument_path("save", path)
+    ending = file.suffix.lower()
+    if ending in REPORTS:
+        from symgen import write_report
+
+        return write_report(study, file)
+    if ending != ".csv":
+        raise InputError("save", f"a file ending in {', '.join(('.csv', *REPORTS))}", f"'{file}'")
+    return save_rows(file)
