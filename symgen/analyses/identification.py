@@ -276,9 +276,9 @@ class Identification:
         """Return the settings of a run with values of the free numbers."""
         parameters, start = dict(self.settings.parameters), dict(self.settings.start)
         options = dict(self.settings.options)
-        known = {p.name for p in self.mechanism.parameters}
+        names = {p.name for p in self.mechanism.parameters}
         for name, value in zip(self.names, x.tolist(), strict=False):
-            if name in known:
+            if name in names:
                 parameters[name] = value
             elif name.startswith("method."):
                 options[name] = value
@@ -366,8 +366,8 @@ def _in_words(row: Array, labels: Sequence[str]) -> str:
         return f"{_listed([name for name, _ in moving])} can change together without a change of what was measured"
     if all(f == 1 for f in powers):
         return f"{_listed([name for name, _ in moving])} can be multiplied by one number"
-    said = [f"{name} by {_power(f)}" for (name, _), f in zip(moving, powers, strict=True)]
-    return f"{_listed(said)} can be multiplied together, for any number z"
+    factors = [f"{name} by {_power(f)}" for (name, _), f in zip(moving, powers, strict=True)]
+    return f"{_listed(factors)} can be multiplied together, for any number z"
 
 
 def _power(f: Fraction) -> str:
@@ -398,8 +398,7 @@ def identify(
     """
     from scipy.optimize import least_squares
 
-    several = isinstance(data, list | tuple)
-    sources: list[object] = list(data) if several else [data]  # type: ignore[call-overload]  # a list or a tuple
+    sources: list[object] = list(data) if isinstance(data, list | tuple) else [data]
     if not sources:
         raise InputError("identify: data", "measured columns", "none")
     if isinstance(free, str) or not isinstance(free, Mapping):
@@ -418,7 +417,7 @@ def identify(
     if before:
         expected = "numbers that the data determine"
         raise InputError("identify: free", expected, "; ".join(before), "leave one of them at a value that is known")
-    found = least_squares(
+    solution = least_squares(
         task.residuals,
         task.start,
         jac=task.slopes,
@@ -430,19 +429,19 @@ def identify(
         gtol=1e-12,
         max_nfev=100,
     )
-    return _fit(task, found)
+    return _fit(task, solution)
 
 
-def _fit(task: Identification, found: Any) -> Fit:
+def _fit(task: Identification, solution: Any) -> Fit:
     """Return a fit with its statistics."""
     from scipy.stats import t as student
 
-    x, (residuals, slopes), labels = found.x, task.at(found.x), task.labels
+    x, (residuals, slopes), labels = solution.x, task.at(solution.x), task.labels
     sizes = np.where(x != 0.0, np.abs(x), task.sizes)
     null, notes = null_directions(slopes, sizes, labels), list[str]()
-    if found.status == 0:
-        notes.append(f"the search ended after {found.nfev} steps before it was still")
-    active = found.active_mask != 0
+    if solution.status == 0:
+        notes.append(f"the search ended after {solution.nfev} steps before it was still")
+    active = solution.active_mask != 0
     free, count = np.flatnonzero(~active), len(residuals) - len(labels)
     errors, correlations = np.full(len(x), np.nan), np.full((len(x), len(x)), np.nan)
     variance = float(residuals @ residuals) / count if count > 0 else math.nan
@@ -458,7 +457,7 @@ def _fit(task: Identification, found: Any) -> Fit:
         half = factor * errors[i]
         intervals[name] = (float(x[i] - half), float(x[i] + half))
         if active[i]:
-            low = found.active_mask[i] < 0
+            low = solution.active_mask[i] < 0
             intervals[name] = (float(x[i]), math.nan) if low else (math.nan, float(x[i]))
             notes.append(f"{name} meets its bound {x[i]:.6g}: its interval is one-sided")
         elif half > abs(x[i]) > 0.0 and not name.startswith("bias of "):

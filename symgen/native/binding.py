@@ -283,19 +283,19 @@ class _Specialised(Folding):
         """Return the statement that names elements of an array from one on."""
         first, size = self.value(s.first), self.value(s.size) if s.size is not None else None
         self.kinds[s.name] = self.kinds[s.array]
-        known = int(size.value) if isinstance(size, lang.Constant) else None
+        length = int(size.value) if isinstance(size, lang.Constant) else None
         whole = isinstance(first, lang.Constant) and first.value == 0
         meaning = self.meaning(s.array)
-        if whole and known is not None and isinstance(meaning, Room):
-            self.views[s.name] = replace(meaning, size=known)
+        if whole and length is not None and isinstance(meaning, Room):
+            self.views[s.name] = replace(meaning, size=length)
             return []
-        if known == 0 and isinstance(meaning, Room):
+        if length == 0 and isinstance(meaning, Room):
             self.views[s.name] = replace(meaning, size=0)
             return []
-        if known == 0:
+        if length == 0:
             self.views[s.name] = ConstantTable("nothing", self.kinds[s.name], ())
             return []
-        self.views[s.name] = Elements(known)
+        self.views[s.name] = Elements(length)
         return [msgspec.structs.replace(s, array=self.array(s.array), first=first, size=size)]
 
     # -- calls

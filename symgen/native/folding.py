@@ -104,7 +104,7 @@ class Folding:
         return tuple(folded)
 
     def statement(self, s: lang.Statement) -> list[lang.Statement]:
-        """Return what is left of a statement."""
+        """Return a folded statement: none, one or several."""
         if isinstance(s, lang.Assign):
             value = self.value(s.value)
             if isinstance(value, lang.Constant) and s.name in self.fixed:
@@ -142,22 +142,17 @@ class Folding:
         return [s]
 
     def branch(self, s: lang.If) -> list[lang.Statement]:
-        """Return what is left of a branch."""
+        """Return a folded branch, one of its sides where the test is constant."""
         test = self.value(s.test)
         if isinstance(test, lang.Constant):
             return list(self.body(s.then if test.value else s.otherwise))
-        then, otherwise = self.body(s.then), self.body(s.otherwise)
-        if not then and not otherwise and is_pure(test):
-            return []
-        if not then:
-            return [lang.If(lang.ScalarOperation("bool", "not", (test,)), otherwise, ())]
-        return [lang.If(test, then, otherwise)]
+        return branches(test, self.body(s.then), self.body(s.otherwise))
 
     def without_unused(self, body: tuple[lang.Statement, ...]) -> tuple[lang.Statement, ...]:
         """Return statements without assignments to variables and views that nothing reads."""
         while True:
             read = _read(body)
-            shorter = _kept(body, read)
+            shorter = _without_names(body, read)
             if shorter == body:
                 return body
             body = shorter
@@ -192,6 +187,17 @@ class Folding:
         return e
 
 
+def branches(
+    test: lang.Expression, then: tuple[lang.Statement, ...], otherwise: tuple[lang.Statement, ...]
+) -> list[lang.Statement]:
+    """Return the statement of a branch, its test negated where one side is empty, and none where both are."""
+    if not then and not otherwise and is_pure(test):
+        return []
+    if not then:
+        return [lang.If(lang.ScalarOperation("bool", "not", (test,)), otherwise, ())]
+    return [lang.If(test, then, otherwise)]
+
+
 def _is(e: lang.Expression, value: bool) -> bool:
     return isinstance(e, lang.Constant) and bool(e.value) is value
 
@@ -210,11 +216,11 @@ def _logic(name: str, first: Any, second: Any, make: Callable[[Any, Any], Any]) 
 
 def _operation(e: lang.ScalarOperation, values: tuple[Any, ...]) -> Any:
     """Return an operation on values; sums of floats stay, so that their rounding does."""
-    made = lang.ScalarOperation(e.type, e.name, values)
+    operation = lang.ScalarOperation(e.type, e.name, values)
     if e.name in ("and", "or") and e.type == "bool":
-        return _logic(e.name, values[0], values[1], lambda a, b: made)
+        return _logic(e.name, values[0], values[1], lambda a, b: operation)
     if not all(isinstance(v, lang.Constant) for v in values):
-        return made
+        return operation
     numbers = [v.value for v in values]
     if e.name in _COMPARISONS:
         return lang.Constant("bool", _COMPARISONS[e.name](*numbers))
@@ -228,7 +234,7 @@ def _operation(e: lang.ScalarOperation, values: tuple[Any, ...]) -> Any:
         return lang.Constant("float", float(numbers[0]))
     if e.name == "bool":
         return lang.Constant("bool", bool(numbers[0]))
-    return made
+    return operation
 
 
 def _read(body: tuple[lang.Statement, ...]) -> set[str]:
@@ -249,31 +255,27 @@ def arrays_in(body: tuple[lang.Statement, ...]) -> set[str]:
     return names
 
 
-def _kept(body: tuple[lang.Statement, ...], read: set[str]) -> tuple[lang.Statement, ...]:
+def _without_names(body: tuple[lang.Statement, ...], read: set[str]) -> tuple[lang.Statement, ...]:
     """Return the statements without those that only name what is not read."""
-    kept = list[lang.Statement]()
+    shorter = list[lang.Statement]()
     for s in body:
         if isinstance(s, lang.Assign) and s.name not in read:
             if isinstance(s.value, _CALLS):
-                kept.append(lang.Evaluate(s.value))
+                shorter.append(lang.Evaluate(s.value))
                 continue
             if is_pure(s.value):
                 continue
         if isinstance(s, lang.ArrayView | lang.Pick) and s.name not in read:
             continue
         if isinstance(s, lang.If):
-            then, otherwise = _kept(s.then, read), _kept(s.otherwise, read)
-            if not then and not otherwise and is_pure(s.test):
-                continue
-            s = lang.If(s.test, then, otherwise)
-            if not then:
-                s = lang.If(lang.ScalarOperation("bool", "not", (s.test,)), otherwise, ())
-        elif isinstance(s, lang.For):
-            inner = _kept(s.body, read)
+            shorter += branches(s.test, _without_names(s.then, read), _without_names(s.otherwise, read))
+            continue
+        if isinstance(s, lang.For):
+            inner = _without_names(s.body, read)
             if not inner:
                 continue
             s = msgspec.structs.replace(s, body=inner, name=s.name if s.name in read else "")
         elif isinstance(s, lang.While | lang.StatementBlock):
-            s = msgspec.structs.replace(s, body=_kept(s.body, read))
-        kept.append(s)
-    return tuple(kept)
+            s = msgspec.structs.replace(s, body=_without_names(s.body, read))
+        shorter.append(s)
+    return tuple(shorter)

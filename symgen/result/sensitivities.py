@@ -22,7 +22,7 @@ from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
 from symgen.result.labelled import Labelled
 from symgen.running.directions import named_directions
-from symgen.running.prepare import Prepared, prepare
+from symgen.running.prepare import Prepared, preparation
 from symgen.running.start_directions import StartDirections
 from symgen.runs.directions import Course, DirectedModel, Observer, Part, run_with_directions
 
@@ -64,18 +64,19 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
     elif settings.shape == "looped":
         raise InputError("sensitivities", "code of the shape 'straight'", "shape 'looped'")
     usual = settings.integrator or mechanism.defaults.integrator
-    run = prepare(mechanism, settings)
-    name = run.plan.integrator.name
-    if name not in SCHEMES and usual in (None, "auto") and "ode" in run.plan.choice.method.forms:
-        run = prepare(mechanism, replace(settings, integrator=SCHEMES[0]))
+    ready = preparation(mechanism, settings)
+    name, forms = ready.plan.integrator.name, ready.plan.choice.method.forms
+    if name not in SCHEMES and usual in (None, "auto") and "ode" in forms:
+        ready = preparation(mechanism, replace(settings, integrator=SCHEMES[0]))
         notes.append(f"{SCHEMES[0]} in place of {name}, which has no sensitivities")
         name = SCHEMES[0]
     if name not in SCHEMES:
         works = [n for n in SCHEMES if n in INTEGRATORS.names]
-        got, hint = f"'{name}'", f"with the method {run.plan.choice.method.name}, none has"
-        if "ode" in run.plan.choice.method.forms:
+        got, hint = f"'{name}'", f"with the method {ready.plan.choice.method.name}, none has"
+        if "ode" in forms:
             hint = f"take {works[0]}"
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
+    run = ready.run()
     watched = run.spec.events
     if watched is not None:
         resets = [name for name, action in zip(watched.names, watched.actions, strict=True) if action == RESET]
@@ -130,16 +131,15 @@ class Differentiated:
         return Sensitivities(Evaluated(self.run, self._start, self._course), outcome)
 
     def result(self, result: Result) -> Result:
-        """Return a result with its sensitivities, and what is to be said of them."""
-        found = self.sensitivities(result.outcome)
-        notes, reason, status = [*result.notes, *self._notes], result.reason, result.status
-        still = [name for name, moves in zip(found.names, found.moves, strict=True) if not moves]
-        warnings = [f"{name} changes nothing in this run" for name in still]
-        doubt = found.doubt(result)
+        """Return a result with its sensitivities, with notes and warnings on them."""
+        own = self.sensitivities(result.outcome)
+        notes, reason, status = (*result.notes, *self._notes), result.reason, result.status
+        still = [name for name, moves in zip(own.names, own.moves, strict=True) if not moves]
+        warnings = (*result.warnings, *(f"{name} changes nothing in this run" for name in still))
+        doubt = own.doubt(result)
         if doubt and status == "ok":
             status, reason = "unverified", doubt
-        said = (*result.warnings, *warnings)
-        return replace(result, sensitivities=found, notes=tuple(notes), warnings=said, status=status, reason=reason)
+        return replace(result, sensitivities=own, notes=notes, warnings=warnings, status=status, reason=reason)
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,8 @@ Array = NDArray[np.float64]
 _ROUNDING = 1e-8
 #: Part of the largest singular value below which a direction is none.
 _NONE = 1e-10
+#: Rates of Euler parameters in unit orientation by unit angular velocities.
+_HALVES = (0.0, 0.5, 0.0, 0.0), (0.0, 0.0, 0.5, 0.0), (0.0, 0.0, 0.0, 0.5)
 #: Part of the largest velocity by which a described one may differ from that of the start.
 _KEPT = 1e-9
 
@@ -168,11 +170,9 @@ class StartDirections:
         places = [i for i in range(info.nq) if i not in euler]
         motion[places, [j for j in range(info.nv) if j not in spun]] = 1.0
         for first, at in info.spins:
-            e = tuple(q[first : first + 4].tolist())
-            for k in range(3):
-                axis = [0.0, 0.0, 0.0, 0.0]
-                axis[k + 1] = 0.5
-                motion[first : first + 4, at + k] = composed_rotation(e, tuple(axis))  # type: ignore[arg-type]  # four numbers
+            e0, e1, e2, e3 = q[first : first + 4].tolist()
+            for k, half in enumerate(_HALVES):
+                motion[first : first + 4, at + k] = composed_rotation((e0, e1, e2, e3), half)
         return motion
 
     @cached_property
