@@ -110,7 +110,7 @@ class Model(Analysed, Shown):
         return self.mechanism.name
 
     def parameters(self, changed: Mapping[str, float] | None = None) -> dict[str, float]:
-        """Return the values of all parameters, with those of `changed` replaced.
+        """Return the values of all parameters; values in `changed` replace the described ones.
 
         Raises
         ------
@@ -338,10 +338,10 @@ class Model(Analysed, Shown):
         settings : Settings, optional
             All settings at once.
         **changes
-            Single settings by name, as listed above. ``until`` is no end, but the time in which a motion that begins
-            at rest may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the
-            tree, by their names, and `SteppedRun.bodies` has the places of bodies. Where an integrator with constant
-            steps is given no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions
+            Single settings by name, as listed above. ``until`` does not end the run; it sets the time scale
+            of a motion that starts at rest. In joint coordinates the state has the names of the tree's joints, and
+            `SteppedRun.bodies` has the places of bodies. With an integrator of constant steps and no ``step``, each
+            call of `SteppedRun.step` is one step. Settings of outputs, of repetitions
             and of second runs mean nothing here and are refused.
 
         Raises

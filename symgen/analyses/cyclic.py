@@ -23,8 +23,7 @@ NO_PART = 1e-9
 def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
     """Find a motion in which cyclic coordinates turn on at the speed of the start and nothing else changes.
 
-    Angles of bodies in the plane are absolute, so that what a turning body carries turns along with it, and with what a
-    driver turns, which is no coordinate of the tree.
+    Planar angles are absolute: bodies carried by a turning body or by a driven joint turn too.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Formulas of joints, forces and outputs with a kink or a jump at a state: their derivatives are those of one side.
+"""Formulas of joints, forces and outputs with a kink or a jump at a state: their derivatives are one-sided.
 
 Formulas that compare something are evaluated beside the state. Where one has a derivative, what is left of differences
 beyond straight lines falls with the square of the step; at a kink it falls with the step, at a jump not at all.

@@ -58,9 +58,9 @@ class Equilibrium:
     stability : {"stable", "unstable", "indifferent"}
         By the reduced stiffness, without dampers; in a steady motion by the eigenvalues of its linear system.
     omega_squared : tuple of float
-        Eigenvalues of the reduced stiffness over the reduced mass [1/s^2], in increasing order; of complex ones, where
-        forces that follow a body let it flutter, the real parts. In a steady motion the stiffness is that at constant
-        speeds: no frequencies where one of these is free to change.
+        Eigenvalues of the reduced stiffness over the reduced mass [1/s^2], in increasing order; for complex
+        eigenvalues (flutter under follower forces) the real parts. In a steady motion the stiffness holds at constant
+        speeds: it gives no frequencies where a speed is free to change.
     residual : float
         Largest unbalanced force [N, N m].
     iterations : int

@@ -123,7 +123,7 @@ class Sparse(Yardsticks):
         return loads / self.gaps
 
     def wound(self, y: Array) -> Sparse:
-        """Return the same: angles of looped code are those of bodies."""
+        """Return the same: looped code counts no turns beside the angles of bodies."""
         return self
 
 
@@ -239,7 +239,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
 
 
 def _follows(stiffness: Any, rows: Any) -> bool:
-    """Whether the stiffness is not symmetric along what rows leave free, as that of forces that follow a body.
+    """Whether the stiffness along free directions is not symmetric, as with forces that follow a body.
 
     What is not symmetric beside it is the rows' to take, and is no part of any motion: seen by some motions at random.
     """

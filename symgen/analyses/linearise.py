@@ -47,11 +47,11 @@ class LinearSystem:
     left_out : tuple of str
         Outputs that depend on other quantities than the states, such as a cyclic coordinate.
     parameters : tuple of str
-        Those of the inputs that are parameters: constants, changed once and for all while the states stay.
+        The inputs that are parameters: constants, changed once and for all while the states stay.
     notes : tuple of str
         Forces and outputs that have no derivative at that state, as of `symgen.analyses.edges`.
     poles : tuple of complex
-        Eigenvalues with more digits than A alone gives them; those of A without.
+        Eigenvalues with more digits than A alone gives them; eigenvalues of A where there are no better ones.
     """
 
     A: Array

@@ -185,9 +185,9 @@ def _followed(before: Sequence[Complex], now: Complex, further: float = 0.0) -> 
 class _Search:
     """The search for values at which eigenvalues pass the imaginary axis.
 
-    In the order of their real parts eigenvalues are continuous functions of the parameter, whichever meet and part on
-    the way: where more of them are on the right at one end of a span than at the other, one of these functions passes
-    zero between. Branches that pass both ways within a span are parted from each other by shorter spans.
+    Sorted by real part, eigenvalues are continuous in the parameter even where they cross: where more of them are on
+    the right at one end of a span than at the other, one passes zero between. Shorter spans separate branches that
+    pass both ways within a span.
     """
 
     eigenvalues: Callable[[float], Complex]

@@ -218,7 +218,7 @@ def _shares(
 def _of_bodies(
     x: StateTangent, bodies: Subject, vectors: Array | Complex
 ) -> tuple[Array, Array | Complex, Array | Complex]:
-    """Return state and changes of bodies' own coordinates from those of joints."""
+    """Return state and changes of bodies' own coordinates from state and changes of joint coordinates."""
     y, functions = np.zeros_like(bodies.y), [x.function(x.subject.form.functions[n][0]) for n in bodies.state_names]
     y[: len(functions)] = [value for value, _ in functions]
     changes = np.array([change[: x.size] for _, change in functions]) @ vectors

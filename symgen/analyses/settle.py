@@ -120,7 +120,7 @@ class DenseStatics:
         return np.append(self.subject.gaps, [self.subject.length if unit == "m" else 1.0 for unit in units])
 
     def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
-        """Return D^T lambda - f, with M v' where velocities are kept, and by how much each row is open."""
+        """Return the residuals of the force balance D^T lambda - f, with M v' at constant velocities, and of the rows."""
         return self._parts(y, lam)[:2]
 
     def derivatives(self, y: Array, lam: Array) -> tuple[Array, Array, Array]:
@@ -128,7 +128,7 @@ class DenseStatics:
         return self._parts(y, lam)[2:]
 
     def whole(self, work: Array | None) -> Array:
-        """Return multipliers of all rows from the work of those in D, those of what is held last; 0 without."""
+        """Return the multipliers of all rows, held quantities last; 0 if nothing is held."""
         multipliers = np.zeros(len(self._active))
         multipliers[self._active] = 0.0 if work is None else work
         return np.asarray(multipliers / self._units())
@@ -235,7 +235,7 @@ def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -
 def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
     """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
 
-    Where forces have no potential, as those of a controller, downhill may lead nowhere: Newton's method alone follows.
+    Where forces have no potential, such as a controller's, downhill may lead nowhere: Newton's method alone follows.
     Beams come to rest by load steps, if these lead somewhere: their stiffness along them is so large beside that of
     bending that steps downhill are short.
 

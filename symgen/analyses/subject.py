@@ -95,7 +95,7 @@ class Subject(Yardsticks):
     Attributes
     ----------
     mechanism : Mechanism
-        With its tree where the state is that of joints.
+        With its tree where the state consists of joint coordinates.
     compiled : CompiledModel
         Names, sizes and sections; its functions close starts.
     form : DescriptorForm
@@ -111,7 +111,7 @@ class Subject(Yardsticks):
     by : tuple of str
         Parameters that the form is differentiated by besides the inputs.
     inputs : tuple of str
-        Those of the file: a mechanism in which formulas stand for them has switches as well.
+        Inputs of the file: a mechanism in which formulas stand for them has switches as well.
     """
 
     mechanism: Mechanism
@@ -138,7 +138,7 @@ class Subject(Yardsticks):
 
     @property
     def coordinates(self) -> str:
-        """``absolute``, or ``joint`` where the state is that of a tree."""
+        """``absolute``, or ``joint`` where the state belongs to a tree."""
         return "absolute" if self.mechanism.topology is None else "joint"
 
     @property
@@ -207,7 +207,7 @@ class Subject(Yardsticks):
         return d
 
     def lost(self, d: Array) -> int:
-        """Return by how much the rank of D is below that of positions nearby: above 0 at a singular position."""
+        """Return by how much the rank of D is below its rank at positions nearby: above 0 at a singular position."""
         return int(self.m - np.count_nonzero(self.redundant) - (self.nv - self.split(d)[0].shape[1]))
 
     def singular(self, d: Array) -> tuple[str, ...]:
@@ -286,7 +286,7 @@ class Subject(Yardsticks):
         return self.compiled.info.coordinates[at].unit if space == "q" else self.form.units[name]
 
     def named(self, y: Array) -> dict[str, float]:
-        """Return the coordinates by name: the state's own, those of bodies where a tree carries them, and of joints."""
+        """Return the coordinates by name: of the state, of bodies where a tree carries them, and of joints."""
         values = self.evaluated(y).value("functions")
         shown = {f"{b.name}.{c}" for b in self.mechanism.bodies for c in b.coordinates}
         shown |= {f"{joint.name}.{label}" for joint in self.mechanism.joints for label, _ in joint.coordinates}

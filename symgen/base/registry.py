@@ -149,7 +149,7 @@ class Registry(Generic[T]):
             return file.readline().strip('"\n')
 
     def listing(self) -> Listing:
-        """Return every name with its line, those of installed packages among them."""
+        """Return every name with its line, names from installed packages included."""
         load_installed()
         return Listing((name, self.summary(name).rstrip(".")) for name in self.names)
 

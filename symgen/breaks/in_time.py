@@ -54,7 +54,7 @@ class InTime:
             return math.nan
 
     def over(self, e: Expr, times: Array) -> Array:
-        """Return the values of a formula at many times, equal to those of `at`."""
+        """Return the values of a formula at many times, equal to the values that `at` gives."""
         return np.broadcast_to(Columns({**self._values, "t": times}, self._tables).value(e), len(times))
 
     def crossings(self, jump: Jump, until: float, first: float = 0.0) -> list[float]:

@@ -1,8 +1,8 @@
 """The mechanisms included in symgen: TOML files, and modules for those with sizes.
 
 A file ``name.toml`` is the entry ``name``. A module ``n_four_bar.py`` is the sized entry ``n-four-bar``, its `KIND` a
-`Sized` that makes the description for a size. Entries are of two groups: those of this folder are studied with every
-method, in the gallery and in ``generated/``; those of the folder ``machines``, with motor and load, are to start from.
+`Sized` that makes the description for a size. Entries are of two groups: entries of this folder are studied with every
+method, in the gallery and in ``generated/``; the folder ``machines`` has entries with motor and load to start from.
 
 In: a name, with a size for sized entries.
 Out: the description as a nested dictionary, not yet validated.

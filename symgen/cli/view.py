@@ -66,7 +66,7 @@ def command(
     as_json: bool,
     **values: Any,
 ) -> int:
-    """Write a page or film of a motion: that of MODEL, of one of its modes, or of a saved result.
+    """Write a page or film of a motion of MODEL, of one of its modes, or of a saved result.
 
     The page is one file that works offline: play, scrub, loop, traces of points, forces, plots with a cursor. Unless
     the equations are too large, the page contains them, and sliders of parameters change the motion.

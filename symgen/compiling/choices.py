@@ -202,7 +202,7 @@ GAIN = 0.01
 
 
 def on_tree(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism whose state is that of the joints of its tree; those with ``cut = true`` carry nothing."""
+    """Return a mechanism in the coordinates of its tree's joints; joints with ``cut = true`` carry nothing."""
     first = spanning_tree(mechanism, mechanism.cuts)
     if not loops_of(mechanism, first):
         return with_joint_coordinates(mechanism, first)

@@ -96,7 +96,7 @@ def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
 
 
 def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event]) -> Effects | None:
-    """Return what events change, or None."""
+    """Return the effects of events, or None where events change nothing."""
     states = {state.name for state in mechanism.states}
     parts = dict[int, tuple[list[tuple[Expr, Expr]], list[tuple[Expr, Expr]]]]()
     for i, event in enumerate(events):
@@ -129,9 +129,9 @@ def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[E
 def switch_of(passed: Discontinuity, rtol: float) -> Switch:
     """Return a discontinuity in the form for loops.
 
-    A stage of a step of which a part x is behind a kink of the k-th derivative is off by the k-th power of x, which may
-    be `rtol`. Points of a table that matter less than `rtol` are left out: many of these together are a smooth curve,
-    which the error estimate sees.
+    If a fraction x of a step lies behind a jump of the k-th derivative, its stages err by x^k, which may be `rtol`.
+    Points of a table that matter less than `rtol` are left out: many of them together are a smooth curve, which the
+    error estimate sees.
     """
     table = passed.table
     if table is None:

@@ -152,7 +152,7 @@ def compile_side(
 
 
 def can_integrate(compiled: CompiledModel) -> bool:
-    """Whether states of a compiled model can hold integrals of outputs: those of methods with momenta cannot."""
+    """Whether states of a compiled model can hold integrals of outputs; in methods with momenta they cannot."""
     return not hasattr(compiled.law_module, "rates")
 
 

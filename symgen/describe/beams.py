@@ -235,7 +235,7 @@ class Beams:
     def _on_nodes(self, scope: Scope, table: dict[str, Any], section: str) -> dict[str, Any]:
         """Return the table of a joint or force with beams and places on them replaced by nodes.
 
-        The centre of a body that ends of beams are clamped to is that of the body as it is described.
+        Clamped beams do not move a body's centre of mass.
         """
         pair, at = isinstance(table.get("between"), list | tuple), table.get("at")
         bodies = list(table["between"]) if pair else [table.get("body")]

@@ -68,7 +68,7 @@ class EventKeys(TypedDict, total=False):
 
 
 class JointKeys(TypedDict, total=False):
-    """Keys that most kinds of joints have; others are those of each kind."""
+    """Keys that most kinds of joints have; each kind adds its own."""
 
     between: Iterable[str]
     at: Point
@@ -78,7 +78,7 @@ class JointKeys(TypedDict, total=False):
 
 
 class ForceKeys(TypedDict, total=False):
-    """Keys that most kinds of forces have; others are those of each kind."""
+    """Keys that most kinds of forces have; each kind adds its own."""
 
     between: Iterable[str]
     body: str

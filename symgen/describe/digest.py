@@ -90,7 +90,7 @@ def identity(mechanism: Mechanism) -> str:
 
 
 def _table(table: Table) -> list[str]:
-    """Return the content of a table; that of a linear one is unchanged from when all tables were linear."""
+    """Return the content of a table; a linear one has the content that it had when all tables were linear."""
     how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]
     return [table.name, _text(table.x), _text(table.y), *how]
 

@@ -113,7 +113,7 @@ def joint_names(mechanism: Mechanism) -> dict[str, str]:
 
 @remembered
 def _names(mechanism: Mechanism) -> tuple[dict[str, str], dict[str, str], dict[str, str]]:
-    """Return the names that a start may hold, in full; those of bodies alone; joint coordinates that bodies have."""
+    """Return the full names that a start may hold, names of bodies alone, and joint coordinates that bodies have."""
     bodies = {f"{b.name}.{n}": f"{b.name}.{n}" for b in mechanism.bodies for n in (*b.coordinates, *b.speeds)}
     joints, same = dict[str, str](), dict[str, str]()
     for joint in mechanism.joints:

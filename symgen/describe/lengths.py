@@ -39,7 +39,7 @@ def longest_body(mechanism: Mechanism, parameters: Mapping[str, float]) -> float
 
 
 def datum_of(mechanism: Mechanism, numbers: Numbers) -> list[Any]:
-    """Return what coordinates are measured from where their sizes are compared: a place of the mechanism, 0 for angles.
+    """Return the origin from which sizes of coordinates are compared: a place of the mechanism, 0 for angles.
 
     It is the first point of the ground that a joint or an element has, without any the place of the first body. So no
     decision depends on where the origin of coordinates lies.

@@ -171,15 +171,15 @@ class Articulation(msgspec.Struct, frozen=True):
     a, b : Marker
         A point of the first and of the second body.
     turn : {"fixed", "axis", "cross", "ball"}
-        Not; by an angle, in the plane that of the second body itself, in space about the third direction of the frames;
-        about the third direction of the first frame and then about that of the second, which cross; in any way.
+        `fixed`: no rotation. `axis`: one angle; in the plane the second body's, in space about the third direction.
+        `cross`: two angles, about the third direction of the first frame, then of the second. `ball`: any rotation.
     slides : tuple of Direction
         Directions of free displacements.
     of_a, of_b : tuple of Direction
         In space, frames of three directions that coincide where the angle is 0; of a cross, its axes and first
         directions.
     angle : Expr
-        In the plane, where nothing turns: angle of the second body less that of the first [rad].
+        In the plane, where nothing turns: angle of the second body relative to the first [rad].
     screw : tuple of Expr
         Displacement along the axis per radian, and at angle 0, where it depends on the angle.
     """

@@ -47,7 +47,7 @@ def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, s
 
 @remembered
 def _repeats(mechanism: Mechanism) -> dict[tuple[int, int], tuple[str, str]]:
-    """Return the rows that repeat an earlier one, by joint and place in it: their names with those of the others."""
+    """Return the rows that repeat an earlier one, by joint and place in it: their names and the earlier rows'."""
     contents = _Contents(mechanism)
     names: dict[object, str] = {}
     repeats: dict[tuple[int, int], tuple[str, str]] = {}
@@ -100,7 +100,7 @@ class _Contents:
         return type(value).__name__, *fields
 
     def sum(self, value: Sum | Angle) -> Any:
-        """Return the terms of a sum, those of its parts and angles of bodies put together."""
+        """Return the terms of a sum: terms of its parts and angles of bodies together."""
         g = self.formulas.graph
         terms: dict[Any, int] = {}
 

@@ -1,4 +1,4 @@
-"""Senses of directions that joints hold parallel: rows are fulfilled half a turn away as well.
+"""Senses of directions that joints hold parallel: the rows also hold with the axis reversed.
 
 Products of directions that are zero make them perpendicular, but do not fix their sense. Closing goes to
 what is nearest, so that a body that is described turned too far is held the wrong way round.

@@ -160,7 +160,7 @@ def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...],
 
 
 def with_joint_coordinates(mechanism: Mechanism, topology: Topology) -> Mechanism:
-    """Return a mechanism whose state is that of the joints of a tree, which then have no rows."""
+    """Return the mechanism in joint coordinates; joints of the tree have no rows."""
     inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
     joints = tuple(msgspec.structs.replace(j, rows=()) if j.name in inside else j for j in mechanism.joints)
     return msgspec.structs.replace(mechanism, joints=joints, topology=topology)

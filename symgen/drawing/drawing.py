@@ -89,7 +89,7 @@ class Drawing:
     ) -> Drawing:
         """Return the picture of a mechanism in motion: its start, a few later positions, and paths.
 
-        Paths are those of points that no joint ties, or else those of the centres of mass.
+        Paths are drawn of points that no joint ties, or else of the centres of mass.
 
         Parameters
         ----------

@@ -87,7 +87,7 @@ def _kind(pen: Pen, force: Force) -> str:
 
 
 def _turning(pen: Pen, force: Force) -> list[Mark]:
-    """Return an arrow about the axis of a torque, or a spiral about that of a torsional spring."""
+    """Return an arrow about the axis of a torque, or a spiral about the axis of a torsional spring."""
     numbers = pen.numbers
     joints = [j for j in numbers.mechanism.joints if set(j.bodies) == set(force.bodies) and numbers.markers(j.rows)]
     body = next((b for b in force.bodies if b in numbers.index and b != "ground"), force.bodies[0])
@@ -140,7 +140,7 @@ def _direction(pen: Pen, force: Force) -> tuple[Array, int]:
 
 
 def _turns_with(pen: Pen, force: Force) -> tuple[int, Array]:
-    """Return the number of the body that a force turns with, and a force in its axes; else that of the ground.
+    """Return the number of the body that a force turns with (else of the ground), and the force in its axes.
 
     Formulas decide: in the plane a force that turns with its body has components along the axes of the ground too.
     """

@@ -19,7 +19,7 @@ Z = np.array([0.0, 0.0, 1.0])
 
 
 def plain(pen: Pen, joint: Joint) -> list[Mark]:
-    """Return the points that a joint ties, for kinds without a symbol; of rows those of bodies."""
+    """Return the points that a joint ties, for kinds without a symbol; for rows, points of bodies."""
     places = pen.numbers.markers(joint)
     if joint.kind == "rows":  # formulas read points as they are seen from the origin
         places = [place for place in places if place.body != GROUNDED]
@@ -27,7 +27,7 @@ def plain(pen: Pen, joint: Joint) -> list[Mark]:
 
 
 def ends_of(numbers: PlacedMechanism, joint: Joint) -> tuple[BodyPoint, BodyPoint]:
-    """Return the points of both bodies of a joint; those of its first rows, in the order of its bodies."""
+    """Return the points of both bodies of a joint, from its first rows, in the order of its bodies."""
     articulation = articulation_of(joint)
     if articulation is not None:
         return numbers.place(articulation.a), numbers.place(articulation.b)

@@ -96,7 +96,7 @@ def build_scene(
 
 
 def _points(numbers: PlacedMechanism) -> dict[str, list[Point]]:
-    """Return the points of each body from its centre of mass: those of joints and forces, and those with names."""
+    """Return the points of each body from its centre of mass: points of joints and forces, and named points."""
     by_body: dict[str, dict[Point, None]] = {frame.name: {} for frame in numbers.frames}
     names = [frame.name for frame in numbers.frames]
     for element in (*numbers.mechanism.joints, *numbers.mechanism.forces):

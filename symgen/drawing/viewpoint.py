@@ -47,7 +47,7 @@ def viewpoint(scene: Scene, q: Array) -> View:
 
 
 def _points(mark: Mark, poses: Poses) -> list[Array]:
-    """Return points all over a mark in the ground frame; those of a bar are along its axis."""
+    """Return points all over a mark in the ground frame; for a bar, points along its axis."""
     if isinstance(mark, Tube):
         share = np.linspace(0.0, 1.0, ALONG)[:, None]
         return [poses.out(mark.body, (1.0 - share) * np.array(mark.a) + share * np.array(mark.b))]

@@ -56,7 +56,7 @@ def new_past(events: int, functions: int, width: int, nw: int, until: float) -> 
 
 @exact()
 def add_time(past: Any, which: int, t: float) -> None:
-    """Add a time to those of an event, or of all where `which` is the number of events."""
+    """Add a time to the times of an event, or of all events where `which` is their number."""
     times, counts, first = past.times, past.counts, OF_EVENT * which
     size, count = (OF_ALL if which == counts.shape[0] - 1 else OF_EVENT), counts[which]
     if count > 0 and times[first + count - 1] == t:  # several resets may share a time

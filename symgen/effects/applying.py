@@ -56,7 +56,7 @@ def new_effect_work(layout: Any, changes: Any, width: int, nw: int) -> Any:
 
 @exact()
 def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> None:
-    """Write the rows of velocities that get values, and the velocities of bodies by those of the state.
+    """Write the rows of velocities that get values, and the velocities of bodies by the state's velocities.
 
     Both are linear in v: their coefficients are differences of values at unit velocities and at rest.
     """

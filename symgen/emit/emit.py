@@ -156,7 +156,7 @@ def version_line(digest: str) -> str:
 
 
 def law_header(info: LawInfo, summary: str, reference: str, source: str, place: str = "p[{}]") -> list[str]:
-    """Return the lines of a law's docstring; `source` names the origin, `place` is that of the method's parameters."""
+    """Return the lines of a law's docstring; `source` names the origin, `place` locates the method's parameters."""
     parameters = enumerate(info.parameters, info.parameter_offset)
     return [
         *(f"{capitalised(summary)}.", reference, source),
@@ -197,7 +197,7 @@ class LiteralLayout(PartsLayout):
 
 
 def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[str]:
-    """Return the names of functions of tables; those of straight lines have a slope where it is used."""
+    """Return the names of functions of tables; piecewise linear tables have a slope where it is used."""
     return [table_name(t.name, what) for t in tables for what in DERIVATIVES[: None if t.pieces else 1 + slopes]]
 
 
@@ -235,7 +235,7 @@ def straight(
     target: str = "cpu",
     further: Names | None = None,
 ) -> list[ModulePiece]:
-    """Return blocks as functions of straight lines; `further` names are added to those of q, v and p of `equations`."""
+    """Return blocks as straight-line functions; `further` names are added to the names of q, v and p of `equations`."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
@@ -295,7 +295,7 @@ _FOLLOWED = {
 
 
 def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> str:
-    """Return the source of a law's module whose right-hand side has rates of integrals after that of the work.
+    """Return the source of a law's module whose right-hand side has rates of integrals after the rate of the work.
 
     Parameters
     ----------

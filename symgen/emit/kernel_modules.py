@@ -180,7 +180,7 @@ class FormAccess(InstanceAccess):
         return self.unknown("out", (), target.space, target.index)
 
     def unknown(self, array: str, first: tuple[str, ...], group: str, index: int) -> str:
-        """Return an equation or unknown among those of a stage."""
+        """Return the place of an equation or unknown within its stage."""
         if group in ("q", "v"):
             frame, place = self.velocity(index, int(group == "v"))
             return self.element(array, *first, *(("nq",) if group == "v" else ()), f"{group}{frame}", plus=place)

@@ -81,7 +81,7 @@ class Parts:
         }
 
     def add(self, part: str, role: str = "", **roles: str) -> None:
-        """Print the functions of a template; `roles` are those of single functions, where they have others."""
+        """Print the functions of a template; `roles` holds roles of single functions that differ."""
         first = len(self.pieces)
         render(f"parts/{part}.j2", self.values)
         self.pieces[first:] = [(roles.get(code.name, role), code) for _, code in self.pieces[first:]]

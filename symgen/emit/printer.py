@@ -109,7 +109,7 @@ class LaneAccess(ElementAccess):
     lanes: int
 
     def element(self, array: str, index: int) -> str:
-        """Return an element of an array of one run as that of lane ``lane``."""
+        """Return an element of an array of one run as the element of lane ``lane``."""
         return f"z[{(self.bases[array] + index) * self.lanes} + lane]"
 
     def function(self, name: str) -> str:

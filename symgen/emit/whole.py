@@ -141,9 +141,9 @@ def model_name(name: str) -> str:
 
 
 def with_own_names(groups: Sequence[Sequence[ModulePiece]], origins: Origins) -> list[ModulePiece]:
-    """Return functions of several modules as those of one: of two with the same name, the earlier is renamed.
+    """Return functions of several modules as one module: of two with the same name, the earlier is renamed.
 
-    A law has its own `geometry` and `spread` where its metric is not the model's, and its own `rhs` around that of
+    A law has its own `geometry` and `spread` where its metric is not the model's, and its own `rhs` around the one for
     accelerations where dependent coordinates are closed first.
 
     Parameters

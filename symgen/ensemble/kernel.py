@@ -42,7 +42,7 @@ class Runs(Protocol):
 
 @dataclass(frozen=True)
 class _Prepared:
-    """A compiled model of bodies with its start, its parameters but for those of rows, and what runs it."""
+    """A compiled model of bodies with its start, the parameters that all rows share, and its runner."""
 
     compiled: CompiledModel
     assembly: Assembly

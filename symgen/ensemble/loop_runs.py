@@ -134,7 +134,7 @@ class LoopRuns:
         return bool(done == len(chunk.selected))
 
     def _effects(self, watched: Watched, width: int, nw: int) -> Any:
-        """Return what events change, and memory for one thread."""
+        """Return the effects of events, and memory for one thread."""
         effects, events = watched.effects, len(watched.names)
         past = new_past(events, events + len(watched.switches), width, nw, self.recipe.spec.until)
         chosen, resets = np.zeros(events, dtype=np.int64), effects.chosen(list(effects.effects))
@@ -183,9 +183,9 @@ class TreeRuns:
     Attributes
     ----------
     carried : Carried
-        Starts of bodies as those of the tree.
+        Starts of bodies mapped to the tree.
     p : Array
-        Parameters of the tree, those of a row left out.
+        Parameters of the tree that all rows share.
     loop : LoopRuns
         Of the tree.
     """
@@ -212,7 +212,7 @@ class TreeRuns:
         return True
 
     def _turn(self, selected: Integers, alike: Array, values: Array) -> None:
-        """Have Euler parameters, of two signs, go on from those of the start."""
+        """Have Euler parameters, which have two signs, go on from the start's."""
         at = {q.column: i for i, q in enumerate(self.loop.recipe.quantities) if q.source == e.STATE}
         for (first, _), products in zip(self.carried.bodies.info.spins, alike.T, strict=True):
             columns = [at[k] for k in range(first, first + 4) if k in at]

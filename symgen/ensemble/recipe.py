@@ -139,7 +139,7 @@ class EventPlan:
 
     @property
     def width(self) -> int:
-        """Numbers that each run leaves beside those of every ensemble."""
+        """Numbers that each run leaves beside the numbers of every ensemble."""
         return e.HEAD_OF_EVENTS + e.OF_EVENT * len(self.events) if self.events else 0
 
     @property
@@ -232,7 +232,7 @@ class Recipe:
 
     @property
     def columns(self) -> tuple[Signal, ...]:
-        """Columns that loops write: the quantities, or those of them that loops have and the inputs of the others."""
+        """Columns that loops write: quantities that loops have, and inputs of the others."""
         if self.measures is None:
             return self.quantities
         return (*(q for q in self.quantities if q.source < SIDE), *self.measures.reads)

@@ -1,7 +1,7 @@
 """Which quantities an ensemble keeps, and what its parts are called in data sets and tables.
 
-Names are those of results and data frames. What a mechanism names gives way to what all have: a parameter may be called
-``steps``, an output ``end``, and each run has numbers of these names besides.
+Names agree with results and data frames. Quantities of every run take precedence over equal names in the file: a
+parameter may be called ``steps``, an output ``end``, and each run has numbers of these names besides.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def of_number(name: str) -> str:
 
 
 def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
-    """Return the names of quantities: an output may have a name that is taken, or that of what varies."""
+    """Return the names of quantities; an output may bear a name in use, or the name of what varies."""
     taken = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
     labels = list[str]()
     for name in names:
@@ -89,7 +89,7 @@ def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]
 
 
 def of_varied(name: str, axis: Axis) -> str:
-    """Return the label of a name that varies: that of its dimension, or where names vary together one like it."""
+    """Return the label of a name that varies: its dimension's, or where names vary together one like it."""
     label = axis.dimension if not axis.together else f"{name}(0)" if "." in name else name
     return f"parameter.{label}" if label in _TAKEN else label
 
@@ -100,7 +100,7 @@ def of_dimension(axis: Axis) -> str:
 
 
 def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:
-    """Return the numbers that each run leaves of events: name -> (column behind those of every ensemble, unit)."""
+    """Return the numbers that each run leaves of events: name -> (column behind the common ones, unit)."""
     first = e.N_SUMMARY + e.HEAD_OF_EVENTS
     return {
         f"event.{name}.{what}": (first + e.OF_EVENT * i + k, unit)

@@ -134,7 +134,7 @@ class Sweep:
         return kinds.most_common(most)
 
     def common_warnings(self) -> list[tuple[str, int]]:
-        """Return one of the warnings of each kind, that of the first run, with the number of runs it is said of."""
+        """Return the first warning of each kind and the number of runs that have it."""
         first, count = dict[str, str](), Counter[str]()
         for sentences, runs in Counter(self.warnings).items():  # most have none, or the same
             for kind, sentence in {_FIGURES.sub("", sentence): sentence for sentence in sentences}.items():

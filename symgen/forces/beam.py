@@ -25,7 +25,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     at : pair of points
         The ends of the element, origins of the two frames.
     axis : direction, or pair of directions
-        Along the beam at its ends: in the frame of each body; or in that of the first one, from which the second one
+        Along the beam at its ends: in the frame of each body; or in the first body's frame, from which the second one
         follows by the positions at the start and the curvature.
     reference : pair of directions
         In space, direction y of the section in the frame of each body.
@@ -42,7 +42,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     curvature : scalar, or three
         Of the unloaded element [1/m]; in space twist and curvatures about y and z. 0 by default.
     damping : scalar
-        Time tau of a Kelvin-Voigt material: stresses are those of the strain plus tau times its rate [s]; 0 by default.
+        Time tau of a Kelvin-Voigt material: stress follows strain plus tau times its rate [s]; 0 by default.
 
     Notes
     -----
@@ -85,7 +85,7 @@ class Beam(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         return Force(scope.name, scope.kind, (a, b), (), (flexure,))
 
     def _compliances(self, scope: Scope) -> tuple[Expr, ...]:
-        """Return 1 / E A, those of shear, 1 / G J in space, and those of bending."""
+        """Return the compliances: 1 / E A, shear, 1 / G J in space, and bending."""
         across, compliances = 2 if scope.spatial else 1, list[Expr]()
         for key in ("axial", "shear", "torsion", "bending"):
             value: float | str | tuple[float | str, ...] | None = getattr(self, key)

@@ -48,7 +48,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         In space: z and x axis of the frames in the bodies' frames; the first body's own axes by default. They coincide
         where the bushing is unloaded: as the bodies start, or for each body as given.
     angle : scalar
-        In the plane: angle of the second body less that of the first where the bushing is unloaded [rad]; 0 by default.
+        In the plane: angle of the second body relative to the first where it is unloaded [rad]; 0 by default.
     stiffness : list of 6 or six rows, in the plane of 3 or three rows
         Diagonal or whole of a symmetric matrix: [N/m] for translations, [N m/rad] for rotations, [N/rad] between the
         two; 0 by default.
@@ -57,7 +57,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 
     Notes
     -----
-    In space the six displacements u are those of the second frame's origin along the first frame's axes, or the
+    In space the six displacements u are the second frame's origin along the first frame's axes, or the
     ground's [m], and half the vector of R - R^T of the rotation R of the second frame against the first: for small
     rotations the angles, generally the axis times the sine [rad], so that rotations should stay well below 90 degrees.
     In the plane they are two displacements [m] and the angle [rad], turns counted. The potential is u^T K u / 2, and
@@ -98,7 +98,7 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         return Force(scope.name, scope.kind, (a, b), tuple(efforts))
 
     def _displacements(self, scope: Scope, bodies: tuple[str, str], turning: bool) -> tuple[Measure, ...]:
-        """Return the displacements, those of rotations only where an effort acts on them."""
+        """Return the displacements; rotations only where an effort acts on them."""
         ends = scope.marker("at", bodies[0], self.at[0]), scope.marker("at", bodies[1], self.at[1])
         grounded = self.frame == "ground"
         directions = axes(GROUND if grounded else bodies[0], scope.dimension)

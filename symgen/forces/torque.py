@@ -23,11 +23,11 @@ class Torque(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     reaction : body name
         The body that receives the opposite; the ground by default.
     torque : function of state, or in space vector of them
-        In the plane positive counter-clockwise on `body` [N m]; may use ``angle`` (of `body` less that of `reaction`
+        In the plane positive counter-clockwise on `body` [N m]; may use ``angle`` (of `body` relative to `reaction`
         [rad]) and its rate ``rate`` [rad/s] besides t, parameters and body coordinates. In space three components, or
         with `joint` one function, which may use ``angle`` and ``rate`` of the joint.
     frame : str
-        In space: axes of the components, ``"ground"`` by default, or ``"body"`` for those of `body`.
+        In space: axes of the components, ``"ground"`` by default, or ``"body"``: axes of `body`.
     joint : joint name
         In space, in place of `body`: the torque turns the joint's second body forward, and the first one backward.
     coordinate : str

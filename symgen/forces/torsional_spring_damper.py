@@ -17,7 +17,7 @@ from symgen.vocabulary.measures import Angle, Dot, Effort, Measure, Spin, Sum, a
 
 
 class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A spring, a damper and an actuator along the angle of the second body less that of the first, turns counted.
+    """A spring, a damper and an actuator along the angle of the second body relative to the first, turns counted.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     Notes
     -----
     The torque on the second body is -k (angle - free_angle) - c rate - dU/d angle + actuator; the spring and the
-    potential count as conservative. In a spherical joint the damping is that of the relative angular velocity, and the
+    potential count as conservative. In a spherical joint the damping opposes the relative angular velocity, and the
     stiffness has the potential k angle^2 / 2, which is singular half a turn away.
     """
 
@@ -57,7 +57,7 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     potential: Potential = 0.0
 
     def build(self, scope: Scope) -> Force:
-        """Resolve to an effort along the angle between the bodies, in a spherical joint to those of a ball."""
+        """Resolve to an effort along the angle between the bodies, in a spherical joint to efforts of a ball."""
         if scope.spatial and self.joint is not None and scope.joint("joint", self.joint).kind == "spherical":
             return self._of_ball(scope, scope.joint("joint", self.joint))
         bodies, angle = self._angle(scope)

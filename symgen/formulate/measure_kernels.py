@@ -92,7 +92,7 @@ def _direction_product(f: Frames, k: Constants) -> Any:
 
 
 def _spin(f: Frames, k: Constants) -> Any:
-    """Relative angular velocity along a direction; that of the direction's own body stays in body axes."""
+    """Relative angular velocity along a direction; the velocity of the direction's own body stays in body axes."""
     a, b, along = _spatial(f)
     total = sp.S.Zero
     for body, sign in ((b, 1), (a, -1)):

@@ -342,7 +342,7 @@ class ModelNodes(Formulas):
         return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias)
 
     def place_of_turn(self, m: Measure) -> int:
-        """Return the slot of an angle in the section ``winding``: after those of the angles derived before."""
+        """Return the slot of an angle in the section ``winding``: after the angles derived before."""
         return len(self.windings)
 
     def _angle(self, m: Angle) -> DerivedMeasure:

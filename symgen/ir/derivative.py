@@ -30,8 +30,8 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
 
     Notes
     -----
-    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; the slope of straight
-    lines is that of the one below the argument. Where a root, a power, ``asin`` or ``acos`` rises without bound it
+    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is one-sided; the slope of straight
+    lines is the slope below the argument. Where a root, a power, ``asin`` or ``acos`` rises without bound it
     is a large number, which vanishes where its arguments do not change.
     """
     variables = set(inputs)
@@ -65,7 +65,7 @@ def _chain(
 
 
 def _chosen(g: Graph, op: str, args: tuple[int, ...], parts: list[Mapping[Key, int]]) -> Mapping[Key, int]:
-    """Return the derivatives of a choice: those of the chosen value, as the others may not exist there."""
+    """Return the derivatives of the chosen value of a choice, as the others may not exist there."""
     if op == "where":
         condition, first, second = args[0], parts[1], parts[2]
     else:
@@ -106,7 +106,7 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
 
 
 def _power(g: Graph, node: int, a: int, b: int) -> tuple[int, int]:
-    """Return the derivatives of a power; that of 0 raised to less than 1 rises without bound."""
+    """Return the derivatives of a power; at 0 raised to less than 1 they rise without bound."""
     one, exponent = g.one, g.value(b)
     if exponent is not None:
         if 0.0 < exponent < 1.0:

@@ -181,7 +181,7 @@ def _between(h0: float, h1: float, d0: float, d1: float) -> float:
 
 
 def _at_end(h0: float, h1: float, d0: float, d1: float) -> float:
-    """Return the slope at an end: that of the parabola through three points, not beyond what keeps the range."""
+    """Return the slope at an end: of the parabola through three points, within the limit that keeps the range."""
     slope = ((2.0 * h0 + h1) * d0 - h0 * d1) / (h0 + h1)
     if slope * d0 <= 0.0:
         return 0.0

@@ -44,7 +44,7 @@ class Coupling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     polynomial: Scalars | None = None
 
     def build(self, scope: Scope) -> Joint:
-        """Resolve to a sum of measures, and less a polynomial of another one."""
+        """Resolve to a sum of measures minus a polynomial of another measure."""
         if (self.of is None) != (self.polynomial is None):
             got = "polynomial alone" if self.of is None else "of alone"
             raise scope.error("", "the keys of and polynomial together", got)

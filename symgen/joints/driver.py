@@ -15,7 +15,7 @@ from symgen.vocabulary.measures import GROUND, Angle, Component, Holonomic, Mark
 
 
 class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A motor that makes a coordinate follow ``value(t)``: that of a joint, a body or a point.
+    """A motor that makes a coordinate of a joint, a body or a point follow ``value(t)``.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     between : pair of body names
         The two bodies.
     angle : scalar
-        In the plane: angle of the second body less that of the first [rad]; 0 by default.
+        In the plane: angle of the second body relative to the first [rad]; 0 by default.
     axis, reference : direction, or pairs of directions
         In space: two directions of each body that coincide, the second across the first; as the bodies start unless
         given.
@@ -30,7 +30,7 @@ class FixedOrientation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     Notes
     -----
     In the plane one row, ``NAME.angle`` [N m]: torque on the first body. In space three, ``NAME.first``, ``.second``
-    and ``.angle``, those of a rigid joint.
+    and ``.angle``, as of a rigid joint.
     """
 
     frames = staticmethod(frames)

@@ -17,7 +17,7 @@ def stay(y: Any, w: Any) -> int:
 
 
 def advance(system: Any, run: Any, delta: Any, trial: Any) -> None:
-    """Set the positions of `trial` to those of the accepted state moved by `delta`, bodies in space by its exponential.
+    """Set the positions of `trial`: the accepted state moved by `delta`, bodies in space by its exponential.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ def weight_in_force(layout: Any, w: Any, i: int) -> float:
 
 @exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))
 def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w: Any, room: Any) -> int:
-    """Choose up to `count` rows, each the one farthest from those chosen before it; return their number.
+    """Choose up to `count` rows, each the one farthest from the rows chosen before it; return their number.
 
     Rows that are off are zero.
 
@@ -68,7 +68,7 @@ def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w:
     weighed : int
         1 where rows that have vanished by the section ``row_weight`` are set to zero; 0 where it is not filled yet.
     w : Array
-        Scratch; D is that of the present position.
+        Scratch; D belongs to the present position.
     room : Array, shape (m * width + m,)
         Working memory; of its last m numbers, those of chosen rows are negative.
     """

@@ -94,7 +94,7 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 
 @exact()
 def mean_mass(layout: Any, w: Any) -> float:
-    """Return the average mass of a velocity, that of an angle over the square of a length.
+    """Return the average mass of a velocity; moments of inertia count over the square of a length.
 
     Without masses it is arbitrary: it weighs rows against M, which is 0.
     """

@@ -88,7 +88,7 @@ class Stages(NamedTuple):
     a, b, c : Array
         The tableau, `a` row by row.
     errors : Array, shape (s + 1,)
-        Weights of the error estimate on the derivative at the beginning of the step and on those of the stages.
+        Weights of the error estimate on the derivatives at the beginning of the step and of the stages.
     filtered : float
         The estimate is filtered by ``(dF/dk + h filtered dF/dy)^-1 dF/dk``; 0: it is not filtered.
     stages, together, order : int
@@ -98,7 +98,7 @@ class Stages(NamedTuple):
     slopes : Array
         Output of ``tangent`` in each stage; the last element is 1.
     numbers, plan, filter_numbers, filter_plan : Array
-        Of the Newton matrix, and of that of one stage (`symgen.loops.newton.stage_plan`).
+        Of the Newton matrix, and of one stage's matrix (`symgen.loops.newton.stage_plan`).
     """
 
     a: Any

@@ -40,7 +40,7 @@ def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out:
 
 
 def _extrapolate(rows: Any, degree: int, ratio: float, places: Any, coefficients: Any, out: Any) -> None:
-    """Set `out` to rates at the nodes of a step `ratio` times as long as that of the Legendre `coefficients`."""
+    """Set `out` to rates at the nodes of a step `ratio` times as long as the step of the Legendre `coefficients`."""
     for k in range(NODES):
         x = 1.0 + 2.0 * ratio * places[k]
         for c in range(1, rows[0] + 1):

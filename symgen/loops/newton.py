@@ -148,7 +148,7 @@ def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
 def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     """Return the plan of ``dF/dv' + h gamma dF/dv + h^2 beta dF/dq N T`` for the unknowns v' and lambda.
 
-    Coefficients are 1, that of v, that of q, and minus that of q, which belongs to products with ``-N``. The third
+    The coefficients are 1, the factors of v and of q, and minus the factor of q (for products with ``-N``). The third
     value is the number of sources; the last one is 1.
     """
     nq = pattern.nq
@@ -159,9 +159,9 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
 
 
 def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
-    """Return the plan of ``W = M + h/2 C + h^2/4 (K + a D^T D)``; the coefficients are those of the parts.
+    """Return the plan of ``W = M + h/2 C + h^2/4 (K + a D^T D)``; each part has a coefficient.
 
-    As in `alpha_plan`, minus the coefficient of K follows it; that of D^T D is the fifth. Rates of states follow those
+    As in `alpha_plan`, minus the coefficient of K follows it; D^T D has the fifth. Rates of states follow rates
     of velocities.
     """
     nv, m, tail = pattern.nv, pattern.m, pattern.unknowns - pattern.states
@@ -223,7 +223,7 @@ def _along_motion(
 ) -> tuple[list[tuple[Indices, Indices, int, Indices]], Products]:
     """Return the terms of derivatives by v and states, by changes of position and by unknowns from v' on.
 
-    Rows are those of the `chosen` numbers; the first of them is that of the first velocity. The kinematic map is read
+    Rows have the `chosen` numbers, the first of which belongs to the first velocity. The kinematic map is read
     from the Jacobian itself, whose first rows belong to ``q' - N v``.
     """
     n, nq, nv = pattern.unknowns, pattern.nq, pattern.nv

@@ -146,7 +146,7 @@ class RunSpec:
     rtol, atol : float
         Tolerances of an adaptive run.
     relative : bool
-        Whether `atol` applies to coordinates and speeds over those of the mechanism; else it has their units.
+        Whether `atol` applies to coordinates and speeds over the mechanism's own; else it has their units.
     times : Array
         Output times, increasing.
     largest_step : float
@@ -168,7 +168,7 @@ class RunSpec:
     duration : float or None
         Time in which a motion that begins at rest is taken to cross the mechanism [s]; until `until` by default.
     stops : tuple of Stop
-        Times at which inputs jump, and their values from then on; the first one has those of the start.
+        Times at which inputs jump, and their values from then on; the first one has the values at the start.
     events : Watched or None
         Switching functions: events, and ends of adaptive steps.
     compares : bool

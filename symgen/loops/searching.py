@@ -4,8 +4,8 @@ An event is a switching function g(t, q, v) that changes its sign in its directi
 the end of a step, whole or shorter, and returns what to do next; it is called by address, so that no loop is compiled
 with a copy of it.
 
-The side of an event that a run is on is stored, not taken from g: a state on the event itself, up to rounding, is on
-the side that it came from, and after a change of velocities on the side that it moves to.
+The sign of an event function is stored, as rounding may flip it at the event: a state on the event itself is on the
+side that it came from, and after a change of velocities on the side that it moves to.
 
 All data are one array, see `symgen.loops.search_records`. Comparisons of the state in formulas are sought like
 events; a step ends where one is passed, and the scheme restarts.

@@ -71,7 +71,7 @@ def extremum(g0: float, d0: float, g1: float, d1: float, which: int) -> float:
 
 @plain
 def side_of(g: float, before: float) -> float:
-    """Return the side of g, 1 or -1; that of before where g is 0 or nan, which is 0 until g first leaves zero."""
+    """Return the side of g, 1 or -1; where g is 0 or nan the former side, which is 0 until g first leaves zero."""
     return 1.0 if g > 0.0 else -1.0 if g < 0.0 else before
 
 

@@ -73,7 +73,7 @@ def point(hunt: A, n: int, k: int, i: int) -> float:
 
 @plain
 def place_of(hunt: A, n: int, k: int, s: float, rate: float) -> int:
-    """Return the number of the point at which the interval of s begins; at a point, that of the interval s enters."""
+    """Return the number of the point at which the interval of s begins; at a point, of the interval that s enters."""
     count, first = int(hunt[N_HEAD + POINTS * n + k]), int(hunt[TABLES] + hunt[N_HEAD + FIRST * n + k])
     period, turns = hunt[N_HEAD + PERIOD * n + k], 0
     if period > 0.0:

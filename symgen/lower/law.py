@@ -149,7 +149,7 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
 def _sections(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
-    """Return the sections of ``w``: those of the model, and then the law's own."""
+    """Return the sections of ``w``: the model's, then the law's own."""
     sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
     sections, offset = dict(layout.sections), layout.nw
     for name, factors in record.sections:

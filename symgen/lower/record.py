@@ -258,7 +258,7 @@ class _Law:
         self.add(name, purpose, *outputs)
 
     def metric_apart(self, matrix: str, factor: Factor) -> None:
-        """Add ``refactor``, which the law's own ``geometry`` calls after that of the model."""
+        """Add ``refactor``, which the law's own ``geometry`` calls after the model's."""
         purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
         self.metric("refactor", purpose, ("law_", factor))
 

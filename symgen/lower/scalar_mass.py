@@ -107,7 +107,7 @@ class OfMass(NodeValues):
         return halves, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in halves]
 
     def _half(self, index: int) -> list[int]:
-        """Return L^-1 of a value of the tape; of sums and of D^T y from that of their parts."""
+        """Return L^-1 of a value of the tape; of sums and of D^T y from their parts."""
         g, operation = self.graph, self.operations[index]
         parts = operation.operands
         if operation.kind in ("add", "sub") and operation.size == "nv":

@@ -101,7 +101,7 @@ class NodeValues(Replay):
         return self.at_velocity(x, v) if isinstance(x, tuple) else self.at_velocity((x,), v)[0]
 
     def at_velocity(self, x: Nodes, v: Nodes) -> Nodes:
-        """Return nodes with other velocities in place of those of the state."""
+        """Return nodes with other velocities in place of the state's."""
         return tuple(self.graph.replaced(x, {("v", i): n for i, n in enumerate(v)}))
 
     # -- D -------------------------------------------------------------------------------------------------------------

@@ -47,7 +47,7 @@ class SideProgram:
 
 @dataclass
 class SideModel(ModelNodes):
-    """The names of a mechanism as nodes; counted turns of angles are those of the model.
+    """The names of a mechanism as nodes; the model counts turns of angles.
 
     Parameters
     ----------

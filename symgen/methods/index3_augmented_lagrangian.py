@@ -32,7 +32,7 @@ class Index3AugmentedLagrangian(MultiplierMethod):
     )
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
-        """Return the constraints at position level and those of the projections."""
+        """Return the constraints at position level and of the projections."""
         return Descriptor("projected", system.gamma)
 
 

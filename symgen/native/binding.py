@@ -251,7 +251,7 @@ class _Specialised(Folding):
         return self.views[array] if array in self.views else self.meanings.get(array, Elements())
 
     def array(self, name: str) -> str:
-        """Return the name of an array: its own, or that of memory or of a table."""
+        """Return the name of an array: its own, or the name of memory or of a table."""
         meaning = self.meaning(name)
         if isinstance(meaning, ConstantTable | Room):
             _, other = self.used.get(meaning.name, ("", meaning))

@@ -359,7 +359,7 @@ class _BoundPrinter(CPrinter):
         return super()._parameter(parameter).replace("*restrict ", "*")  # some are parts of others
 
     def literal(self, value: float | int | bool) -> tuple[str, int]:
-        """Return a number; a macro replaces limits of rounding by those of 32 bits."""
+        """Return a number; a macro replaces limits of rounding by limits for 32 bits."""
         if isinstance(value, float) and 0.0 < abs(value) < FINEST:
             single = value * _COARSER if abs(value) < 1e-7 else math.copysign(1e-3, value)
             return f"FINE({value!r}, {single:.3g})", 20

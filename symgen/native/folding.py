@@ -31,7 +31,7 @@ _CALLS = lang.FunctionCall, lang.Invoke, lang.Insert
 
 
 def visited(value: object) -> Iterator[Any]:
-    """Yield statements and expressions, without those of called functions."""
+    """Yield statements and expressions, without the bodies of called functions."""
     if isinstance(value, tuple):
         for each in value:
             yield from visited(each)

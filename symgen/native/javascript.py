@@ -139,7 +139,7 @@ class _Printer(FunctionPrinter):
         return "\n".join([*tables, head, *lines, *body, "}"])
 
     def first_arguments(self, function: lang.Function) -> list[str]:
-        """Return the arguments before those of a function's source."""
+        """Return the arguments before the arguments of a function's source."""
         return []
 
     def literal(self, value: float | int | bool) -> tuple[str, int]:

@@ -184,7 +184,7 @@ class Leave(msgspec.Struct, frozen=True, gc=False):
 
 
 class StatementBlock(msgspec.Struct, frozen=True, gc=False):
-    """Statements that may be left before their end: those of a function copied into its caller."""
+    """Statements that may be left before their end: the body of a function copied into its caller."""
 
     number: int
     body: tuple[Statement, ...]

@@ -79,7 +79,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
 def reached(
     function: lang.Function, inlined: Callable[[lang.Function], bool]
 ) -> tuple[list[lang.Function], list[lang.Function]]:
-    """Return functions whose bodies belong in a module, and those of which it needs only the symbol."""
+    """Return functions whose bodies belong in a module, and functions of which it needs only the symbol."""
     functions, declared, waiting = {function.key: function}, dict[object, lang.Function](), list(function.called)
     while waiting:
         each = waiting.pop(0)

@@ -45,7 +45,7 @@ Pieces = Callable[[Piece], Any] | None
 def read_loop(
     function: Any, arguments: tuple[types.Kind, ...], pieces: Pieces = None, apart: bool = False
 ) -> lang.Function:
-    """Return a loop with the types that follow from those of its arguments.
+    """Return a loop with the types that follow from its arguments.
 
     Parameters
     ----------

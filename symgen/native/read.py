@@ -18,12 +18,12 @@ __all__ = ["Foreign", "Kind", "read"]
 
 
 def read(function: Any, kinds: tuple[Kind, ...], reading: tuple[object, ...] = ()) -> lang.Function:
-    """Return a function with the types that follow from those of its arguments.
+    """Return a function with the types that follow from its arguments.
 
     Parameters
     ----------
     function : MachineFunction
-        The function; `py_func` is that of Python.
+        The function; `py_func` is the Python function.
     kinds : tuple
         Type of each argument, and whether it is an array.
     reading : tuple

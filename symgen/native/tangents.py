@@ -1,10 +1,10 @@
 """Functions of `symgen.native.language` as text for LLVM, with directional derivatives beside each float.
 
-A float has L directions beside it, one vector of LLVM. Those of an array lie behind it in memory: element i has its own
+A float has L directions beside it, one vector of LLVM. Directions of an array lie behind it: element i has its own
 at ``place + L i``, counted from the beginning of the array. Control flow follows the values; integers, booleans, tables
 and comparisons have no directions, and neither has a number that a caller outside hands over. Rules for elementary
 functions are the slopes in `symgen.vocabulary.functions`. At a kink of ``abs``, ``min`` or ``max`` the directions
-are those of the branch taken.
+belong to the branch taken.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ class TangentPrinter(FunctionPrinter):
             self.keep(statement.name, directions)
 
     def keep(self, name: str, directions: str | None) -> None:
-        """Print an assignment of directions to those of a variable."""
+        """Print an assignment to the directions of a variable."""
         self.lines.append(f"  store {self.kind} {_full(directions)}, ptr {slot(name + '.d')}, align 8")
 
     def store(self, statement: lang.Store) -> None:
@@ -312,7 +312,7 @@ class TangentPrinter(FunctionPrinter):
         return g.mul(lower, base), self.times(directions, lambda: g.mul(literal(float(n)), lower))
 
     def raised(self, e: lang.ScalarOperation, base: Dual, exponent: Dual) -> Dual:
-        """Print a power with any exponent; that of 0 raised to less than 1 rises without bound."""
+        """Print a power with any exponent; at 0 raised to less than 1 its slope rises without bound."""
         g, (a, da), (b, db), constant = _Numbers(self), base, exponent, e.arguments[1]
         value = g.call("pow", a, b)
         if isinstance(constant, lang.Constant) and 0.0 < constant.value < 1.0:

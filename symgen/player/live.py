@@ -111,7 +111,7 @@ def live_part(
 
 
 def _code(mechanism: Mechanism, compiled: CompiledModel) -> tuple[str, list[tuple[str, int]]]:
-    """Return emitted functions, those of the runtime for events, and the memory of these: names and lengths."""
+    """Return emitted functions, functions of the runtime for events, and their memory: names and lengths."""
     functions, effects = checked(compiled), effects_of(mechanism, compiled, mechanism.events)
     if effects is None:
         return javascript(functions), []

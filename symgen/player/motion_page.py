@@ -114,7 +114,7 @@ def _script(live: Live | None, spatial: bool) -> str:
 
 
 def _emitted(live: Live, functions: str, *further: str) -> str:
-    """Return emitted code, an object of those of its functions that it has, and what evaluates them."""
+    """Return emitted code, an object of the functions that it has, and what evaluates them."""
     names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
     return f"{live.code}const emitted = {{ {', '.join([*names, *further])} }};\n{_web('rates.js')}"
 

@@ -162,7 +162,7 @@ class Sheet:
         return [Equation(dotted(name(x.name)), self.writer.sum(n), x.name) for x, n in whole]
 
     def energies(self) -> list[Equation]:
-        """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""
+        """Return T, V, the power of forces without potential, and the power of drivers without rows, b v' + c."""
         e = self.equations
         lefts = [name("T"), name("V"), name("P")]
         if e.driving is not None:

@@ -77,7 +77,7 @@ class SymbolicEquations:
 
     @property
     def coordinates(self) -> str:
-        """Whose coordinates q holds: ``absolute``, those of bodies, or ``joint``."""
+        """Whose coordinates q holds: ``absolute``, of bodies, or ``joint``."""
         return "absolute" if self.mechanism.topology is None else "joint"
 
     @property
@@ -131,7 +131,7 @@ class SymbolicEquations:
 
     @cached_property
     def _quantities(self) -> tuple[str, ...]:
-        """Names of the quantities; of those of drivers only where there are some."""
+        """Names of the quantities; quantities of drivers only where there are drivers."""
         return tuple(k for k in QUANTITIES if self.derived.driving is not None or k not in OF_DRIVERS)
 
     def quantity(self, name: str) -> Any:

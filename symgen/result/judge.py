@@ -44,7 +44,7 @@ class Verdict:
 
 
 def operations_of(run: Prepared, outcome: Outcome) -> int:
-    """Return the number of operations of a run: evaluations times those of the law's functions, on any machine."""
+    """Return the number of operations of a run: evaluations times the law's operations, on any machine."""
     law = run.compiled.law
     return outcome.evaluations * (_CALL + (sum(law.operations.values()) or _EACH * law.nw))
 

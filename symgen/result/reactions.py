@@ -336,8 +336,8 @@ def _held(outcome: Motion) -> Array:
 def _weighed(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:
     """Return G^1/2 D^T R, shape (nv, m), and the diagonal of R, shape (m,): all of its entries have one unit.
 
-    R makes lengths of rows that are angles, by the mechanism's length; G makes lengths of angles, by those of bodies:
-    what has a norm, or is small, is so in all units. Multipliers over R are forces.
+    R scales angular rows by the mechanism's length, G scales angles by lengths of bodies, so norms and thresholds do
+    not depend on units. Multipliers over R are forces.
     """
     compiled, w = outcome.compiled, outcome.w
     weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])

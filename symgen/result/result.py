@@ -105,11 +105,11 @@ class Result(MotionTables):
     vector_width : int or None
         Numbers of a vector of the processor, where the right-hand side was evaluated in vectors.
     coordinates : {"absolute", "joint"}
-        Coordinates of the state: those of bodies, or of the joints of a tree.
+        Coordinates of the state: of bodies, or of the joints of a tree.
     state : tuple of str
         Names of the coordinates and velocities that were integrated.
     watched : tuple of (str, str)
-        Names of the events that the run looked for, those of the file and others, and what each does: ``"record"``,
+        Names of the events that the run looked for, in the file and elsewhere, and what each does: ``"record"``,
         ``"stop"`` or ``"reset"``.
     sensitivities : Sensitivities or None
         Derivatives of the motion by chosen numbers, which `gradient` returns; None where the run had none.
@@ -123,7 +123,7 @@ class Result(MotionTables):
 
     Notes
     -----
-    A result that was pickled or copied holds all of its tables, worked out when that was done, but neither the code
+    A pickled or copied result contains all tables, computed when it is pickled or copied, but neither the code
     that ran nor `outcome`, `forces` and `ended`, which belong to the process of the run.
     """
 

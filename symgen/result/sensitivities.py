@@ -277,7 +277,7 @@ class Sensitivities:
 
     @cached_property
     def violation(self) -> float:
-        """How far directions leave the constraints: the largest derivative of a row over that of a coordinate."""
+        """How far directions leave the constraints: a row's largest derivative over a coordinate's."""
         return float(self._evaluated.apart().max(initial=0.0))
 
     @cached_property

@@ -155,7 +155,7 @@ def _table(table: str, columns: _Columns, source: int, first: int = 0) -> tuple[
 
 
 def accelerated(velocity: str) -> str:
-    """Return the name of an acceleration by that of the velocity."""
+    """Return the name of the acceleration for the name of a velocity."""
     body, _, component = velocity.rpartition(".")
     return f"{body}.{ACCELERATIONS[component]}"
 

@@ -75,8 +75,8 @@ class Measured:
 class Tables(ABC):
     """Tables over time; columns have the names that data frames of runs give them.
 
-    What was pickled or copied holds all of its tables, worked out when that was done, but not what they are worked out
-    from, which belongs to the process that computed the motion.
+    A pickled or copied result contains all tables, computed when it is pickled or copied, but not the run, which
+    belongs to the process that computed the motion.
     """
 
     t: Array
@@ -111,7 +111,7 @@ class Tables(ABC):
 
     @cached_property
     def lam(self) -> Labelled:
-        """Multipliers; where constraints are redundant, those of minimum norm."""
+        """Multipliers; where constraints are redundant, with minimum norm."""
         return self.forces.multipliers()
 
     @cached_property

@@ -258,7 +258,7 @@ def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live |
 
 
 def mechanism_name(option: str, path: Path) -> str:
-    """Return of which mechanism a NetCDF file holds a result."""
+    """Return the mechanism of the result in a NetCDF file."""
     return str(_dataset(option, path).attrs["mechanism"])
 
 

@@ -71,7 +71,7 @@ def opened(sizes: Any, state: Any) -> Any:
 
 
 def settle(sizes: Any, span: Any, run: Any) -> None:
-    """Raise the scales of speeds to those of motions that cross the mechanism during the run."""
+    """Raise the scales of speeds to speeds of motions that cross the mechanism during the run."""
     for lane in range(_L):
         speed = run.w[_LENGTH + lane] / span.duration
         speed = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
@@ -113,7 +113,7 @@ def remember_rank(sizes: Any, run: Any) -> None:
 
 
 def begin(run: Any) -> None:
-    """Set the initial energies of the balances to those of the first accepted states."""
+    """Set the initial energies of the balances: the energies of the first accepted states."""
     for lane in range(_L):
         run.gauges[_START + lane] = run.w[_KINETIC + lane] + run.w[_POTENTIAL + lane]
         run.gauges[_POTENTIAL_START + lane] = run.w[_POTENTIAL + lane]

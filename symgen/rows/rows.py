@@ -272,7 +272,7 @@ def take_stops(system: Any, r: int) -> None:
 
 
 def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
-    """Set the parameters to those at output `k`, from those of the one before; at a stop, to those before it."""
+    """Set the parameters to their values at output `k`, from the output before; at a stop, to the values before it."""
     _, stops, _, prepare, prepare_law = system
     control, n_p, changed = state.control, state.p.shape[0], False
     if k == 0:

@@ -145,7 +145,7 @@ def _plan(mechanism: Mechanism, name: str, options: Mapping[str, str], coordinat
 
 
 def _by_method(modules: Modules, choices: Sequence[MethodChoice], suffix: str) -> tuple[Modules, list[str]]:
-    """Return modules with those of laws named by their method alone, and these names."""
+    """Return modules, laws named by their method alone, and these names."""
     result, laws = dict(modules), [f"{_stem(choice)}{suffix}" for choice in choices]
     _, tables = result.pop("mechanism", ("", {}))
     for choice, law in zip(choices, laws, strict=True):
@@ -157,7 +157,7 @@ def _by_method(modules: Modules, choices: Sequence[MethodChoice], suffix: str) -
 
 
 def _stem(choice: MethodChoice) -> str:
-    """Return the name of a method as that of a module."""
+    """Return the name of a method as a name of a module."""
     return choice.method.name.replace("-", "_")
 
 

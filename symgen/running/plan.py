@@ -330,7 +330,7 @@ def _shape(s: Settings, last: LastState | None) -> str:
 
 
 def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
-    """Return the events of a run: those of the mechanism, then those of the settings, each once."""
+    """Return the events of a run: the mechanism's, then the settings', each once."""
     conditions = (
         *(watched(mechanism, "stop_when", text, STOP) for text in s.stop_when),
         *(watched(mechanism, "record_when", text, RECORD) for text in s.record_when),

@@ -114,12 +114,12 @@ class Prepared:
 
     @property
     def tree(self) -> TreeRun | None:
-        """The map from joints to bodies; None where the state is that of bodies."""
+        """The map from joints to bodies; None in coordinates of bodies."""
         return self.assembled.tree
 
     @property
     def mechanism(self) -> Mechanism:
-        """The mechanism, with its tree where the state is that of joints."""
+        """The mechanism, with its tree in joint coordinates."""
         return self.plan.mechanism if self.tree is None else self.tree.mechanism
 
     def with_spec(self, **changes: Any) -> Prepared:
@@ -336,7 +336,7 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
 
 
 def _noted(plan: Plan, assembled: Assembled) -> Assembled:
-    """Return code and start with the notes of a plan before those of the start."""
+    """Return code and start with the notes of a plan before the notes of the start."""
     start = assembled.start
     return replace(assembled, start=replace(start, notes=(*plan.notes, *plan.bound, *start.notes)))
 

@@ -404,7 +404,7 @@ class StartDirections:
     # -- in the coordinates of joints ----------------------------------------------------------------------------------
 
     def _on_tree(self, bodies: Array) -> Array:
-        """Return the directions of the state of joints, from those of bodies."""
+        """Return the directions of joint coordinates from the directions of bodies."""
         tree, own, info = self.run.tree, self.run.compiled.info, self.info
         assert tree is not None, "the state is that of joints"
         model, length = DirectedModel(tree.compiled, lanes_of(8)), info.nq + 2 * info.nv

@@ -33,7 +33,7 @@ def derived_lines(mechanism: Mechanism, dialect: Dialect) -> list[tuple[int, lis
 
 
 def independent_places(mechanism: Mechanism, values: Mapping[str, float]) -> list[int]:
-    """Return the places of parameters whose values are not those of their formulas."""
+    """Return the places of parameters whose values differ from their formulas."""
     own = independent_values(mechanism, values)
     return [i for i, p in enumerate(mechanism.parameters) if p.formula is not None and p.name in own]
 

@@ -158,7 +158,7 @@ class DescribedStart:
 
 
 def states_at_start(mechanism: Mechanism, numbers: Scalars, holds: Sequence[Hold]) -> list[float]:
-    """Return the values of the states of a file where a run begins: those of `holds`, else those described."""
+    """Return the values of the states of a file where a run begins: from `holds`, else as described."""
     held = {hold.name: hold.value for hold in holds}
     starts = [(x.name, held.get(x.name) or x.start) for x in mechanism.states]
     return [numbers.value(start, f"{mechanism.name}: states.{name}.start") for name, start in starts]
@@ -267,7 +267,7 @@ def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[Compiled
 def closed_by(
     plan: Plan, compiled: CompiledModel, close: Callable[[CompiledModel, bool], Start]
 ) -> tuple[CompiledModel, Start]:
-    """Return a start with its code: that of the same law solved with M + W D^T D where light bodies ask for it.
+    """Return a start with its code: the same law solved with M + W D^T D where light bodies require it.
 
     Parameters
     ----------

@@ -128,14 +128,14 @@ class TreeRun:
         return CarriedOutcome(**values, inner=outcome, end_state=end, work=last[own.work], tree=self)
 
     def arrays(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
-        """Return the arrays from which another run goes on, beside those of the loop."""
+        """Return the arrays from which another run goes on, beside the loop's."""
         y = self.body_start.y.copy()
         y[: self.bodies.info.work] = outcome.end_state
         rank = np.array([self.start.rank])
         return dict(zip(_BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
 
     def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
-        """Return the events of a run as those of bodies; the impulses of resets are those of all rows of these."""
+        """Return the events with coordinates, velocities and row impulses of the bodies."""
         result: list[Happening] = []
         impacts: dict[int, Impact] = {}
         numbers = {event.name: i for i, event in enumerate(self.events)}
@@ -183,7 +183,7 @@ class TreeRun:
 
     @cached_property
     def signs(self) -> Array:
-        """Signs, 1 or -1 each, that continue the Euler parameters of bodies from those of the start."""
+        """Signs, 1 or -1 each, that continue the Euler parameters of bodies from the start."""
         info = self.bodies.info
         here, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
         for first, _ in info.spins:
@@ -326,14 +326,14 @@ def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel)
 def carried_of(
     whole: Mechanism, mechanism: Mechanism, bodies: CompiledModel, compiled: CompiledModel, t: float = 0.0
 ) -> Carried:
-    """Return how starts of bodies at a time are those of a tree.
+    """Return the map from starts of bodies at a time to starts of a tree.
 
     Parameters
     ----------
     whole, mechanism : Mechanism
         As described, and with its tree.
     bodies, compiled : CompiledModel
-        In the bodies' own coordinates, and in those of joints.
+        In the bodies' own coordinates, and in joint coordinates.
     t : float
         Time [s].
     """

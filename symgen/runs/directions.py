@@ -1,8 +1,8 @@
 """Runs with directions: derivatives of the state by numbers beside it, through the same steps.
 
-The state is longer: behind y lie L directions of each element, and those of parameters and scratch behind ``p`` and
-``w``. Emitted functions have a form with directions (`symgen.native.tangents`); loops and explicit schemes, which are
-linear in the state, stay as they are. Error control leaves directions out, so steps are those of a run without them.
+The state is longer: behind y lie L directions of each element; directions of parameters and scratch lie behind p and
+w. Emitted functions have a form with directions (`symgen.native.tangents`); loops and explicit schemes, which are
+linear in the state, stay as they are. Error control leaves directions out, so a run without them takes the same steps.
 """
 
 from __future__ import annotations
@@ -329,7 +329,7 @@ class Observer:
         return found, kept
 
     def _wind(self, w: Array, k: int) -> None:
-        """Set the angles that count turns to those of an output."""
+        """Set the angles that count turns to their values at an output."""
         w[abi.WINDING : abi.WINDING + self.windings.shape[1]] = self.windings[k]
 
     def observed(self, function: Any, length: int) -> tuple[Array, Array]:

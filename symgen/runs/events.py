@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 
 def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.EventState:
-    """Return the initial state of a run with that of its events."""
+    """Return the initial state of a run with the state of its events."""
     events, n = len(watched.names), len(watched.names) + len(watched.switches)
     points = [x for switch in watched.switches for x in switch.points]
     first = event_loop.notes_at(n, sizes.width, len(state.w))

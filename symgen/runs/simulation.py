@@ -185,11 +185,11 @@ class Simulation:
         outputs : Outputs
             From `outputs`; values already written are left unchanged.
         until : float, optional
-            End [s]; that of the run by default.
+            End [s]; by default the end of the run.
         pause : float
             Number of accepted steps of the run at which the loop is left (`PAUSED`).
         most : float, optional
-            Limit of attempts at an adaptive step until then; that of the run by default.
+            Limit of attempts at an adaptive step until then; by default the run's limit.
 
         Raises
         ------
@@ -265,7 +265,7 @@ class Simulation:
         return abi.SAME_TIME * self.span.step
 
     def divide(self, spec: RunSpec) -> None:
-        """Set the stops of the run to those of `spec`, with the values of all stops passed."""
+        """Take the stops of `spec`, with the values of all stops passed."""
         if spec.stops is not self._stops:
             self._stop_at(spec.stops)
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control

@@ -36,9 +36,9 @@ from symgen.starts.start_solvers import multiply
 
 @exact()
 def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> bool:
-    """Close positions by the shortest changes, none of coordinates with scale 0; return whether they are closed.
+    """Close positions by least changes; coordinates with scale 0 stay fixed. Return whether positions are closed.
 
-    If so, D, nu and the angles that count turns are those of the closed positions; else Phi is that of the last ones.
+    If so, D, nu and the angles that count turns belong to the closed positions; else Phi belongs to the last ones.
     """
     y, p, w, right, x = now.y, now.p, now.w, work.right, work.x
     best, stalled = math.inf, 0

@@ -1,4 +1,4 @@
-"""Joint coordinates held by starts: rows of Phi and D after those of the model.
+"""Joint coordinates held by starts: rows of Phi and D after the model's rows.
 
 A joint coordinate is no coordinate of the state: holding it is another constraint at the start. The emitted ``observe``
 gives its value and its rate, and as rates are linear in the velocities, also its row of D.
@@ -51,7 +51,7 @@ Joints: Any = JOINTS.constructor
 
 
 class Further(NamedTuple):
-    """Rows after those of a model: ``observe``, joint coordinates, their goals, and sections of the model's rows."""
+    """Rows after a model's own: ``observe``, joint coordinates, their goals, and sections of the model's rows."""
 
     observe: Any
     held: Any
@@ -111,7 +111,7 @@ def copied_scratch(w: Any, out: Any, count: int) -> None:
 
 @exact()
 def fill_further(layout: Any, now: Any, work: Any, further: Any) -> None:
-    """Fill Phi, D and nu of all rows; those of the model are already in its part of the scratch.
+    """Fill Phi, D and nu of all rows; the model's are already in its part of the scratch.
 
     `work.y`, `work.w` and `work.direction` are overwritten.
     """

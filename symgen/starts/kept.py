@@ -29,7 +29,7 @@ MANY = 10_000
 
 
 class KeptStart:
-    """The compiled start of a model with the arrays that it works on; the bits are those of `Assembly.close`.
+    """The compiled start of a model with the arrays that it works on; it gives the bits of `Assembly.close`.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class KeptStart:
 
 
 class KeptTree:
-    """The map of starts of bodies to a tree with the arrays that it works on; the bits are those of `Carried.settle`.
+    """The map of starts of bodies to a tree with the arrays that it works on; it gives the bits of `Carried.settle`.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ class KeptTree:
         self._settle = _bound(settle_row, arguments)
 
     def settle(self, y: Array, w: Array) -> tuple[Array, Array, Array]:
-        """Return state and scratch of the tree for those of bodies, and the products of Euler parameters."""
+        """Return state and scratch of the tree for a start of bodies, and the products of Euler parameters."""
         now = self._now
         self._of_bodies.y[:], self._of_bodies.w[:] = y, w
         now.y[:], now.w[:] = 0.0, self._w

@@ -54,14 +54,14 @@ def settle_row(tree: Any, of_bodies: Any, now: Any, work: Any, room: Any, alike:
     tree : tuple
         As `_TREE`.
     of_bodies, now : Instant
-        The start of bodies, and that of the tree, whose parameters and masses are prepared and whose state is set.
+        The start of bodies, and the tree's, whose parameters and masses are prepared and whose state is set.
     work : Work
         Working memory of the tree's start.
     room : Array
         Working memory: a state of bodies, the output of ``observe``, and scratch.
     alike : Array, shape (spins,)
-        Set to the products of Euler parameters of closed bodies with those of the tree: rows of absolute coordinates
-        do not determine to which side the axis of a joint points, a tree does.
+        Set to the products of Euler parameters of closed bodies with the tree's: constraint rows leave the sense of
+        an axis open; a tree fixes it.
     """
     (layout, geometry, measure, move, spread, solve, _, _), observe, carry, carrying = tree
     (y, p, w), (y_t, p_t, w_t) = of_bodies, now

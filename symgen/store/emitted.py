@@ -158,7 +158,7 @@ def plain(function: _Function) -> _Function:
 
 
 def imported(name: str, *arguments: Any) -> Any:
-    """Import for emitted modules; Numba's decorators are replaced by those of this module."""
+    """Import for emitted modules; this module's decorators replace Numba's."""
     names = arguments[2] if len(arguments) > 2 else ()
     if name.partition(".")[0] != "numba" or "cuda" in names:
         return builtins.__import__(name, *arguments)

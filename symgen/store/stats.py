@@ -8,7 +8,7 @@ from typing import ClassVar, Self, TypedDict
 
 
 class CacheStats(TypedDict):
-    """Counters of this process since its start; the difference of two is that of a run.
+    """Counters of this process since its start; the difference of two belongs to the run between them.
 
     `compile_seconds` holds translation and writing to the cache, `load_seconds` reading from it. Functions that are
     compiled or loaded while another one is being compiled are counted in `hits` and `misses`, and their seconds belong

@@ -238,7 +238,7 @@ def _parsed(line: bytes) -> tuple[str, Outcome] | None:
 
 
 def _shown(value: Any) -> Any:
-    """Return an outcome with printable texts, as those of symgen are: a journal may come from somebody else."""
+    """Return an outcome with printable texts, as symgen writes them: a journal may come from somebody else."""
     if isinstance(value, str):
         return printable(value)
     if isinstance(value, dict):

@@ -117,7 +117,7 @@ def _rank(rows: NDArray[np.float64]) -> int:
 
 
 def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, Any]:
-    """Return the variables of the model description, and those of its structure."""
+    """Return the variables of the model description and of its structure."""
     mechanism, info = model.mechanism, model.compiled.info
     formulas = {p.name for p in mechanism.parameters if p.formula is not None}
     parameters, following = list[Variable](), list[Variable]()

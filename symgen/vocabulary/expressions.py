@@ -99,7 +99,7 @@ BENT = ("abs", "min", "max", "both", "either")
 
 
 def names_in(expression: Expr) -> Iterator[str]:
-    """Yield every name that `expression` refers to, those of readings too, in order of appearance (with repeats)."""
+    """Yield every name that `expression` refers to, readings included, in order of appearance (with repeats)."""
     for node in _leaves(expression):
         if not isinstance(node, Number):
             yield node.name

@@ -200,7 +200,7 @@ def settings_of(
 
 
 def settings_at(where: str, settings: Settings | None, changes: Mapping[str, object], at: object) -> Settings:
-    """Return settings of an analysis about a place; those of a run count where one leads there."""
+    """Return settings of an analysis about a place; settings of a run count where a run leads there."""
     counting = OF_STATES if isinstance(at, str | Mapping) else keyword_names(PlaceKeywords)
     return settings_of(where, settings, changes, counting)
 

@@ -54,7 +54,7 @@ def modes(
         Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
         matrices from looped code, for mechanisms of any size.
     **changes
-        Other settings are refused; those of a run count where `at` is a time.
+        Other settings are refused; settings of a run count where `at` is a time.
 
     Raises
     ------
@@ -86,9 +86,9 @@ def view_mode(
     settings : Settings, optional
         As for `modes`.
     at : {"equilibrium", "start"}, float or mapping
-        As for `modes`; in a steady motion shapes are not those of bodies.
+        As for `modes`; in a steady motion shapes are not motions of bodies.
     **changes
-        Other settings are refused; those of a run count where `at` is a time.
+        Other settings are refused; settings of a run count where `at` is a time.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def locus(
     settings, at, states, cyclic
         As for `modes`.
     **changes
-        Other settings are refused; those of a run count where `at` is a time.
+        Other settings are refused; settings of a run count where `at` is a time.
     """
     from symgen.analyses.locus import eigenvalue_locus as locus_of
     from symgen.analyses.places import NamedPlace

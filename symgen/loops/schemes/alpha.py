@@ -234,7 +234,7 @@ def filtered(system: Any, scheme: Any, run: Any, following: float) -> None:
 
 @called
 def shift_positions(system: Any, scheme: Any, run: Any, h: float, off: Any, moved: Any) -> None:
-    """Set the positions of `moved` to those of a step just solved whose displacement is `off` longer."""
+    """Set the positions of `moved`: the step just solved, with a displacement `off` longer."""
     nv, n, count = system.sizes.nv, system.sizes.unknowns, system.sizes.nv + system.sizes.states
     a1, a0 = part(run.room, 3 * n, nv), part(run.room, 3 * n + count, nv)
     for i in range(nv):

@@ -56,7 +56,7 @@ def begin_step(system: Any, run: Any, t: float) -> None:
 
 @called
 def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any, rates: Any) -> None:
-    """Set ``run.trial`` to y + h sum_j a[stage, j] y'_j; `rates` are those of auxiliary states, stage by stage."""
+    """Set ``run.trial`` to y + h sum_j a[stage, j] y'_j; `rates` holds auxiliary states' rates, stage by stage."""
     first, n, ny = system.sizes.nq + system.sizes.nv, system.sizes.unknowns, system.sizes.ny
     copied(system.sizes.width, run.y, run.trial)
     for j in range(scheme.stages):
@@ -91,7 +91,7 @@ def newton_verdict(moved: float, last: float, least: float, poor: float, at_floo
 def is_rounding(
     system: Any, scheme: Any, run: Any, h: float, low: int, high: int, k: Any, rates: Any, right: Any, terms: Any
 ) -> bool:
-    """Return whether the residuals `right` of some stages are rounding of their terms, as those of stiff forces are."""
+    """Return whether the residuals `right` of some stages are rounding of their terms, as with stiff forces."""
     n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
     for s in range(low, high):
         stage_state(system, scheme, run, h, s, k, rates)
@@ -228,7 +228,7 @@ def attempt(
 
 @called
 def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float, k: Any, rates: Any) -> float:
-    """Return the error estimate over the tolerance, filtered; `k` and `rates` are those of the stages."""
+    """Return the error estimate over the tolerance, filtered; `k` and `rates` belong to the stages."""
     sizes, s_count, errors = system.sizes, scheme.stages, scheme.errors
     first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
     more, size = ny - first, max(n, sizes.width)

@@ -97,8 +97,8 @@ def one_by_one(system: Any, run: Any, times: Any, states: Any, rates: Any) -> No
 def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: Any, weights: Any) -> None:
     """Set `weights` to factors that turn squares of rates into squares of errors over tolerances in a step of `h` [s].
 
-    `ends` are states at the nodes, of which the last is the end of the step. Errors of accelerations are those of
-    velocities, and half a step later those of coordinates.
+    `ends` are states at the nodes, of which the last is the end of the step. Errors of accelerations count as errors of
+    velocities, and half a step later of coordinates.
     """
     sizes, y, share = system.sizes, run.y, weights_of(span, run)
     work = sizes.nq + sizes.nv

@@ -2,11 +2,11 @@
 
 With ``v1 = 2/h d - v0`` and ``a1 = 4/h^2 d - 4/h v0 - a0``, d = q1 - q0 or in space the displacements and rotation
 vectors of the bodies over the step, the equations of motion at the end of the step are solved for q1 with the leading
-matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every iteration, those of rows
+matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every iteration, in rows
 without Phi by ``h/2 a (D v - nu)``, whose part of W is the same as v1 changes by 2/h times the change of q1. Then
 velocities and accelerations are projected with the same matrix, ``W v = (W - h^2/4 a D^T D) v* + h^2/4 a D^T nu``,
 iterated, since one pass leaves a residual. States of the file are unknowns beside the positions: the change of z is
-``2/h`` times that of its unknown, as that of v1 is, so that both stand in W alike. Other auxiliary states follow by the
+``2/h`` times its unknown's change, as for v1; W treats both in the same way. Other auxiliary states follow by the
 trapezoidal rule.
 
 The memory of a run holds the rates of the state, the multipliers, and the largest mass.

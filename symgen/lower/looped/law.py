@@ -18,7 +18,7 @@ from symgen.vocabulary.infos import LawInfo
 
 
 class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
-    """Facts about a law for the tables, besides those of every law.
+    """Facts about a looped law for the tables, besides the facts about every law.
 
     Parameters
     ----------

@@ -161,7 +161,7 @@ class LoopedShape:
 
     @property
     def mass_diagonal(self) -> int:
-        """Index in ``p`` of the diagonal of M; that of M^-1 and the mean mass follow."""
+        """Index in ``p`` of the diagonal of M; the diagonal of M^-1 and the mean mass follow."""
         return self.first_computed + self.computed
 
     @property
@@ -171,7 +171,7 @@ class LoopedShape:
 
     @property
     def gram_base(self) -> int:
-        """Index in ``p`` of the constant part of D D^T; that of D M^-1 D^T follows."""
+        """Index in ``p`` of the constant part of D D^T; the constant part of D M^-1 D^T follows."""
         return self.mass_diagonal + 2 * self.nv
 
     # -- matrices ------------------------------------------------------------------------------------------------------

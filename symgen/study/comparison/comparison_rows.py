@@ -69,7 +69,7 @@ class Row:
     velocity_error : float or None
         Largest difference of the velocities of the same points [m/s].
     reaction_error : float or None
-        Largest difference of a joint's reaction [N], of those that the motion determines; a moment counts as the force
+        Largest difference of a joint's reaction [N] that the motion determines; a moment counts as the force
         that has it at the mechanism's length. None also where no reaction is determined.
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
@@ -78,7 +78,7 @@ class Row:
     run_seconds_spread : float or None
         Longest minus shortest of them [s]; None for one run.
     cost_ratio, cost_ratio_spread : float or None
-        Run time over that of `lagrange` with the same integrator and step or tolerance, and its spread: the ratio
+        Run time over `lagrange`'s with the same integrator and step or tolerance, and its spread: the ratio
         times the sum of both runs' median less shortest time over shortest time (the longest time shows only the
         other load of the machine). None where one of them failed or `lagrange` was not run; of one run no spread.
     evaluations, iterations : int
@@ -94,7 +94,7 @@ class Row:
     warnings : tuple of str
         Warnings as sentences.
     coordinates : {"absolute", "joint"}
-        Coordinates of the state. Violations of joint coordinates are those of the loops.
+        Coordinates of the state. Violations of joint coordinates are violations of the loops.
     variant : str
         Options that distinguish the method from others of the study, such as ``alpha=5, beta=5``.
     """
@@ -353,7 +353,7 @@ class Study:
 
     @property
     def common_warnings(self) -> tuple[str, ...]:
-        """Warnings that every row has, such as those of the start, to be shown once."""
+        """Warnings that every row has, such as warnings of the start, to be shown once."""
         first = self.rows[0].warnings if self.rows else ()
         return tuple(text for text in first if all(text in row.warnings for row in self.rows))
 

@@ -132,7 +132,7 @@ class ModelComparison:
         return {(plan.key, plan.integrator.name) for cell, plan in lacking if cell.key not in self.journal}
 
     def total(self, ahead: bool) -> float:
-        """Return what the progress counts: rows, the reference, and compilation unless it was done ahead."""
+        """Return the length of the progress: rows, the reference, and compilation unless it was done ahead."""
         rounds = ROUNDS if self.error_at else 0
         return len(self.plans) + 1 + rounds + (0.0 if ahead else PREPARATION * len(self.pairs))
 
@@ -297,5 +297,5 @@ def _check_rounds(entry: Outcome) -> None:
 
 
 def _check_motion(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal is that of a reference."""
+    """Raise `ValueError` unless an entry of a journal belongs to a reference."""
     msgspec.convert(entry, _Unusable if "unusable" in entry else _Motion)

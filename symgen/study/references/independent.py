@@ -150,9 +150,8 @@ class IndependentEquations:
     def rate(self, t: float, y: Array) -> Array:
         """Return (q', q''): of all q'' with ``D q'' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
 
-        The stages of a step leave the constraints, where redundant rows are no longer dependent: the number of
-        directions is that of the last projection, not of those above some threshold. With massless bodies, which have
-        no M^-1 f, q'' and multipliers are the solution of M q'' + D^T l = f and D q'' = gamma.
+        Within a step redundant rows become independent: the rank of the last projection is used. With massless bodies,
+        which have no M^-1 f, q'' and multipliers are the solution of M q'' + D^T l = f and D q'' = gamma.
         """
         n = self.n
         q, v = y[:n], y[n:]
@@ -173,7 +172,7 @@ class IndependentEquations:
 
     @property
     def row_names(self) -> tuple[str, ...]:
-        """Names of the rows of joints, which precede those of Euler parameters, as in results."""
+        """Names of the rows of joints, which precede rows of Euler parameters, as in results."""
         return tuple(f"{joint.name}.{row.label}" for joint in self.mechanism.joints for row in joint.rows)
 
     def multipliers(self, t: float, y: Array) -> Array:

@@ -272,7 +272,7 @@ class Map:
 
 
 def map_rows(rows: Iterable[StressRow]) -> tuple[StressRow, ...]:
-    """Return the rows of the map, without those of planes."""
+    """Return the rows of the map, without rows of planes."""
     return tuple(row for row in rows if len(row.values) == 1)
 
 

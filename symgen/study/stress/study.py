@@ -189,7 +189,7 @@ class _Study:
 
     @cached_property
     def left_out(self) -> tuple[tuple[str, str, str, str], ...]:
-        """Pairs that are not run, by mechanism; those of families of their own are small."""
+        """Pairs that are not run, by mechanism; mechanisms with families of their own are small."""
         everything = [
             pair for name in self.methods for pair in (method_pairs(name)[:1] if self.quick else method_pairs(name))
         ]
@@ -300,7 +300,7 @@ class _Unusable(TypedDict):
 
 
 def check_motion(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal is that of a reference."""
+    """Raise `ValueError` unless an entry of a journal belongs to a reference."""
     motion: dict[str, Any] = msgspec.convert(entry, _Motion if entry.get("unusable") is None else _Unusable)
     if len({*map(len, motion.get("q", ()))}) > 1:
         raise ValueError("rows of different lengths")
@@ -325,14 +325,14 @@ class _Steps(TypedDict):
 
 
 def _check_run(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal is that of a run."""
+    """Raise `ValueError` unless an entry of a journal belongs to a run."""
     run = msgspec.convert(entry, _Run)
     if run["outcome"] not in OUTCOMES or run["status"] not in (OK, UNVERIFIED, FAILED, "not run"):
         raise ValueError(run["status"])
 
 
 def _check_limit(entry: Outcome) -> None:
-    """Raise `ValueError` unless an entry of a journal is that of a search."""
+    """Raise `ValueError` unless an entry of a journal belongs to a search."""
     msgspec.convert(entry, _Steps)
 
 
