@@ -120,7 +120,7 @@ class DenseStatics:
         return np.append(self.subject.gaps, [self.subject.length if unit == "m" else 1.0 for unit in units])
 
     def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
-        """Return the residuals of the force balance D^T lambda - f, with M v' at constant velocities, and of the rows."""
+        """Return the residuals of the force balance D^T lambda - f (with M v' at constant velocities) and of rows."""
         return self._parts(y, lam)[:2]
 
     def derivatives(self, y: Array, lam: Array) -> tuple[Array, Array, Array]:
