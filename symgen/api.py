@@ -18,11 +18,11 @@ from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
-from symgen.describe.friction import refuse_friction
 from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
+from symgen.describe.stops import refuse_bounds
 from symgen.layout.compiled import CompiledModel
 from symgen.reading.model_views import Shown
 from symgen.running.prepare import Prepared, prepare
@@ -247,7 +247,7 @@ class Model(Analysed, Shown):
         from symgen.targets import TARGETS, Request
 
         kind = TARGETS.get(arguments.text("target", target, "the name of a target"), "target")
-        refuse_friction(f"target '{target}'", self.mechanism)
+        refuse_bounds(f"target '{target}'", self.mechanism)
         texts = {
             name: arguments.text(f"option '{name}'", value)
             for name, value in arguments.mapping("options", options, "texts by the names of options").items()

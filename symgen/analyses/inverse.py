@@ -17,8 +17,8 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.friction import refuse_friction
 from symgen.describe.inputs import are_words_of_data
+from symgen.describe.stops import refuse_bounds
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded
@@ -167,7 +167,7 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
-    refuse_friction(WHERE, mechanism)
+    refuse_bounds(WHERE, mechanism)
     names = arguments.words(WHERE, actuators)
     if len(set(names)) < len(names):
         raise InputError(WHERE, "each name once", ", ".join(names))

@@ -17,6 +17,7 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.friction import without_friction
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.describe.start import described_start
+from symgen.describe.stops import without_stops
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.running.dead_centre import DRIVER, jacobian_at
@@ -93,8 +94,8 @@ def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def instantaneous(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism without what a run alone determines: integrals, events, velocities, dry friction."""
-    mechanism = without_friction(mechanism)
+    """Return a mechanism without what a run alone determines: integrals, events, velocities, dry friction, stops."""
+    mechanism = without_stops(without_friction(mechanism))
     outputs = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
     bodies = list[AnyBody]()
     for body in mechanism.bodies:

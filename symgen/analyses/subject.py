@@ -16,6 +16,7 @@ from symgen.base.settings import Settings
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.side import compile_side
 from symgen.describe.friction import without_friction
+from symgen.describe.stops import refuse_bounds
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
@@ -312,6 +313,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
         If a setting is wrong, or a name of `by` is no parameter.
     """
     mechanism = without_friction(mechanism)
+    refuse_bounds("analyses", mechanism)
     placed, inputs = inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":

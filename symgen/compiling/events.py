@@ -12,10 +12,11 @@ from symgen.describe.formula_text import to_text
 from symgen.describe.friction import bound_in_motion, mode_events, rate_of
 from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
+from symgen.describe.stops import gap_of, stop_events
 from symgen.effects.effects import Effect, Effects
 from symgen.ir.interpolation import Interpolation
 from symgen.layout.compiled import CompiledModel
-from symgen.loops.run_spec import DryFrictions, Switch, Watched
+from symgen.loops.run_spec import BoundedRows, Switch, Watched
 from symgen.runs.row_jumps import RowJumps
 from symgen.vocabulary.expressions import ZERO, Expr
 
@@ -48,7 +49,7 @@ def compile_events(
         In either, rows that change are examined there.
     """
     passed = tuple(x for x in discontinuities_of(mechanism) if rtol is not None or x.holds)
-    events = (*events, *mode_events(mechanism))
+    events = (*events, *mode_events(mechanism), *stop_events(mechanism))
     if not (events or passed):
         return None
     functions = [(f"{event.name}: {event.text}", event.when) for event in events]
@@ -59,30 +60,33 @@ def compile_events(
         directions=tuple(DIRECTIONS[event.direction] for event in events),
         actions=tuple(event.action for event in events),
         function=side.function,
-        needs_rates="ydot" in side.reads or bool(mechanism.frictions),  # which leave multipliers in w
+        needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
         effects=effects_of(mechanism, compiled, events),
         switches=tuple(switch_of(x, 1.0 if rtol is None else rtol) for x in passed),
         jumps=any(x.jumps for x in passed),
         rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
         adaptive=rtol is not None,
-        frictions=frictions_of(mechanism, compiled),
+        bounded=bounded_rows(mechanism, compiled),
     )
 
 
-def frictions_of(mechanism: Mechanism, compiled: CompiledModel) -> DryFrictions | None:
-    """Return the coordinates with dry friction, or None."""
-    every = mechanism.frictions
+def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows | None:
+    """Return the rows whose forces have bounds, or None."""
+    every, frictions, stops = mechanism.bounded, mechanism.frictions, mechanism.stops
     if not every:
         return None
-    state: list[tuple[str, Expr]] = [(f.name, rate_of(f, 0)) for f in every]
-    state += [(f"rate of {f.name}", rate_of(f)) for f in every]
-    state += [(f"bound of {f.name} at rest", f.static) for f in every]
-    state += [(f"bound of {f.name} in motion", bound_in_motion(f)) for f in every]
-    rates = [(f"second derivative of {f.name}", rate_of(f, 2)) for f in every]
-    return DryFrictions(
-        tuple(f.name for f in every),
-        compile_side(mechanism, compiled, "friction", "Dry friction", state),
-        compile_side(mechanism, compiled, "accelerations", "Accelerations along dry friction", rates),
+    state: list[tuple[str, Expr]] = [(f.name, rate_of(f, 0)) for f in frictions]
+    state += [(f"gap of {s.name}", gap_of(s)) for s in stops]
+    state += [(f"rate of {x.name}", rate_of(x)) for x in every]
+    state += [(f"bound of {f.name} at rest", f.static) for f in frictions]
+    state += [(f"bound of {f.name} in motion", bound_in_motion(f)) for f in frictions]
+    state += [(f"restitution of {s.name}", s.restitution) for s in stops]
+    rates = [(f"second derivative of {x.name}", rate_of(x, 2)) for x in every]
+    return BoundedRows(
+        tuple(x.name for x in every),
+        len(frictions),
+        compile_side(mechanism, compiled, "friction", "Rows with bounds", state),
+        compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),
     )
 
 

@@ -131,13 +131,14 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, rotors on joints or dry friction, or if rows may be off.
+        If the file has states of its own, rotors on joints dry friction or stops, or if rows may be off.
     """
     for what, some in (
         ("states of its own", mechanism.states),
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
         ("dry friction", mechanism.frictions),
+        ("stops", mechanism.stops),
     ):
         if some:
             raise InputError("shape", f"straight code where a file has {what}", "looped")

@@ -53,6 +53,8 @@ def canonical(mechanism: Mechanism) -> str:
         parts.append(["switchable", sorted(mechanism.switchable)])
     if mechanism.frictions:
         parts.append(["frictions", [_text(friction) for friction in mechanism.frictions]])
+    if mechanism.stops:
+        parts.append(["stops", [_text(stop) for stop in mechanism.stops]])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -84,6 +86,7 @@ def identity(mechanism: Mechanism) -> str:
         ", beams=b''",
         ", switchable=()",
         ", frictions=()",
+        ", stops=()",
     ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()

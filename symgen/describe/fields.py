@@ -109,6 +109,10 @@ FrictionTable = Annotated[
     dict[str, float | str | dict[str, float | str]],
     Meta(description="a table of bounds such as { sliding = 4.0 }, or one for each coordinate"),
 ]
+StopTable = Annotated[
+    dict[str, float | str | dict[str, float | str]],
+    Meta(description="a table of limits such as { lower = -1.0, upper = 2.0 }, or one for each coordinate"),
+]
 Condition = Annotated[
     str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
 ]
@@ -134,6 +138,7 @@ PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 OF_ANY_JOINT: Mapping[str, Any] = {
     **{"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar},
     "friction": FrictionTable,
+    "stop": StopTable,
 }
 
 T = TypeVar("T")

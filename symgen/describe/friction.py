@@ -12,7 +12,7 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.describe.fields import Scalar, read_table, words_of
-from symgen.describe.mechanism import Event, Friction, Joint, Mechanism, Output
+from symgen.describe.mechanism import EndStop, Event, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
 from symgen.ir.program import MODE_NUMBERS, MODES
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
@@ -63,20 +63,45 @@ def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ..
     InputError
         With the key that is wrong.
     """
+    labels = dict(joint.coordinates)
+    tables = by_coordinate(scope, joint, "friction", raw, "{ sliding = 4.0 }")
+    return tuple(_along(scope, joint, label, labels[label], table, len(labels) == 1) for label, table in tables.items())
+
+
+def by_coordinate(scope: Scope, joint: Joint, key: str, raw: object, example: str) -> Mapping[str, object]:
+    """Return what a key of a joint has for each of its coordinates.
+
+    Parameters
+    ----------
+    scope : Scope
+        The place of the joint.
+    joint : Joint
+        The joint.
+    key : str
+        The key.
+    raw : object
+        A table for its only coordinate, or a table of such tables.
+    example : str
+        A table for a coordinate.
+
+    Raises
+    ------
+    InputError
+        If it is no table, or the joint has no such coordinates.
+    """
     if not isinstance(raw, Mapping):
-        raise scope.error("friction", "a table such as { sliding = 4.0 }", words_of(raw))
+        raise scope.error(key, f"a table such as {example}", words_of(raw))
     labels = dict(joint.coordinates)
     if not labels:
-        raise scope.error("friction", "a joint with a coordinate", f"a {joint.kind} joint, which reports none")
+        raise scope.error(key, "a joint with a coordinate", f"a {joint.kind} joint, which reports none")
     if joint.kind == "driver":
-        raise scope.error("friction", "a joint whose coordinate is free", "a driver")
-    single = len(labels) == 1
-    if single and not set(raw) & set(labels):
-        raw = {next(iter(labels)): raw}
-    elif not raw or not set(raw) <= set(labels):
-        other = next((repr(key) for key in raw if key not in labels), "none")
-        raise scope.error("friction", f"coordinates of the joint ({', '.join(labels)})", other)
-    return tuple(_along(scope, joint, label, labels[label], table, single) for label, table in raw.items())
+        raise scope.error(key, "a joint whose coordinate is free", "a driver")
+    if len(labels) == 1 and not set(raw) & set(labels):
+        return {next(iter(labels)): raw}
+    if not raw or not set(raw) <= set(labels):
+        other = next((repr(label) for label in raw if label not in labels), "none")
+        raise scope.error(key, f"coordinates of the joint ({', '.join(labels)})", other)
+    return raw
 
 
 def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object, single: bool) -> Friction:
@@ -140,29 +165,30 @@ def _upright(measure: Measure) -> Measure:
 
 
 def first_modes(mechanism: Mechanism) -> Iterator[tuple[str, int]]:
-    """Yield joints whose rows may be off, then rows of friction, with the place of their first number of modes."""
+    """Yield joints whose rows may be off, then rows with bounds, with the place of their first number of modes."""
     first = 0
     for joint in mechanism.joints:
         if joint.name in mechanism.switchable:
             yield joint.name, first
             first += MODE_NUMBERS * len(joint.rows)
-    for friction in mechanism.frictions:
-        yield friction.row, first
+    for bounded in mechanism.bounded:
+        yield bounded.row, first
         first += MODE_NUMBERS
 
 
 def mode_names(mechanism: Mechanism) -> dict[str, int]:
-    """Return the names of the numbers of rows of friction, with their places in the section ``modes``."""
-    places = dict(first_modes(mechanism)) if mechanism.frictions else {}
+    """Return the names of the numbers of rows with bounds, with their places in the section ``modes``."""
+    places = dict(first_modes(mechanism)) if mechanism.bounded else {}
     return {
-        f"{friction.row}.{number}": places[friction.row] + i
-        for friction in mechanism.frictions
+        f"{bounded.row}.{number}": places[bounded.row] + i
+        for bounded in mechanism.bounded
         for i, number in enumerate(MODES)
     }
 
 
-def _number(friction: Friction, number: str) -> Name:
-    return Name(f"{friction.row}.{number}")
+def number_of(bounded: Friction | EndStop, number: str) -> Name:
+    """Return the name of a number of a row with bounds."""
+    return Name(f"{bounded.row}.{number}")
 
 
 def bound_in_motion(friction: Friction, rate: Expr = ZERO) -> Expr:
@@ -177,18 +203,18 @@ def bound_in_motion(friction: Friction, rate: Expr = ZERO) -> Expr:
 def effort_in_motion(friction: Friction) -> Effort:
     """Return the effort of a coordinate that moves; its sign is a number of the row, 0 at rest."""
     rate = Name("rate")
-    against = call("mul", _number(friction, "sign"), bound_in_motion(friction, rate))
+    against = call("mul", number_of(friction, "sign"), bound_in_motion(friction, rate))
     return Effort("friction", friction.measure, call("neg", call("add", against, call("mul", friction.viscous, rate))))
 
 
-def effort_at_rest(friction: Friction) -> Reading:
+def effort_at_rest(bounded: Friction | EndStop) -> Reading:
     """Return the effort of the row, 0 where it is off."""
-    return Reading(friction.row, Driven(friction.row, friction.measure))
+    return Reading(bounded.row, Driven(bounded.row, bounded.measure))
 
 
-def rate_of(friction: Friction, order: int = 1) -> Reading:
-    """Return a derivative of the coordinate."""
-    return Reading(f"{friction.name}, derivative {order}", friction.measure, order)
+def rate_of(bounded: Friction | EndStop, order: int = 1) -> Reading:
+    """Return a derivative of the coordinate, or of the gap."""
+    return Reading(f"{bounded.name}, derivative {order}", bounded.measure, order)
 
 
 def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:
@@ -198,7 +224,7 @@ def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:
     """
     events = list[Event]()
     for friction in mechanism.frictions:
-        held, sign, limit = (_number(friction, number) for number in ("held", "sign", "limit"))
+        held, sign, limit = (number_of(friction, number) for number in ("held", "sign", "limit"))
         left = call("sub", limit, call("abs", effort_at_rest(friction)))
         resting = call("add", call("mul", held, left), call("sub", ONE, held))
         moving = call("add", call("mul", sign, rate_of(friction)), call("sub", ONE, call("mul", sign, sign)))
@@ -219,7 +245,7 @@ def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
     for friction in frictions:
         force = Reading(f"{friction.name}.force", Exerted((effort_in_motion(friction),)))
         unit = "N m" if friction.unit == "rad" else "N"
-        yield Output(f"{friction.name}.mode", _number(friction, "sign"), "")
+        yield Output(f"{friction.name}.mode", number_of(friction, "sign"), "")
         yield Output(f"{friction.name}.force", call("add", force, effort_at_rest(friction)), unit)
 
 

@@ -309,6 +309,38 @@ class Friction(msgspec.Struct, frozen=True):
         return f"{self.name}.friction"
 
 
+class EndStop(msgspec.Struct, frozen=True):
+    """A stop: a gap that does not become negative, and a force that only pushes.
+
+    Parameters
+    ----------
+    name : str
+        ``JOINT.lower``, ``JOINT.COORDINATE.upper`` and the like, or the name in the section of stops.
+    owner : str
+        The joint; the stop itself where a formula is its gap.
+    measure : Measure
+        The gap is ``measure - value``.
+    value : Expr
+        A number or an expression of parameters.
+    unit : str
+        Unit of the gap.
+    restitution : Expr
+        Rate after an impact over that before, with the other sign; from 0 to 1.
+    """
+
+    name: str
+    owner: str
+    measure: Measure
+    value: Expr
+    unit: str
+    restitution: Expr = ZERO
+
+    @property
+    def row(self) -> str:
+        """Name of the row that is in force where the stop is closed."""
+        return f"{self.name}.stop"
+
+
 class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):
     """A force element of any kind, resolved to efforts along measures and to beam elements."""
 
@@ -415,6 +447,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
     switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
     frictions: tuple[Friction, ...] = ()
+    stops: tuple[EndStop, ...] = ()
 
     def __repr__(self) -> str:
         counted = (
@@ -432,9 +465,14 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
         return tuple(p.name for p in self.parameters if p.input)
 
     @property
+    def bounded(self) -> tuple[Friction | EndStop, ...]:
+        """What has a row whose force has bounds, in the order of these rows, which stand behind those of joints."""
+        return (*self.frictions, *self.stops)
+
+    @property
     def has_modes(self) -> bool:
         """Whether rows may be off in a part of a run."""
-        return bool(self.switchable or self.frictions)
+        return bool(self.switchable or self.bounded)
 
     @property
     def has_massless(self) -> bool:

@@ -25,7 +25,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
-from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, literal_of, readings
+from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, literal_of, moving, readings
 from symgen.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -185,6 +185,15 @@ def is_turning(measure: Source) -> bool:
     if isinstance(measure, FormulaMeasure):
         return all(is_turning(r.source) for r in readings(measure.of))
     return isinstance(measure, AnyAngle | Spin | Dot)
+
+
+def is_angle(of: Expr) -> bool:
+    """Whether all moving quantities in a formula are angles and axes."""
+    turning = (
+        is_turning(e.source) if isinstance(e, Reading) else e.name.rpartition(".")[2][0] in ("t", "o", "w")
+        for e in moving(of)
+    )
+    return all(turning)
 
 
 class Readings:

@@ -23,6 +23,7 @@ from symgen.describe.sections import (
     StateSection,
     TableSection,
 )
+from symgen.describe.stops import GapSection
 
 #: Heading of keys in docstrings.
 _KEYS = "Parameters\n----------\n"
@@ -50,6 +51,7 @@ def schema() -> dict[str, Any]:
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, **OF_ANY_JOINT)}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
+            "stops": _named(_table(GapSection)),
             "events": _named(_table(EventSection)),
         },
     }

@@ -310,6 +310,7 @@ NAMED = {
     "joints": "joint",
     "forces": "force",
     "states": "state",
+    "stops": "stop",
     "outputs": "output",
     "events": "event",
 }

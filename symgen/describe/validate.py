@@ -30,6 +30,7 @@ from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
+    EndStop,
     Force,
     Friction,
     Hold,
@@ -54,6 +55,7 @@ from symgen.describe.sections import (
     StateSection,
     TableSection,
 )
+from symgen.describe.stops import check_stops, read_gap, read_limits, with_stop_outputs
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.vocabulary.expressions import ONE, call, names_in
@@ -95,6 +97,7 @@ class _Validator:
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
         self._frictions: dict[str, tuple[Friction, ...]] = {}
+        self._limits: dict[str, tuple[EndStop, ...]] = {}
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
@@ -155,6 +158,10 @@ class _Validator:
             defaults=self.defaults(line(head.source)),
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
             frictions=tuple(friction for joint in joints for friction in self._frictions.get(joint.name, ())),
+            stops=(
+                *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
+                *(read_gap(self.scope("stops", name), value) for name, value in self.entries("stops")),
+            ),
             states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
@@ -164,9 +171,10 @@ class _Validator:
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
-        mechanism = with_friction_outputs(mechanism)
+        mechanism = with_stop_outputs(with_friction_outputs(mechanism))
         check_columns(mechanism, self.source)
         check_frictions(mechanism, self.source)
+        check_stops(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
 
@@ -185,7 +193,7 @@ class _Validator:
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
         for group in (
-            ("bodies", "beams", "joints", "forces"),
+            ("bodies", "beams", "joints", "forces", "stops"),
             ("parameters", "inputs", "states", "tables"),
             ("states", "outputs"),
         ):
@@ -363,6 +371,8 @@ class _Validator:
         self.rotor(scope, joint, self.raw["joints"][name])
         if "friction" in self.raw["joints"][name]:
             self._frictions[name] = read_friction(scope, joint, self.raw["joints"][name]["friction"])
+        if "stop" in self.raw["joints"][name]:
+            self._limits[name] = read_limits(scope, joint, self.raw["joints"][name]["stop"])
         self._joints[name] = joint
         self._open -= 1
         return joint

@@ -257,7 +257,7 @@ def make_ensemble(
     late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
     # what Python does something between; and measures behind the loops know the inputs of one part
     measured = driving.changes and any(q.source >= SIDE for q in kept)
-    parts = late or measured or examined or bool(mechanism.frictions)
+    parts = late or measured or examined or bool(mechanism.bounded)
     alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
     watch = EventPlan(mechanism, events, ends, alone) if parts or joint or events or looks else None
     # single runs add up all that outputs ask for, which their steps follow, too

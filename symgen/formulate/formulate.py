@@ -11,8 +11,9 @@ from dataclasses import replace
 
 from symgen.base.errors import finite_numbers
 from symgen.describe.friction import effort_in_motion, first_modes
-from symgen.describe.mechanism import Friction, Mechanism, Rotor, SpatialBody
+from symgen.describe.mechanism import EndStop, Friction, Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
+from symgen.describe.stops import probing_effort
 from symgen.describe.topology import UNITS, quantities
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
 from symgen.formulate.flexure import exertions
@@ -52,7 +53,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         for joint in mechanism.joints
         for i, row in enumerate(_row(model, joint.name, row) for row in joint.rows)
     )
-    rows += tuple(_friction_row(model, friction, modes[friction.row]) for friction in mechanism.frictions)
+    rows += tuple(_bounded_row(model, bounded, modes[bounded.row]) for bounded in mechanism.bounded)
     forces, power, potential = _forces(model)
     driving = None
     if model.tree is None:
@@ -150,10 +151,13 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     return ConstraintRow(name, joint, row.unit, phi, ordered, nu, gamma, size, stiffness, axes=axes)
 
 
-def _friction_row(model: ModelNodes, friction: Friction, first: int) -> ConstraintRow:
-    """Return the row of a coordinate with dry friction, in force where the coordinate rests."""
-    row = _row(model, friction.joint, Holonomic("friction", friction.measure, unit=friction.unit))
-    return replace(_switched(model, row, first), name=friction.row, bounded=True)
+def _bounded_row(model: ModelNodes, bounded: Friction | EndStop, first: int) -> ConstraintRow:
+    """Return the row of a coordinate with dry friction, in force at rest, or of a stop, in force where it is closed."""
+    if isinstance(bounded, EndStop):
+        owner, row = bounded.owner, Holonomic("stop", bounded.measure, bounded.value, bounded.unit)
+    else:
+        owner, row = bounded.joint, Holonomic("friction", bounded.measure, unit=bounded.unit)
+    return replace(_switched(model, _row(model, owner, row), first), name=bounded.row, bounded=True)
 
 
 def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
@@ -189,9 +193,11 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
                     forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
                 power = g.add(power, exerted.power)
                 potential = g.add(potential, exerted.energy)
-    for friction in model.mechanism.frictions:
-        with finite_numbers(f"joints.{friction.joint}.friction"):
-            exerted = exertion(model, effort_in_motion(friction))
+    efforts = [(f"joints.{x.joint}.friction", effort_in_motion(x)) for x in model.mechanism.frictions]
+    efforts += [(f"stop {x.name}", probing_effort(x)) for x in model.mechanism.stops]
+    for where, effort in efforts:
+        with finite_numbers(where):
+            exerted = exertion(model, effort)
             for i, entry in sorted(exerted.row.items()):
                 forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
             power = g.add(power, exerted.power)

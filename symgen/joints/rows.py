@@ -13,7 +13,7 @@ from symgen.describe.fields import BodyNames, Rows, StateFunction, Text, read_ta
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Joint, is_speed
 from symgen.describe.names import check_identifier
-from symgen.describe.readings import is_turning
+from symgen.describe.readings import is_angle
 from symgen.describe.scope import Scope
 from symgen.vocabulary.expressions import Call, Expr, Name, Reading, moving
 from symgen.vocabulary.measures import (
@@ -97,26 +97,17 @@ class FormulaRows(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
             raise scope.error(f"{key}.unit", " or ".join(f"'{unit}'" for unit in units), quoted(keys.unit))
         if keys.position is not None:
             of = scope.of_row(f"{key}.position", keys.position, speeds=False)
-            return Holonomic(label, FormulaMeasure(of), unit=keys.unit or units[_is_angle(of)])
+            return Holonomic(label, FormulaMeasure(of), unit=keys.unit or units[is_angle(of)])
         of = scope.of_row(f"{key}.velocity", keys.velocity or 0.0, speeds=True)
         term = _nonlinear(of)
         if term is not None or not _degree(of):
             got = "a formula without velocities" if term is None else f"the term {quoted(to_text(term))}"
             raise scope.error(f"{key}.velocity", "a formula that is linear in velocities", got)
-        return Nonholonomic(label, FormulaSpeed(of), unit=keys.unit or units[_is_angle(of)])
+        return Nonholonomic(label, FormulaSpeed(of), unit=keys.unit or units[is_angle(of)])
 
 
 def _is_rate(e: Name | Reading) -> bool:
     return e.order > 0 if isinstance(e, Reading) else is_speed(e.name)
-
-
-def _is_angle(of: Expr) -> bool:
-    """Whether all moving quantities in a formula are angles and axes."""
-    turning = (
-        is_turning(e.source) if isinstance(e, Reading) else e.name.rpartition(".")[2][0] in ("t", "o", "w")
-        for e in moving(of)
-    )
-    return all(turning)
 
 
 def _degree(e: Expr) -> float:

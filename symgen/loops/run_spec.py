@@ -71,19 +71,22 @@ class ChangingRows(Protocol):
 
 
 @dataclass(frozen=True)
-class DryFrictions:
-    """Coordinates with dry friction (`symgen.runs.transitions`).
+class BoundedRows:
+    """Rows whose forces have bounds: of coordinates with dry friction, then of stops (`symgen.runs.transitions`).
 
     Attributes
     ----------
     names : tuple of str
         Their names.
+    dry : int
+        Number of coordinates with dry friction.
     state, accelerations : callable
-        ``(t, y, p, w, rate)`` -> coordinates, their rates, bounds at rest, bounds at the beginning of a motion; second
-        derivatives of the coordinates.
+        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, of friction bounds at rest and bounds at the
+        beginning of a motion, of stops restitutions; second derivatives of coordinates and gaps.
     """
 
     names: tuple[str, ...]
+    dry: int
     state: Formulas
     accelerations: Formulas
 
@@ -114,8 +117,8 @@ class Watched:
         Rows that change at a switch.
     adaptive : bool
         Whether steps are adaptive: these end at switches, constant ones behind them.
-    frictions : DryFrictions or None
-        Coordinates with dry friction.
+    bounded : BoundedRows or None
+        Rows whose forces have bounds.
     """
 
     names: tuple[str, ...]
@@ -128,7 +131,7 @@ class Watched:
     jumps: bool = False
     rows: ChangingRows | None = None
     adaptive: bool = True
-    frictions: DryFrictions | None = None
+    bounded: BoundedRows | None = None
 
 
 @dataclass(frozen=True)

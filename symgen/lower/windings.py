@@ -85,7 +85,7 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     if shape == "looped":
         return turns([m for joint in distinct.joints for m in turns(measures_of(joint))] + efforts)
     rows = [m for joint in distinct.joints for m in _held(joint)]
-    rows += [friction.measure for friction in distinct.frictions]
+    rows += [bounded.measure for bounded in distinct.bounded]
     angles = turns(
         m
         for m in (*rows, *efforts, *(m for joint in distinct.joints for _, m in joint.coordinates))

@@ -183,6 +183,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
         **({"friction": _frictions(mechanism)} if mechanism.frictions else {}),
+        **({"stops": _stops(mechanism)} if mechanism.stops else {}),
         "dropped_rows": list(equations.dropped_rows),
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
@@ -310,6 +311,19 @@ def _frictions(mechanism: Mechanism) -> list[dict[str, Any]]:
     ]
 
 
+def _stops(mechanism: Mechanism) -> list[dict[str, Any]]:
+    """Return the stops of a mechanism: rows whose force only pushes."""
+    return [
+        {
+            "name": x.name,
+            "row": x.row,
+            "unit": "N m" if x.unit == "rad" else "N",
+            "restitution": to_text(x.restitution),
+        }
+        for x in mechanism.stops
+    ]
+
+
 def as_text(facts: dict[str, Any]) -> str:
     """Return the text of ``symgen inspect``."""
     sizes, lines = facts["sizes"], list[str]()
@@ -344,6 +358,9 @@ def as_text(facts: dict[str, Any]) -> str:
         stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
         at_rest = f"row {x['row']} in force at rest up to {x['static']} {x['unit']}"
         lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}")
+    for x in facts.get("stops", ()):
+        closed = f"row {x['row']} in force where it is closed, pushing [{x['unit']}]"
+        lines.append(f"stop {x['name']}: {closed}; restitution {x['restitution']}")
     section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
     lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]

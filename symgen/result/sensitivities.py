@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET, STOP
-from symgen.describe.friction import refuse_friction
 from symgen.describe.readings import TABLES as FORMULAS
+from symgen.describe.stops import refuse_bounds
 from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
 from symgen.result.labelled import Labelled
@@ -57,7 +57,7 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
     InputError
         If the scheme, the shape of the code or the start has no directions; says what works instead.
     """
-    refuse_friction("sensitivities", mechanism)
+    refuse_bounds("sensitivities", mechanism)
     notes = list[str]()
     if settings.shape == "auto":
         settings = replace(settings, shape="straight")

@@ -159,8 +159,8 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     for name, action in (*((event.name, event.action) for event in mechanism.events), *run["watched"]):
         if action in DOES and name not in own:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for resets of the file"
-    if mechanism.frictions:
-        return None, f"{NONE}: joints have dry friction, and pages do not choose its modes"
+    if mechanism.bounded:
+        return None, f"{NONE}: there is dry friction or a stop, and pages do not choose their modes"
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step

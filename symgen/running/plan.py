@@ -19,10 +19,10 @@ from symgen.compiling.pipeline import MethodChoice, for_masses
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
-from symgen.describe.friction import refuse_friction
 from symgen.describe.holds import holds_of
 from symgen.describe.kinks import discontinuities_of, longest_step
 from symgen.describe.lengths import longest_body
+from symgen.describe.stops import refuse_bounds
 from symgen.integrators import INTEGRATORS
 from symgen.loops.integrator import adapts
 from symgen.loops.run_spec import MAX_ATTEMPTS, RunSpec, Stop
@@ -340,14 +340,14 @@ def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
 
 
 def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
-    """Refuse events where runs do not look for them, dry friction too; what is only recorded changes nothing.
+    """Refuse events where runs do not look for them, dry friction and stops too; what is only recorded changes nothing.
 
     Raises
     ------
     InputError
         If there are others.
     """
-    refuse_friction(where, mechanism)
+    refuse_bounds(where, mechanism)
     own = len(mechanism.events)
     for i, event in enumerate(events_of_run(mechanism, s)):
         if event.action != RECORD or i >= own:

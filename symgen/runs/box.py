@@ -1,9 +1,9 @@
 """The box problem: forces within bounds that leave accelerations zero, or push against them.
 
-Forces c enter accelerations linearly, ``a = a0 - G c`` with a symmetric ``G >= 0``. Sought are ``|c_i| <= b_i`` with
-a_i = 0 inside the bounds, a_i >= 0 where c_i = b_i, and a_i <= 0 where c_i = -b_i: the minimum of
-``c^T G c / 2 - a0^T c`` in the box, a linear complementarity problem with bounds. Where G is singular c is not unique,
-a is.
+Forces c enter accelerations linearly, ``a = a0 - G c`` with a symmetric ``G >= 0``. Sought are ``l_i <= c_i <= b_i``
+with a_i = 0 inside the bounds, a_i >= 0 where c_i = b_i, and a_i <= 0 where c_i = l_i: the minimum of
+``c^T G c / 2 - a0^T c`` in the box, a linear complementarity problem with bounds. Zero is within the bounds, which may
+be infinite: a force that only pushes has ``b_i = 0`` and ``l_i = -inf``. Where G is singular c is not unique, a is.
 
 The method is that of active sets: among the free forces an independent set is solved for, the others stay as they are;
 a force that meets its bound stays there until its acceleration has the wrong sign.
@@ -31,17 +31,19 @@ _CHANGES = 50
 INSIDE, UPPER, LOWER = 0, 1, -1
 
 #: A problem of k forces, its working memory and its solution.
-#: - matrix, offset, bounds (shapes (k, k), (k,), (k,)): G, a0 and b.
+#: - matrix, offset, bounds, lower (shapes (k, k), (k,), (k,), (k,)): G, a0, b and l.
 #: - forces, left (shapes (k,)): c and a.
 #: - place (shape (k,)): `INSIDE`, `UPPER` or `LOWER`.
 #: - factor, right, scale, order: Working memory; after `independent_set` the first forces of `order` are independent.
-BOX = record_type("Box", __name__, ("matrix offset bounds forces left factor right scale", _A), ("place order", _K))
+BOX = record_type(
+    "Box", __name__, ("matrix offset bounds lower forces left factor right scale", _A), ("place order", _K)
+)
 Box: Any = BOX.constructor
 
 
 def new_box(k: int) -> Any:
     """Return memory for a problem of `k` forces."""
-    sizes = k * k, k, k, k, k, k * k, k, k
+    sizes = k * k, k, k, k, k, k, k * k, k, k
     return Box._make((*(np.zeros(size) for size in sizes), np.zeros(k, dtype=np.int64), np.zeros(k, dtype=np.int64)))
 
 
@@ -120,7 +122,7 @@ def free_forces(k: int, box: Any) -> int:
 @exact()
 def moved_free(k: int, box: Any) -> bool:
     """Move free forces towards the minimum, up to the first bound; return whether one was met."""
-    forces, bounds, place, order, right = box.forces, box.bounds, box.place, box.order, box.right
+    forces, bounds, lower, place, order, right = box.forces, box.bounds, box.lower, box.place, box.order, box.right
     rank = independent_set(k, free_forces(k, box), box)
     set_left(k, box)
     for i in range(rank):
@@ -129,7 +131,7 @@ def moved_free(k: int, box: Any) -> bool:
     part, first = 1.0, -1
     for i in range(rank):
         at = order[i]
-        room = bounds[at] - forces[at] if right[i] > 0.0 else bounds[at] + forces[at]
+        room = bounds[at] - forces[at] if right[i] > 0.0 else forces[at] - lower[at]
         room = larger(room, 0.0)
         if abs(right[i]) * part > room:
             part, first = room / abs(right[i]), i
@@ -139,7 +141,7 @@ def moved_free(k: int, box: Any) -> bool:
         return False
     at = order[first]
     place[at] = UPPER if right[first] > 0.0 else LOWER
-    forces[at] = bounds[at] * float(place[at])
+    forces[at] = bounds[at] if place[at] == UPPER else lower[at]
     return True
 
 
@@ -153,7 +155,12 @@ def wrong_bound(k: int, box: Any) -> int:
         for j in range(k):
             size += abs(box.matrix[i * k + j] * box.forces[j])
         wrong = -box.left[i] * float(box.place[i])
-        if box.bounds[i] > 0.0 and box.matrix[i * k + i] > 0.0 and wrong > ROUNDING * size and wrong > most * size:
+        if (
+            box.bounds[i] > box.lower[i]
+            and box.matrix[i * k + i] > 0.0
+            and wrong > ROUNDING * size
+            and wrong > most * size
+        ):
             worst, most = i, wrong / size
     return worst
 
@@ -166,9 +173,9 @@ def solve_box(k: int, box: Any) -> int:
     """
     for i in range(k):
         box.forces[i] = 0.0
-        box.place[i] = INSIDE if box.bounds[i] > 0.0 and box.matrix[i * k + i] > 0.0 else UPPER
+        box.place[i] = INSIDE if box.bounds[i] > box.lower[i] and box.matrix[i * k + i] > 0.0 else UPPER
         if box.place[i] == UPPER and box.matrix[i * k + i] > 0.0:
-            box.bounds[i] = 0.0
+            box.bounds[i] = box.lower[i] = 0.0
     for _ in range(_CHANGES * (k + 1)):
         if moved_free(k, box):
             continue

@@ -73,6 +73,8 @@ class Happening:
         Effect of a reset; resets at the same time share it.
     energy : float
         Energy added by the reset [J]; for resets at the same time, the first has the total.
+    left : float or None
+        Time until impacts would have accumulated [s], where a stop is at rest by them.
     """
 
     t: float
@@ -82,6 +84,7 @@ class Happening:
     own: Array
     impact: Impact | None = None
     energy: float = 0.0
+    left: float | None = None
 
 
 class Events:
@@ -118,7 +121,7 @@ class Events:
             numbers = {name: k for k, name in enumerate(self.watched.names)}
             self._past.counts[:] = 0
             for event in self.happened:
-                if event.action == RESET:
+                if event.action == RESET or event.impact is not None:
                     compiled_form(add_resets)(self._past, self.watched.effects.chosen([numbers[event.name]]), event.t)
 
     def take(self, state: event_loop.EventState) -> list[tuple[int, Happening]]:
@@ -154,18 +157,17 @@ class Events:
             if self._finds_jump(state):
                 return abi.JUMPED
             if self.watched.adaptive:
-                self._begin_anew(state)
+                self.begin_anew(state)
         here = [(number, event) for number, event in events if event.t == now]
         resets = [number for number, event in here if event.action == RESET]
         if resets:
             self._reset(state, resets)
         if any(event.action == STOP for _, event in here):
             return abi.MET
-        if resets and self._accumulates(resets, state):
-            return abi.GATHERED
-        return abi.DONE
+        self.accumulation = self.end_of_resets(resets, state) if resets else None
+        return abi.DONE if self.accumulation is None else abi.GATHERED
 
-    def _begin_anew(self, state: event_loop.EventState) -> None:
+    def begin_anew(self, state: event_loop.EventState) -> None:
         """Discard what schemes keep of past steps."""
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
@@ -181,7 +183,7 @@ class Events:
     def _reset(self, state: event_loop.EventState, numbers: Sequence[int]) -> None:
         watched, now = self.watched, float(state.clock[abi.TIME])
         impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
-        self._begin_anew(state)
+        self.begin_anew(state)
         names, energy = {watched.names[number] for number in numbers}, impact.energy
         first = len(self.happened)
         while first > 0 and self.happened[first - 1].t == now:
@@ -200,8 +202,16 @@ class Events:
         width, nw = sizes_of(compiled).width, len(compiled.scratch())
         return new_past(len(watched.names), functions, width, nw, self.until)
 
-    def _accumulates(self, numbers: Sequence[int], state: event_loop.EventState) -> bool:
-        """Return whether resets accumulate; store the time at which they do."""
+    def end_of_resets(self, numbers: Sequence[int], state: event_loop.EventState) -> float | None:
+        """Return the time at which resets by events accumulate [s]; None where they do not.
+
+        Parameters
+        ----------
+        numbers : sequence of int
+            Events that have just changed velocities.
+        state : State
+            State afterwards.
+        """
         watched, now = self.watched, float(state.clock[abi.TIME])
         chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
         compiled_form(add_resets)(self._past, chosen, now)
@@ -211,9 +221,12 @@ class Events:
                 *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self._past)
             )
         if np.isnan(end):
-            return False
-        self.accumulation = float(end)
-        return True
+            return None
+        return float(end)
+
+    def forget_resets(self, numbers: Sequence[int]) -> None:
+        """Forget when events have changed velocities: their series has ended."""
+        self._past.counts[list(numbers)] = 0
 
     @property
     def recent(self) -> tuple[str, ...]:
@@ -290,6 +303,16 @@ def stopped(outcome: Outcome) -> list[str]:
     if not names or outcome.code != abi.DONE:
         return []
     return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
+
+
+def brought_to_rest(outcome: Outcome) -> list[str]:
+    """Return a note on each stop that impacts have brought to rest, with the time that was left."""
+    return [
+        f"impacts of {event.name.rpartition('.')[0]} accumulate at t = {event.t + event.left:.13g} s: "
+        f"it rests from t = {event.t:.13g} s on, where {event.left:.3g} s were left"
+        for event in outcome.happened
+        if event.left is not None
+    ]
 
 
 def record_of(info: ModelInfo, event: Happening) -> EventRecord:

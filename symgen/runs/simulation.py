@@ -115,10 +115,10 @@ class Simulation:
             self._take_up(start.saved, start.p)
         else:
             self.divide(spec)
-        if spec.events is not None and spec.events.frictions is not None:
+        if spec.events is not None and spec.events.bounded is not None:
             from symgen.runs.transitions import Transitions
 
-            self.transitions = Transitions(self, spec.events.frictions)
+            self.transitions = Transitions(self, spec.events.bounded)
         self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
 
     def set_limits(self) -> None:

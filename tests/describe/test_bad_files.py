@@ -140,8 +140,8 @@ CASES = [
     (
         "joints.pin.att",
         1,
-        "joints.pin: expected the keys type, start, cut, rotor_inertia, gear_ratio, friction, between, at, axis, "
-        "reference",
+        "joints.pin: expected the keys type, start, cut, rotor_inertia, gear_ratio, friction, stop, between, at, "
+        "axis, reference",
     ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.at", ["centre", [0.1, 0.0]], "expected 'centre' or [0, 0], the one point of the point mass 'bob'"),

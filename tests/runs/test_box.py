@@ -10,48 +10,58 @@ from symgen.runs.box import new_box, solve_box
 SOLVE = compiled_form(solve_box)
 
 
-def left(matrix: np.ndarray, offset: np.ndarray, bounds: np.ndarray, solve=SOLVE) -> np.ndarray:
+def left(
+    matrix: np.ndarray, offset: np.ndarray, bounds: np.ndarray, lower: np.ndarray | None = None, solve=SOLVE
+) -> np.ndarray:
     """Return the accelerations that the forces leave."""
     k = len(offset)
     box = new_box(k)
-    box.matrix[:], box.offset[:], box.bounds[:] = matrix.ravel(), offset, bounds
+    lower = -bounds if lower is None else lower
+    box.matrix[:], box.offset[:], box.bounds[:], box.lower[:] = matrix.ravel(), offset, bounds, lower
     assert solve(k, box) == 0
-    assert (np.abs(box.forces) <= bounds).all()
+    assert (box.forces <= bounds).all()
+    assert (box.forces >= lower).all()
     return box.left.copy()
 
 
-def random_problem(numbers: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return rows, a right side and bounds; ranks from 1 to k, every fifth problem with two parallel columns."""
+def random_problem(numbers: np.random.Generator, stops: bool) -> tuple[np.ndarray, ...]:
+    """Return rows, a right side and bounds; ranks from 1 to k, every fifth problem with two parallel columns.
+
+    With `stops` every third force only pushes.
+    """
     k = int(numbers.integers(1, 7))
     rows = numbers.normal(size=(int(numbers.integers(1, k + 1)), k))
     if k > 1 and numbers.integers(5) == 0:
         rows[:, 1] = rows[:, 0] * numbers.normal()
-    return rows, numbers.normal(size=len(rows)), numbers.uniform(size=k)
+    right, bounds = numbers.normal(size=len(rows)), numbers.uniform(size=k)
+    pushes = stops & (numbers.integers(3, size=k) == 0)
+    return rows, right, np.where(pushes, 0.0, bounds), np.where(pushes, -np.inf, -bounds)
 
 
-def compare(count: int) -> None:
+def compare(count: int, stops: bool) -> None:
     numbers = np.random.default_rng(52)
     for _ in range(count):
-        rows, right, bounds = random_problem(numbers)
-        best = lsq_linear(rows, right, (-bounds, bounds), method="bvls", tol=1e-15, max_iter=100).x
-        here = left(rows.T @ rows, rows.T @ right, bounds)
+        rows, right, bounds, lower = random_problem(numbers, stops)
+        best = lsq_linear(rows, right, (lower, bounds), method="bvls", tol=1e-15, max_iter=100).x
+        here = left(rows.T @ rows, rows.T @ right, bounds, lower)
         np.testing.assert_allclose(here, rows.T @ (right - rows @ best), rtol=0, atol=1e-10)
 
 
-def test_accelerations_are_those_of_bounded_least_squares() -> None:
-    compare(500)
+@pytest.mark.parametrize("stops", [False, True])
+def test_accelerations_are_those_of_bounded_least_squares(stops: bool) -> None:
+    compare(500, stops)
 
 
 @pytest.mark.slow
 def test_many_accelerations_are_those_of_bounded_least_squares() -> None:
-    compare(10_000)
+    compare(10_000, False)
 
 
 def test_plain_python_has_the_same_bits() -> None:
     numbers = np.random.default_rng(7)
     for _ in range(50):
-        rows, right, bounds = random_problem(numbers)
-        problem = rows.T @ rows, rows.T @ right, bounds
+        rows, right, *bounds = random_problem(numbers, True)
+        problem = rows.T @ rows, rows.T @ right, *bounds
         np.testing.assert_array_equal(left(*problem), left(*problem, solve=plain_form(solve_box)))
 
 

@@ -48,6 +48,7 @@ class IndependentEquations:
             ("states of its own", mechanism.states),
             ("rotors on joints", mechanism.rotors),
             ("dry friction", mechanism.frictions),
+            ("stops", mechanism.stops),
         ):
             if some:
                 expected = "a mechanism that is derived a second time, for references"
