@@ -466,7 +466,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
 
     @property
     def bounded(self) -> tuple[Friction | EndStop, ...]:
-        """What has a row whose force has bounds, in the order of these rows, which stand behind those of joints."""
+        """Dry friction and stops in the order of their rows, which stand behind the rows of joints."""
         return (*self.frictions, *self.stops)
 
     @property

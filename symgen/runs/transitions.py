@@ -290,11 +290,12 @@ class Transitions:
         def independent(i: int) -> float:
             return float(left[i, i] / alone[i]) if alone[i] > 0.0 else 0.0
 
-        pushing = [i for i in rest if self._is_stop[i] and forces[i] < 0.0]
+        least = NO_ACCELERATION * self._usual()
+        pushing = [i for i in rest if self._is_stop[i] and -forces[i] * matrix[i, i] > least[i]]
         for waiting in (pushing, rest):
+            if waiting is rest:
+                signs[[i for i in rest if not self._is_stop[i] and independent(i) <= DEPENDENT]] = 0.0
             while True:
-                if waiting is rest:
-                    signs[[i for i in rest if not self._is_stop[i] and independent(i) <= DEPENDENT]] = 0.0
                 free = [i for i in waiting if i not in taken and signs[i] == 0.0]
                 free = [i for i in free if not (self._is_stop[i] and loose[i])]
                 if max(map(independent, free), default=0.0) <= DEPENDENT:

@@ -83,6 +83,31 @@ stop = { upper = 0.0 }
 """
 
 
+#: A block that its motor presses against a stop and pulls back from it.
+SLIDE = """
+[mechanism]
+name = "slide"
+
+[bodies.block]
+mass = 2.0
+inertia = 1.0
+velocity = [1.0, 0.0]
+
+[joints.rail]
+type = "translational"
+between = ["ground", "block"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+axis = [1.0, 0.0]
+friction = { sliding = 3.0 }
+stop = { upper = 0.5, restitution = 0.5 }
+
+[forces.motor]
+type = "force"
+body = "block"
+force = ["8.0 - 4.0*t", 0.0]
+"""
+
+
 @cache
 def described(text: str) -> Mechanism:
     return validate(parse_toml(text, "file.toml"), "file.toml")
@@ -256,3 +281,24 @@ def test_outputs_and_the_verdict_name_stops() -> None:
 def test_starts_are_within_stops(text: str, sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
         symgen.load(described(text)).simulate(until=1.0)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_friction_holds_at_a_stop_until_its_bound(coordinates: str) -> None:
+    """A block of 2 kg with 3 N of friction under 8 - 4 t: the stop pushes up to 2 s, friction pulls up to 2.75 s."""
+    outcome = ready(described(SLIDE), 5.0, coordinates=coordinates, max_attempts=1e5).integrate()
+    assert outcome.reason == ""
+    assert [event.name for event in outcome.happened][-4:] == [
+        *("rail.stick", "rail.upper.rest", "rail.slip", "rail.upper.leave"),
+    ]
+    np.testing.assert_allclose([event.t for event in outcome.happened[-2:]], 2.75, rtol=0, atol=1e-12)
+    assert outcome.states[-1][0] == pytest.approx(0.5 - 2.25**3 / 3.0, abs=1e-8)
+
+
+def test_a_sweep_has_stops() -> None:
+    text = BALL.replace("[bodies.ball]", "[parameters]\nbounce = 0.7\n\n[bodies.ball]")
+    model, parts = symgen.load(described(text.replace("restitution = 0.7", 'restitution = "bounce"'))), (0.3, 0.6)
+    settings = {"until": 1.0, "integrator": "dop853", "rtol": 1e-10, "times": [1.0]}
+    rows = model.sweep({"bounce": list(parts)}, **settings)["ball.y"][:, -1]
+    alone = [model.simulate(parameters={"bounce": x}, verify=False, **settings).q["ball.y"][-1] for x in parts]
+    assert rows.tolist() == alone
