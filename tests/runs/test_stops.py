@@ -302,3 +302,19 @@ def test_a_sweep_has_stops() -> None:
     rows = model.sweep({"bounce": list(parts)}, **settings)["ball.y"][:, -1]
     alone = [model.simulate(parameters={"bounce": x}, verify=False, **settings).q["ball.y"][-1] for x in parts]
     assert rows.tolist() == alone
+
+
+@pytest.mark.parametrize("method", ["lagrange", "augmented-lagrangian", "hamiltonian-baumgarte", "velocity-projection"])
+def test_methods_have_the_same_impacts(method: str) -> None:
+    outcome = ready(described(BALL), 4.0, method=method).integrate()
+    first = np.sqrt(2.0 / G)
+    hits = first + 2.0 * first * np.concatenate([[0.0], np.cumsum(0.7 ** np.arange(1, 20))])
+    np.testing.assert_allclose(times(outcome, "floor.hit")[:20], hits, rtol=0, atol=1e-12)
+    assert outcome.happened[-1].name == "floor.rest"
+    assert abs(outcome.states[-1][1]) < 1e-12
+
+
+@pytest.mark.parametrize("method", ["null-space", "coordinate-partitioning", "dependent-correction"])
+def test_methods_that_read_all_rows_refuse_stops(method: str) -> None:
+    with pytest.raises(InputError, match="where rows may be off"):
+        ready(described(BALL), 4.0, method=method)
