@@ -17,7 +17,7 @@ from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called, compiled_loop, signature_of
 from symgen.loops.event_loop import with_events
 from symgen.loops.frame_parts import store
-from symgen.loops.stopping import ROW, change, due, same, with_stops
+from symgen.loops.stopping import parameters_at, select_row, with_stops
 from symgen.loops.watch import iterations_in
 from symgen.native import types
 from symgen.rows.row_events import OF_EFFECTS, forget_functions, forget_past, take_effects, take_notes_of_events
@@ -267,23 +267,18 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
 
 def take_stops(system: Any, r: int) -> None:
     """Select the stops of a row."""
-    stops = system[1]
-    stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0  # or one table for all
+    select_row(system[1], r)
 
 
 def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
     """Set the parameters to their values at output `k`, from the output before; at a stop, to the values before it."""
     _, stops, _, prepare, prepare_law = system
-    control, n_p, changed = state.control, state.p.shape[0], False
+    control, n_p = state.control, state.p.shape[0]
     if k == 0:
         control[abi.PASSED] = 0
         take(chunk.ps, r * n_p, n_p, state.p)
-    while times[k] > due(stops, control[abi.PASSED]) + same(stops, span, times[k]):
-        changed = change(stops, control[abi.PASSED], state.p) or changed
-        control[abi.PASSED] += 1
-    if changed:
-        prepare(state.p)
-        prepare_law(state.p)
+    passed = parameters_at(stops, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
+    control[abi.PASSED] = passed
 
 
 # -- loops -------------------------------------------------------------------------------------------------------------
