@@ -253,9 +253,8 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    parts = examined or bool(mechanism.frictions)  # what Python does something between
-    alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
-    watch = EventPlan(mechanism, events, ends, alone) if parts or joint or events or looks else None
+    alone = bool(mechanism.frictions) or (joint and not {q.source for q in kept} <= PLAIN)
+    watch = EventPlan(mechanism, events, ends, alone) if joint or events or looks or mechanism.frictions else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)

@@ -55,6 +55,12 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     return event_loop.EventState(*state, hunt)
 
 
+def forget_steps(state: event_loop.EventState) -> None:
+    """Discard what schemes keep of past steps."""
+    state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
+    state.clock[abi.ALLOWED] = 0.0
+
+
 @dataclass(frozen=True)
 class Happening:
     """An event that happened.
@@ -154,7 +160,7 @@ class Events:
             if self._finds_jump(state):
                 return abi.JUMPED
             if self.watched.adaptive:
-                self._begin_anew(state)
+                forget_steps(state)
         here = [(number, event) for number, event in events if event.t == now]
         resets = [number for number, event in here if event.action == RESET]
         if resets:
@@ -164,11 +170,6 @@ class Events:
         if resets and self._accumulates(resets, state):
             return abi.GATHERED
         return abi.DONE
-
-    def _begin_anew(self, state: event_loop.EventState) -> None:
-        """Discard what schemes keep of past steps."""
-        state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
-        state.clock[abi.ALLOWED] = 0.0
 
     def _finds_jump(self, state: event_loop.EventState) -> bool:
         """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
@@ -181,7 +182,7 @@ class Events:
     def _reset(self, state: event_loop.EventState, numbers: Sequence[int]) -> None:
         watched, now = self.watched, float(state.clock[abi.TIME])
         impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
-        self._begin_anew(state)
+        forget_steps(state)
         names, energy = {watched.names[number] for number in numbers}, impact.energy
         first = len(self.happened)
         while first > 0 and self.happened[first - 1].t == now:
