@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from symgen.effects.accumulation import PAST, accumulation, add_resets, latest_events
@@ -13,6 +14,7 @@ from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called
 from symgen.loops import search_records as records
 from symgen.loops.event_loop import notes_at
+from symgen.loops.frame_parts import store_behind
 from symgen.native import types
 
 _K = types.int64[::1]
@@ -40,6 +42,8 @@ def forget_functions(model: Any, state: Any) -> None:
     for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
         hunt[i] = 0.0
     hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
+    if hunt[records.REACH] < math.inf:  # of adaptive steps
+        hunt[records.REACH] = 0.0
 
 
 def numbers_of_row(chunk: Any, state: Any) -> int:
@@ -141,6 +145,15 @@ def take_effects(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
         row[e.ACCUMULATION], row[e.GATHERING] = end, latest_events(effects.past)
         return int(abi.GATHERED)
     return code
+
+
+def store_after_effects(code: int, span: Any, state: Any, outputs: Any) -> None:
+    """Have outputs at the present time hold the state behind the effects of events."""
+    if code == abi.MET:
+        now = state.clock[abi.TIME]
+        adaptive = state.hunt[records.REACH] < math.inf
+        near = abi.RESOLVED_TIME * abs(now) if adaptive else abi.SAME_TIME * span.step
+        store_behind(outputs, state.control[abi.OUTPUTS], now, near, state.y, state.w)
 
 
 # -- constraints that may jump -----------------------------------------------------------------------------------------

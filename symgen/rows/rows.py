@@ -25,6 +25,7 @@ from symgen.rows.row_events import (
     forget_functions,
     forget_past,
     resumed_after_examination,
+    store_after_effects,
     take_effects,
     take_notes_of_events,
     waits_for_examination,
@@ -77,6 +78,10 @@ def resumed(state: Any) -> int:
 def waits(code: int, model: Any, chunk: Any, state: Any) -> bool:
     """Return whether a run has to be left for an examination: none without rows that may jump."""
     return False
+
+
+def store_after(code: int, span: Any, state: Any, outputs: Any) -> None:
+    """Do nothing: outputs of a run without events hold its state."""
 
 
 def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
@@ -269,6 +274,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
                 return int(s)
             else:
                 ended = take_notes(code, r, model, chunk, state)
+                store_after(code, span, state, series.outputs)
                 if ended != code:
                     code = abi.MET if ended == abi.DONE else ended
                     break
@@ -319,7 +325,7 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 
 
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
-_EFFECTS = {"forget": forget_past, "take_notes": take_effects}
+_EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
 _STOPS = {"take_row": take_stops, "hold": hold_between_stops}
 _loops: dict[Any, Any] = {}
