@@ -1,9 +1,8 @@
 """Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
 
-Where events are looked for, Python has something to do between two parts of a run; what is observed of joints' motion
-as one of bodies, and points, forces and reactions where an input jumps, are worked out as for single runs. Such
-runs are done one after the other, in the same threads, chunks and folders; ensembles that need none of it know nothing
-of this module.
+Modes of dry friction are chosen in Python between two parts of a run; accelerations, multipliers and what follows from
+them are worked out of joints' motion as one of bodies. Such runs are done one after the other, in the same threads,
+chunks and folders; ensembles that need none of it know nothing of this module.
 """
 
 from __future__ import annotations

@@ -56,7 +56,7 @@ def change(stops: Any, count: int, p: Any) -> bool:
 
 
 def select_row(stops: Any, r: int) -> None:
-    """Select the stops of a row: its own, or those of all rows."""
+    """Select the stops of a row: its own, or the common ones."""
     stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0
 
 
