@@ -59,6 +59,7 @@ STEPS = {
     "newmark": (32, 6, 2),
     "generalized-alpha": (64, 6, 2),
     "half-explicit": (32, 7, 2),
+    "phem56": (8, 7, 2),
     "rattle": (64, 6, 2),
     "symplectic-euler": (512, 6, 2),
     "sdirk": (8, 6, 2),
