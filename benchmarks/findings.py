@@ -12,16 +12,21 @@ from __future__ import annotations
 import sys
 from datetime import date
 
-from benchmarks import literature
+from benchmarks import literature, long, shared_loads, stiff
 from benchmarks.page_tables import ROOT, PageTable, written
 
-#: Every table that has a module.
-TABLES: tuple[PageTable, ...] = tuple(literature.tables().values())
+
+def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
+    """Return every table that has a module; run times are measured only if asked for."""
+    return (*literature.tables(times).values(), shared_loads.table(), stiff.table(), long.table())
+
+
+TABLES = measured_tables()
 
 
 def main(arguments: list[str]) -> int:
     """Measure the tables that are named, or all, and write them into their pages."""
-    tables = TABLES if "--times" not in arguments else tuple(literature.tables(times=True).values())
+    tables = measured_tables(times="--times" in arguments)
     names = [name for name in arguments if name != "--times"]
     for table in tables:
         if names and table.command.split()[-1] not in names:

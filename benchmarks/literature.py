@@ -13,14 +13,13 @@ from __future__ import annotations
 
 import statistics
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache, partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.page_tables import KEPT, ROUNDING, PageTable, markdown
+from benchmarks.page_tables import KEPT, PageTable, list_of, number, print_tables, step_size
 from symgen.api import Model, load
 from symgen.describe import MechanismBuilder
 from symgen.integrators import INTEGRATORS
@@ -103,23 +102,6 @@ def error(result: Result, name: str, until: float) -> float:
     """Return the largest error of q; infinite where the run broke off."""
     q = np.asarray(result.q)
     return float(np.abs(q - exact(name, until)).max()) if len(q) == 9 else np.inf
-
-
-def number(x: float) -> str:
-    """Return a number with two digits, one where it is rounding."""
-    text = f"{x:.0e}" if abs(x) < ROUNDING else f"{x:.1e}"
-    return text.replace("e-0", "e-").replace("e+0", "e+")
-
-
-def step_size(x: float) -> str:
-    """Return a step as pages print it, such as 2e-3."""
-    mantissa, power = f"{x:.3e}".split("e")
-    return f"{mantissa.rstrip('0').rstrip('.')}e{int(power)}"
-
-
-def list_of(cells: Callable[..., Iterator[str]], *case: Any) -> list[str]:
-    """Return the measured cells of a row."""
-    return list(cells(*case))
 
 
 def gains() -> PageTable:
@@ -265,13 +247,5 @@ def tables(times: bool = False) -> dict[str, PageTable]:
     return {table.command.split()[-1]: table for table in found}
 
 
-def main(arguments: list[str]) -> int:
-    """Print the tables that are named, or all."""
-    made = tables(times=True)
-    for name in arguments or made:
-        sys.stdout.write("\n".join(markdown(made[name].headings, made[name].measured())) + "\n\n")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(print_tables(tables(times=True), sys.argv[1:]))

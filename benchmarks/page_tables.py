@@ -5,13 +5,15 @@ from __future__ import annotations
 import platform
 import random
 import re
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).parents[1]
 #: Numbers below are rounding: they agree with one another.
-ROUNDING = 1e-11
+ROUNDING = 1e-10
 #: Times that agree differ by no more than this factor.
 BAND = 2.0
 #: Stands for a cell that is not measured: the page keeps its own.
@@ -70,6 +72,23 @@ def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str
     """Return the lines of a table."""
     lines = [headings, ["---"] * len(headings), *rows]
     return ["| " + " | ".join(line).replace("|  |", "| |") + " |" for line in lines]
+
+
+def number(x: float) -> str:
+    """Return a number with two digits, one where it is rounding."""
+    text = f"{x:.0e}" if abs(x) < ROUNDING else f"{x:.1e}"
+    return text.replace("e-0", "e-").replace("e+0", "e+")
+
+
+def step_size(x: float) -> str:
+    """Return a step as pages print it, such as 2e-3."""
+    mantissa, power = f"{x:.3e}".split("e")
+    return f"{mantissa.rstrip('0').rstrip('.')}e{int(power)}"
+
+
+def list_of(cells: Callable[..., Iterator[str]], *case: Any) -> list[str]:
+    """Return the measured cells of a row."""
+    return list(cells(*case))
 
 
 def cells_of(line: str) -> list[str]:
@@ -168,3 +187,10 @@ def drawn(tables: Sequence[PageTable], share: float, seed: int) -> list[tuple[Pa
         chosen.append((table, number))
         count += len(table.headings)
     return chosen
+
+
+def print_tables(tables: Mapping[str, PageTable], names: Sequence[str]) -> int:
+    """Measure and print the tables that are named, or all."""
+    for name in names or tables:
+        sys.stdout.write("\n".join(markdown(tables[name].headings, tables[name].measured())) + "\n\n")
+    return 0
