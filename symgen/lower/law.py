@@ -8,7 +8,7 @@ from dataclasses import replace
 from symgen.base.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target
+from symgen.ir.program import BY_PIVOTS, Block, LawProgram, ModelLayout, ModelProgram, Target
 from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
 from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_form, record_law
@@ -63,6 +63,8 @@ def lower_law(
             hoister.reserve([*(node for _, node in part_outputs(scalars, part)), *([] if flag is None else [flag])])
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
+    if model.plan.loops and record.form == "direct" and method.integrates != "independent":
+        blocks = [*_with_closed_loops(hoister, scalars, record.parts[0], blocks[0]), *blocks[1:]]
     unknowns, level = 0, ""
     pattern: tuple[tuple[int, int], ...] = ()
     if implicit:
@@ -101,6 +103,15 @@ def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool
     if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
         expected = "one that eliminates multipliers or solves for them, where rows may be off"
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
+
+
+def _with_closed_loops(hoister: Hoister, scalars: ScalarNodes, part: Part, block: Block) -> list[Block]:
+    """Return the right-hand side with loops in closed form, and behind it the one that `confirm` evaluates."""
+    closing = scalars.with_closed_loops()
+    closing.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    behind = replace(block, name=BY_PIVOTS, purpose=f"the same with a pivot for each row of a loop, {block.purpose}")
+    closed = law_block(hoister, closing, part)
+    return [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
 
 
 def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:

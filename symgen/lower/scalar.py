@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from functools import cached_property
+from typing import Self
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
-from symgen.ir.program import STATUS, EliminationPlan, Target
+from symgen.ir.program import STATUS, EliminationPlan, FixedVelocities, Target
 from symgen.lower.blocks import SaddleMatrix
 from symgen.lower.factor import FactorNodes, factorisation, minimum_degree
 from symgen.lower.replay import Nodes
@@ -35,6 +37,14 @@ class ScalarNodes(OfMass):
     ) -> None:
         super().__init__(equations, operations, parameters, places)
         self.plan = EliminationPlan() if plan is None else plan
+        self.closing = False
+
+    def with_closed_loops(self) -> Self:
+        """Return the same tape, nothing evaluated yet, with loops in closed form where multipliers are solved for."""
+        other = copy(self)
+        other.__dict__.pop("saddle", None)
+        other.values, other.stored, other.flags, other.closing = {}, {}, [], True
+        return other
 
     def compute(self, ends: Iterable[int]) -> None:
         """Evaluate the operations that some depend on."""
@@ -82,9 +92,13 @@ class ScalarNodes(OfMass):
     def saddle(self) -> SaddleMatrix:
         """The eliminated matrix of M and D; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
-        matrix = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal)
+        matrix, eliminated = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal), set(self.plan.rows)
+        for loop in self.plan.loops if self.closing else ():
+            self.flags.append(self._doubtful(loop, *matrix.close(loop)))
+            fixed |= set(loop.columns)
+            eliminated |= set(loop.rows)
         for row, entries in enumerate(self.rows):
-            if row not in self.plan.rows and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
+            if row not in eliminated and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
                 rest = self._square(row, sorted(matrix.entries[matrix.nv + row].items()))
                 least = g.mul(g.constant(SUSPICIOUS), self._square(row, entries))
                 self.flags.append(g.call("lt", g.add(rest, self.mask[row]), self.in_force(row, least)))
@@ -101,6 +115,17 @@ class ScalarNodes(OfMass):
 
         matrix.eliminate_rest(reciprocal)
         return matrix
+
+    def _doubtful(self, loop: FixedVelocities, square: int, largest: int) -> int:
+        """Return the node that is true where a loop's columns are nearly parallel or short, or a row is masked."""
+        g, (a, b), (i, j) = self.graph, loop.rows, loop.columns
+        least = g.add(g.mul(g.constant(SUSPICIOUS), largest), g.add(self.mask[a], self.mask[b]))
+        doubtful = g.call("le", square, least)
+        if not g.depends[largest] & ~PARAMETER:
+            return doubtful
+        gauge = g.mul(next(iter(self.gauge[i].values())), next(iter(self.gauge[j].values())))
+        short = g.call("lt", g.mul(largest, gauge), g.constant(SUSPICIOUS**2))
+        return g.call("or", doubtful, short)
 
     def _square(self, row: int, entries: Iterable[tuple[int, int]]) -> int:
         """Return the square of a row of the scale that decides rank."""
