@@ -3,13 +3,16 @@
     python -m benchmarks.operations [MODEL ...]
 
 Operations of the emitted right-hand side of `direct-correction` and of a round of its correction, in coordinates of
-bodies and of joints.
+bodies and of joints; and what CasADi's elimination of common parts leaves of the right-hand side, where CasADi can be
+imported.
 """
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from collections.abc import Iterator
+from typing import Any
 from unittest.mock import patch
 
 from rich.table import Table
@@ -42,7 +45,37 @@ def blocks(equations: Equations, plan: EliminationPlan) -> dict[str, Block]:
     return {block.name: block for block in (*model.blocks, *law.blocks)}
 
 
-def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
+def shared_by_casadi(block: Block) -> int:
+    """Return the instructions of a block as CasADi's SX, after its elimination of common parts.
+
+    Constants, inputs and tables are no instructions.
+    """
+    import casadi as ca
+
+    names = {"lt": "lt", "le": "le", "gt": "gt", "ge": "ge", "or": "logic_or", "and": "logic_and", "not": "logic_not"}
+    names |= {"add": "plus", "sub": "minus", "mul": "times", "div": "rdivide", "pow": "power"}
+    names |= {"max": "fmax", "min": "fmin", "abs": "fabs", "where": "if_else", "step": "gt"}
+    g, values, inputs = block.graph, dict[int, Any](), list[Any]()
+    ends = [node for _, node in block.outputs] + ([] if block.flag is None else [block.flag])
+    for node in g.needed(ends):
+        op, args, payload = g.nodes[node]
+        numbers = [values[a] for a in args]
+        if op == "const":
+            values[node] = ca.SX(payload)
+        elif op in ("input", "table"):
+            values[node] = ca.SX.sym(f"x{node}")
+            inputs.append(values[node])
+        elif op == "neg":
+            values[node] = -numbers[0]
+        else:
+            values[node] = getattr(ca, names.get(op, op))(*numbers)
+    shared = ca.cse(ca.vertcat(*(values[node] for node in ends)))
+    function = ca.Function("rhs", inputs, [shared])
+    idle = {ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_CONST, ca.OP_PARAMETER}
+    return sum(function.instruction_id(k) not in idle for k in range(function.n_instructions()))
+
+
+def rows(names: tuple[str, ...], casadi: bool) -> Iterator[list[str]]:
     """Yield the rows of the table."""
     for name in names:
         mechanism = symgen.load(name).mechanism
@@ -56,17 +89,27 @@ def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
                 f"{len(plan.rows)} of {equations.m}",
                 *(str(each["rhs"].operations) for each in (old, new)),
                 *(str(sum(each[x].operations for x in CORRECTION if x in each)) for each in (old, new)),
+                *((str(shared_by_casadi(new["rhs"])),) if casadi else ()),
             ]
 
 
 def main(names: tuple[str, ...] = MODELS) -> None:
     """Print the table."""
     table = Table("", "coordinates", "rows that fix", title="Operations")
-    for head in ("`rhs` by S", "`rhs`", "correction by S", "correction"):
+    casadi = importlib.util.find_spec("casadi") is not None
+    for head in (
+        "`rhs` by S",
+        "`rhs`",
+        "correction by S",
+        "correction",
+        *(("CasADi's `cse` of `rhs`",) if casadi else ()),
+    ):
         table.add_column(head, justify="right")
-    for row in rows(names):
+    for row in rows(names, casadi):
         table.add_row(*row)
     show(table)
+    if not casadi:
+        print("No column of CasADi, which is not installed: pip install casadi.")
 
 
 if __name__ == "__main__":
