@@ -124,6 +124,7 @@ def test_what_is_left_of_a_row_raises_the_flag_where_it_cancels(scale):
 
 
 ENTRIES = (
+    *("klann-leg", "engine", "cam-follower", "spherical-double-pendulum", "n-four-bar:2"),
     "four-bar",
     "slider-crank",
     "andrews",
