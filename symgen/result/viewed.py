@@ -15,6 +15,7 @@ from symgen.describe.evaluate import independent_values, parameter_values
 from symgen.describe.events import DOES, RESET
 from symgen.describe.inputs import are_words_of_data
 from symgen.describe.mechanism import ACCELERATIONS
+from symgen.layout import abi
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
@@ -184,10 +185,13 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
+    from symgen.running.start_lines import exported_start
     from symgen.running.tree import begin_on_tree, carried_of
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
-    values, moving = parameter_values(mechanism, run.plan.parameters), list[str]()
+    values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
+    turns = start.w[abi.WINDING :][: info.windings].tolist()
+    own_start = exported_start(run.mechanism, run.compiled, start.datum or (), turns)
     for name, x in values.items():
         parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
         try:
@@ -195,9 +199,10 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
         except (AssemblyError, InputError):
             moving.append(name)
             continue
-        y = start.y.copy()  # which pages correct
-        run.compiled.law_module.accept(other.t, y, other.p, other.w.copy(), np.zeros(16, dtype=np.int64))
-        if np.abs(y - other.y).max() > 1e-7 * np.abs(y).max(initial=1.0):
+        y, v = start.y.copy(), start.y[info.nq : info.nq + info.nv]
+        y[info.nq : info.nq + info.nv] = 0.0
+        own_start.close(y, v, other.p.copy())
+        if np.abs(y - other.y)[: info.work].max() > 1e-7 * np.abs(y).max(initial=1.0):
             moving.append(name)
     if begun is not None:
         y = np.concatenate([begun, tree.body_start.y[len(begun) :]])

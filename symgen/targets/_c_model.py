@@ -14,23 +14,24 @@ from symgen.compiling.checked import checked, checked_function
 from symgen.compiling.events import DIRECTIONS, effects_of
 from symgen.compiling.printed import Printed
 from symgen.compiling.side import Side, compile_side
-from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import RESET, STOP
-from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
-from symgen.layout.model_arrays import lengths_of, velocity_of
+from symgen.layout.model_arrays import lengths_of
 from symgen.native.c99 import broken_line, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
-from symgen.running.start_lines import derived_lines, independent_places, lines_for, start_lines
-from symgen.running.starts import held_of
-from symgen.starts.assembler import Assembly
-from symgen.starts.held import Held
+from symgen.running.start_lines import (
+    derived_lines,
+    exported_start,
+    independent_places,
+    is_described,
+    written_start,
+)
 from symgen.targets._c_names import prefix_of
 
 if TYPE_CHECKING:
@@ -234,10 +235,9 @@ class CModel:
     @cached_property
     def bound(self) -> BoundFunctions:
         """Functions of the runtime."""
-        printed, start, described = Printed(self.functions), self.run.start, self._is_described
-        held = self._held if described else Held()
-        turns = [] if described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
-        printed.add_start(Assembly(self.compiled, held, branches=turns, datum=start.datum or ()))
+        printed, start = Printed(self.functions), self.run.start
+        turns = None if self._is_described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
+        printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
         if any(event.action in (STOP, RESET) for event in self.mechanism.events):
             directions = [DIRECTIONS[e.direction] if e.action in (STOP, RESET) else 2 for e in self.mechanism.events]
             printed.add_steps(self.compiled, self._switching.function, "formulas_of_events", directions)
@@ -251,37 +251,23 @@ class CModel:
 
         One that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
         """
-        columns = {*(q.name for q in self.columns), *(f"{b.name}.{ORIENTATION}" for b in self.mechanism.bodies)}
-        return not self.joint and all(hold.name in columns for hold in holds_of(self.mechanism))
-
-    @property
-    def _held(self) -> Held:
-        """The coordinates that a start does not change, and the velocities that no projection changes."""
-        info = self.compiled.info
-        held = held_of(info, holds_of(self.mechanism), scalars(parameter_values(self.mechanism)), [None] * info.nv)
-        fixed = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
-        return Held(velocities=held.velocities, fixed=tuple(sorted(fixed)))
+        return not self.joint and is_described(self.mechanism)
 
     def _start(self) -> dict[str, str]:
         """Return lines for the derived parameters and for the start."""
         mechanism = self.mechanism
-        following, written, lines = list[str](), list[str](), lines_for(mechanism, C)
+        following = list[str]()
         try:
             for place, texts in derived_lines(mechanism, C):
                 following += [f"    if (!model->set[{place}]) {{", *(f"        {text}" for text in texts), "    }"]
-            if self._is_described:
-                q, v = start_lines(mechanism, lines)
-                written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
-                written += [f"v[{j}] = {'NAN' if x is None else lines.result(x)};" for j, x in enumerate(v)]
-            for i, state in enumerate(mechanism.states):
-                written.append(f"own[{i}] = {lines.result(lines.value(state.start, f'states.{state.name}.start'))};")
+            written = written_start(mechanism, C, self._is_described)
         except NotInLines as error:
             raise InputError(f"--target {self.target}", "a start by formulas that C has", str(error)) from None
         text = " ".join(written)
         unused = [f"(void){name};" for name in ("q", "v", "own") if f"{name}[" not in text]
         return {
             "derived": "\n".join(following),
-            "described": "\n".join(f"    {line}" for line in (*unused, *lines.lines_of(written), *written)),
+            "described": "\n".join(f"    {line}" for line in (*unused, *written)),
         }
 
 

@@ -2,10 +2,14 @@
 
 function makeLive(spec, code) {
   const { nq, nv, ny, m, at } = spec;
-  const { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
+  const { p, w, iw, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
   const stages = [0, 1, 2, 3].map(() => new Float64Array(ny));
   const middle = new Float64Array(ny), dual = new Float64Array(m);
   const kept = [new Float64Array(ny), w.slice(), iw.slice()];
+
+  // What functions of the runtime take: parameters, scratch, counters and working memory.
+  const memory = { p, w, iw };
+  for (const [name, size] of spec.memory) memory[name] = new Float64Array(size);
 
   // -- the start ------------------------------------------------------------------------------------------------------
 
@@ -55,76 +59,27 @@ function makeLive(spec, code) {
     return x;
   }
 
-  function shift(y, change, factor) {
-    if (nq === nv) for (let j = 0; j < nv; j++) y[j] += factor * change[j];
-    else {
-      for (let j = 0; j < nv; j++) w[at.change + j] = factor * change[j];
-      code.move(y, w);
-    }
-  }
-
-  // The largest coordinate that is a length, measured from a place; from the origin, its rounding is that of positions.
-  function largest(y, from) {
+  // The largest coordinate that is a length, measured from the datum.
+  function extent(y) {
     let size = 0;
-    for (let i = 0; i < nq; i++) if (spec.lengths[i]) size = Math.max(size, Math.abs(y[i] - (from ? from[i] : 0)));
+    for (let i = 0; i < nq; i++) if (spec.lengths[i]) size = Math.max(size, Math.abs(y[i] - spec.datum[i]));
     return size;
   }
-  const extent = (y) => largest(y, spec.datum);
 
-  // Positions closed by shortest changes from the described ones, then velocities: those given are kept.
+  // The start of a run, closed from the described one, or from the one of the page; null where it does not close.
   function start() {
-    scratch();
+    w.fill(0);
+    for (const [i, x] of spec.scratch) w[i] = x;
+    iw.fill(0);
     prepare();
-    const y = Float64Array.from(spec.y0);
-    if (!code.describe) {
-      code.accept(0, y, p, w, iw);
-      return y;
-    }
-    const described = code.describe(p);
-    y.set(described.q);
-    y.fill(0, nq);
-    const length = w[spec.status.length];
-    const free = Float64Array.from({ length: nv }, (_, j) => length * Math.sqrt(w[at.gauge + j]));
-    const scale = free.slice();
-    for (const j of spec.fixed) scale[j] = 0;
-    let best = Infinity, stalled = 0;
-    for (let round = 0; round < 60 && m; round++) {
-      code.geometry(0, y, p, w);
-      const right = new Float64Array(m);
-      let square = 0;
-      for (let i = 0; i < m; i++) {
-        right[i] = -w[at.residual + i];
-        square += ((spec.rows[i] ? 1 : length) * right[i]) ** 2;
-      }
-      const size = Math.sqrt(square), whole = Math.max(length, extent(y));
-      stalled = size > 0.5 * best ? stalled + 1 : 0;
-      best = Math.min(best, size);
-      if (!Number.isFinite(size) || stalled >= 15) return null;
-      if (size <= 1e-15 * Math.max(length, largest(y)) * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
-      if (round === 59) return null;
-      const change = leastNorm(jacobian(), right, scale);
-      let longest = 0;
-      for (let j = 0; j < nv; j++) longest = Math.max(longest, Math.abs(change[j]) / (spec.angular[j] ? 1 : length));
-      shift(y, change, 1 / Math.max(longest, 1));
-    }
-    described.v.forEach((x, j) => {
-      y[nq + j] = x === null ? 0 : x;
-      scale[j] = x === null ? free[j] : 0;
-    });
-    if (m) {
-      code.geometry(0, y, p, w);
-      const d = jacobian();
-      for (let pass = 0; pass < 2; pass++) {
-        const right = Float64Array.from({ length: m }, (_, i) => {
-          let sum = w[at.nu + i];
-          for (let j = 0; j < nv; j++) sum -= d[i][j] * y[nq + j];
-          return sum;
-        });
-        const change = leastNorm(d, right, pass ? free : scale);
-        for (let j = 0; j < nv; j++) y[nq + j] += change[j];
-      }
-    }
-    return y;
+    const { y, start_velocities } = memory;
+    y.set(spec.y0);
+    start_velocities.set(y.subarray(nq, nq + nv));
+    y.fill(0, nq, nq + nv);
+    code.describe(p, y, start_velocities, y.subarray(nq + nv + 1));
+    if (code.close_row(memory) !== 0) return null;
+    w[spec.status.step] = spec.step;
+    return code.accept(0, y, p, w, iw) & 1 ? null : y.slice();
   }
 
   // Whether it closes with another value of one parameter; the parameters stay as they are.
@@ -147,10 +102,6 @@ function makeLive(spec, code) {
   }
 
   // -- steps ----------------------------------------------------------------------------------------------------------
-
-  // What functions of the runtime take: parameters, scratch, counters and working memory.
-  const memory = { p, w, iw };
-  for (const [name, size] of spec.memory) memory[name] = new Float64Array(size);
 
   // A step; whether it succeeds. `end` undoes it. Events in it happen at their times, and further steps follow.
   function step(t, y, h) {

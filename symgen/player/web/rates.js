@@ -79,5 +79,5 @@ function makeRates(spec, code) {
   }
 
   reset();
-  return { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep };
+  return { p, w, iw, prepare, setParameters, rhs, rates, reset, keep };
 }
