@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.compiling.checked import checked, checked_function
-from symgen.compiling.events import DIRECTIONS, effects_of
-from symgen.compiling.printed import Printed
-from symgen.compiling.side import compile_side
-from symgen.describe.events import RESET
+from symgen.compiling.checked import checked
+from symgen.compiling.printed import Printed, PrintedEvents
+from symgen.describe.events import STOP
 from symgen.drawing.scene import Array
+from symgen.effects.stepping import ENDED
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of
 from symgen.native.formula_lines import JAVASCRIPT, NotInLines
@@ -135,17 +134,11 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> 
     size : int
         Characters of the emitted functions.
     """
-    functions, effects = checked(compiled), effects_of(mechanism, compiled, mechanism.events)
+    events = PrintedEvents.of(mechanism, compiled)
+    functions = checked(compiled) | events.functions
     printed = Printed(functions)
     printed.add_start(assembly)
-    if effects is not None:
-        conditions = [(event.name, event.when) for event in mechanism.events]
-        side = compile_side(mechanism, compiled, "events", "Switching functions", conditions)
-        functions["switching"] = checked_function(side.function, abi.OBSERVE)
-        functions["effects"] = checked_function(effects.formulas, abi.OBSERVE)
-        printed.add_effects(effects, "effects")
-        directions = [DIRECTIONS[event.direction] if event.action == RESET else 2 for event in mechanism.events]
-        printed.add_steps(compiled, side.function, "switching", directions)
+    printed.add_steps(compiled, events, ("advance",))
     bound = printed.bound()
     memory = [(name, size) for name, (_, size) in bound.memory.items() if name not in ("p", "w", "iw")]
     return f"{LOOP_HELPERS}{javascript(functions, bound)}", memory, len(javascript(functions))
@@ -236,6 +229,8 @@ def _spec(
         "jacobian": [[row, column, constant, slot] for row, column, constant, slot in info.jacobian],
         "at": sections,
         "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
+        "ended": ENDED,
+        "ends": [event.name if event.action == STOP else "" for event in mechanism.events],
         "parameters": [
             {**entry, "follows": bool(own.formula), **({"still": True} if own.name in constants else {})}
             for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)

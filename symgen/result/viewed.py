@@ -12,7 +12,7 @@ import numpy as np
 
 from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.evaluate import independent_values, parameter_values
-from symgen.describe.events import DOES, RESET
+from symgen.describe.events import DOES
 from symgen.describe.inputs import are_words_of_data
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.layout import abi
@@ -156,10 +156,10 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
         return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
-    own = {event.name for event in mechanism.events if event.action == RESET}
-    for name, action in (*((event.name, event.action) for event in mechanism.events), *run["watched"]):
+    own = {event.name for event in mechanism.events}
+    for name, action in run["watched"]:
         if action in DOES and name not in own:
-            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for resets of the file"
+            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
     if mechanism.frictions:
         return None, f"{NONE}: joints have dry friction, and pages do not choose its modes"
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}

@@ -11,10 +11,11 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.compiling.checked import checked, checked_function
-from symgen.compiling.events import DIRECTIONS, effects_of
-from symgen.compiling.printed import Printed
-from symgen.compiling.side import Side, compile_side
+from symgen.compiling.events import DIRECTIONS
+from symgen.compiling.printed import Printed, PrintedEvents
+from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET, STOP
+from symgen.effects.stepping import ENDED, FAILED
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
@@ -36,7 +37,6 @@ from symgen.targets._c_names import prefix_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.effects.effects import Effects
     from symgen.layout.compiled import CompiledModel
     from symgen.native.binding import BoundFunctions
     from symgen.native.language import Function
@@ -158,7 +158,8 @@ class CModel:
             "acting": acting,
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
-            "effects": self.effects is not None,
+            **{"ended": ENDED, "failed": FAILED},
+            "effects": self.events.effects is not None,
             "memory": [
                 {"name": name, "is_real": kind == "float", "size": size}
                 for name, (kind, size) in self.bound.memory.items()
@@ -211,26 +212,15 @@ class CModel:
         functions["prepare_law"] = functions.pop("prepareLaw")
         if self.compiled.info.nq == self.compiled.info.nv:
             functions.pop("move", None)
-        sides, events = dict[str, Side](), self.mechanism.events
         if outputs := [(output.name, output.value) for output in self.mechanism.outputs]:
-            sides["formulas_of_outputs"] = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
-        if events:
-            sides["formulas_of_events"] = self._switching
-        functions |= {name: checked_function(side.function, abi.OBSERVE) for name, side in sides.items()}
-        return functions | (
-            {"formulas_of_effects": checked_function(self.effects.formulas, abi.OBSERVE)} if self.effects else {}
-        )
+            side = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
+            functions["formulas_of_outputs"] = checked_function(side.function, abi.OBSERVE)
+        return functions | self.events.functions
 
     @cached_property
-    def _switching(self) -> Side:
-        """Switching functions of events."""
-        conditions = [(event.name, event.when) for event in self.mechanism.events]
-        return compile_side(self.mechanism, self.compiled, "events", "Switching functions", conditions)
-
-    @cached_property
-    def effects(self) -> Effects | None:
-        """What events change."""
-        return effects_of(self.mechanism, self.compiled, self.mechanism.events)
+    def events(self) -> PrintedEvents:
+        """The events."""
+        return PrintedEvents.of(self.mechanism, self.compiled)
 
     @cached_property
     def bound(self) -> BoundFunctions:
@@ -238,11 +228,8 @@ class CModel:
         printed, start = Printed(self.functions), self.run.start
         turns = None if self._is_described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
         printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
-        if any(event.action in (STOP, RESET) for event in self.mechanism.events):
-            directions = [DIRECTIONS[e.direction] if e.action in (STOP, RESET) else 2 for e in self.mechanism.events]
-            printed.add_steps(self.compiled, self._switching.function, "formulas_of_events", directions)
-        if self.effects:
-            printed.add_effects(self.effects, "formulas_of_effects")
+        further = ("apply_effects",) if self.events.effects else ()
+        printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "advance", *further))
         return printed.bound()
 
     @property

@@ -3,9 +3,7 @@
 function makeLive(spec, code) {
   const { nq, nv, ny, m, at } = spec;
   const { p, w, iw, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
-  const stages = [0, 1, 2, 3].map(() => new Float64Array(ny));
-  const middle = new Float64Array(ny), dual = new Float64Array(m);
-  const kept = [new Float64Array(ny), w.slice(), iw.slice()];
+  const dual = new Float64Array(m);
 
   // What functions of the runtime take: parameters, scratch, counters and working memory.
   const memory = { p, w, iw };
@@ -103,50 +101,25 @@ function makeLive(spec, code) {
 
   // -- steps ----------------------------------------------------------------------------------------------------------
 
-  // A step; whether it succeeds. `end` undoes it. Events in it happen at their times, and further steps follow.
+  // A step; whether the motion goes on behind it. Events happen at their times.
+  let result = 0;
   function step(t, y, h) {
-    [y, w, iw].forEach((now, i) => kept[i].set(now));
-    return code.step_to_event ? stepWithEvents(t, y, h) : plainStep(t, y, h);
+    memory.step_clock[0] = t;
+    result = code.advance(memory, t + h, 2 * h, y);
+    return result === 0;
   }
 
-  function stepWithEvents(t, y, h) {
-    for (const until = t + h; t < until;) {
-      const left = until - t, made = code.step_to_event(memory, t, left, y);
-      if (!(made > 0)) return false;
-      t = made === left ? until : t + made;
-      if (memory.chosen.some(Boolean) && code.apply_effects(memory, t, y) !== 0) return false;
-    }
-    return true;
-  }
-
-  function plainStep(t, y, h) {
-    const [a, b, c, d] = stages;
-    rhs(t, y, a);
-    for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * a[i];
-    rhs(t + 0.5 * h, middle, b);
-    for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * b[i];
-    rhs(t + 0.5 * h, middle, c);
-    for (let i = 0; i < ny; i++) middle[i] = y[i] + h * c[i];
-    rhs(t + h, middle, d);
-    for (let i = 0; i < ny; i++) y[i] += (h / 6) * (a[i] + 2 * (b[i] + c[i]) + d[i]);
-    const bits = code.accept(t + h, y, p, w, iw);
-    return Number.isFinite(y[0]) && !(bits & 1);
-  }
-
-  // Go on by steps that halve from the state before a step that has failed; the time where the motion ends, and why.
-  function end(t, y, h) {
-    const undo = () => [y, w, iw].forEach((now, i) => now.set(kept[i]));
-    undo();
-    for (h /= 2; h > 1e-9 * (1 + Math.abs(t)); h /= 2) {
-      if (step(t, y, h)) t += h;
-      else undo();
-    }
-    return { t, sentence: sentence(t, y) };
+  // The time where the motion has ended in the last step, and why; whether it has failed there.
+  function end(y) {
+    const t = memory.step_clock[0], at_t = `at t = ${Number(t.toPrecision(6))} s`;
+    const event = result === spec.ended && spec.ends.find((name, i) => name && memory.chosen[i]);
+    if (event) return { t, failed: false, sentence: `the event '${event}' ends the motion ${at_t}` };
+    return { t, failed: true, sentence: sentence(t, y, at_t) };
   }
 
   // The sentence on the end of a motion: where drivers lock, what would have to jump.
-  function sentence(t, y) {
-    const at_t = `at t = ${Number(t.toPrecision(6))} s`, length = w[spec.status.length];
+  function sentence(t, y, at_t) {
+    const length = w[spec.status.length];
     if (!spec.drivers.some(Boolean)) return `the motion cannot be continued ${at_t}`;
     code.geometry(t, y, p, w);
     const scale = Float64Array.from({ length: nv }, (_, j) => Math.sqrt(w[at.gauge + j]));

@@ -250,7 +250,7 @@ function show(next) {
 // -- live -----------------------------------------------------------------------------------------------------------------
 
 let live = null, state = null, clock = 0, follow = null;
-if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, move: null, bodies: null, step_to_event: null }, emitted));
+if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, bodies: null }, emitted));
 
 // Begin again with the sliders' parameters; steps are taken while the page is drawn.
 function restart(row) {
@@ -296,13 +296,13 @@ function compute(budget) {
 
 // The motion ends in the last step of some length; or, of length 0, somewhere behind the last frame.
 function stopped(step) {
-  const last = follow.t[follow.t.length - 1], end = step ? live.end(clock, state, step) : null;
+  const last = follow.t[follow.t.length - 1], end = step ? live.end(state) : null;
   if (end && end.t > last) {
     follow.t.push(end.t);
     follow.rows.push(live.bodies(end.t, state));
   }
   clock = follow.end = end ? end.t : last;
-  follow.status = "failed";
+  follow.status = end && !end.failed ? "ok" : "failed";
   $("closes").textContent = end ? end.sentence : `The mechanism closes with these parameters up to t = ${short(last)} s.`;
   finish();
 }
@@ -568,9 +568,9 @@ window.symgen = {
     live.setParameters(Object.entries(values).map(([name, x]) => [this.parameters.indexOf(name), x]));
     const y = live.start(), count = Math.round(until / step);
     const at = y ? Array.from({ length: count }, (_, k) => k * step).find((t) => !live.step(t, y, step)) : undefined;
-    const ended = at === undefined ? null : live.end(at, y, step);
+    const ended = at === undefined ? null : live.end(y);
     live.reset();
-    if (ended) throw new Error(ended.sentence);
+    if (ended && ended.failed) throw new Error(ended.sentence);
     return y && Array.from(y);
   },
   // Look from elsewhere: turned and tilted [rad], with a point in the middle [m].
