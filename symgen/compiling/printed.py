@@ -15,9 +15,11 @@ from symgen.compiling.side import compile_side
 from symgen.describe.events import RECORD, STOP
 from symgen.effects.applying import apply_effects
 from symgen.effects.effects import Effects
-from symgen.effects.stepping import advance, find_rates, new_step_work, take_step
+from symgen.effects.locking import find_lock, new_lock_work
+from symgen.effects.stepping import find_rates, new_step_work, take_step, take_steps
 from symgen.layout import abi
 from symgen.layout.ensemble_abi import N_SUMMARY
+from symgen.layout.scales import fill_jacobian
 from symgen.layout.start_records import Instant, StartConditions
 from symgen.loopcode.exact import compiled_form
 from symgen.native import language as lang
@@ -26,6 +28,7 @@ from symgen.native.binding import BoundFunctions, ConstantTable, Elements, Meani
 from symgen.native.loop_values import laid_out
 from symgen.native.loops import read_loop
 from symgen.native.read_values import Foreign
+from symgen.starts.assembler import layout_of
 from symgen.starts.starting import close_row, observe_nothing
 
 if TYPE_CHECKING:
@@ -161,6 +164,12 @@ def _room_of_steps(name: str) -> str | None:
     return own.replace("y", "") if owner == "now" else _ALONE.get(name)
 
 
+def _room_of_lock(name: str) -> str | None:
+    """Return the name of an array of `find_lock` in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    return own.replace("y", "") if owner == "now" else f"lock_{own}" if owner == "work" else None
+
+
 @dataclass(frozen=True)
 class Printed:
     """Functions of the runtime for one compiled model in another language.
@@ -183,7 +192,7 @@ class Printed:
     def add_steps(self, compiled: CompiledModel, events: PrintedEvents, names: Collection[str]) -> None:
         """Add functions of `symgen.effects.stepping`, and the effects of events.
 
-        They are ``find_rates(t, y, rate)``, ``take_step(t, h, y)`` and ``advance(until, h, y)``, and where events
+        They are ``find_rates(t, y, rate)``, ``take_step(t, h, y)`` and ``take_steps(until, h, y)``, and where events
         change the state ``apply_effects(t, y)`` for the events in ``chosen``.
 
         Parameters
@@ -218,7 +227,7 @@ class Printed:
         arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
             "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
             "take_step": (take_step, (steps, None, None, now, iw, work)),
-            "advance": (advance, ((steps, of_effects, ends), None, None, now, iw, work, impact)),
+            "take_steps": (take_steps, ((steps, of_effects, ends), None, None, now, iw, work, impact)),
             "apply_effects": (apply_effects, (of_effects, None, now, work.chosen, impact)),
         }
         for name in names:
@@ -226,6 +235,22 @@ class Printed:
             own = function is apply_effects  # whose memory has another name elsewhere
             room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
             self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+
+    def add_lock(self, compiled: CompiledModel, drivers: Collection[str]) -> None:
+        """Add ``find_lock(t, y)``, see `symgen.effects.locking`, for these joints."""
+        layout, geometry = layout_of(compiled), compiled.model.geometry
+        driven = np.array([int(row.joint in drivers) for row in compiled.info.rows], dtype=np.int64)
+        now = Instant(np.zeros(compiled.info.ny), np.zeros(1), compiled.scratch())
+        arguments = (layout, geometry, driven), None, now, new_lock_work(layout)
+        emitted = {id(geometry): self.emitted["geometry"]}
+        self.entries["find_lock"] = source_of(find_lock), meanings_of(find_lock, arguments, emitted, _room_of_lock)
+
+    def add_jacobian(self, compiled: CompiledModel) -> None:
+        """Add ``fill_jacobian()``, which writes the dense D to the array ``d``."""
+        layout = layout_of(compiled)
+        arguments = layout, compiled.scratch(), np.zeros(layout.m * layout.nv)
+        meanings = meanings_of(fill_jacobian, arguments, {}, {"w": "w", "rows": "d"}.get)
+        self.entries["fill_jacobian"] = source_of(fill_jacobian), meanings
 
     def add_start(self, assembly: Assembly) -> None:
         """Add ``close_row()``, which makes the start of the model consistent; see `symgen.starts.starting`.

@@ -20,7 +20,7 @@ _F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 MOST_HALVES, FINEST = 60, 5.0 * 2.0**-52
 #: A last step is longer than the others by at most this share; where steps fail, they halve to this share of the time.
 LONGER, NEAREST = 2e-12, 1e-9
-#: Results of `advance`: the time is reached; an event ends the run; a step fails, or events contradict each other.
+#: Results of `take_steps`: the time is reached; an event ends the run; a step fails, or events contradict each other.
 REACHED, ENDED, FAILED = range(3)
 #: Layout, ``rhs`` and its confirmation, ``accept``, switching functions, and the direction of each event: 1 or -1 where
 #: its function rises or falls, 0 for both, 2 for events that change nothing.
@@ -44,7 +44,7 @@ def new_step_work(ny: int, nw: int, events: int) -> Any:
 
 
 @exact()
-def is_finite(x: Any, count: int) -> bool:
+def all_finite(x: Any, count: int) -> bool:
     """Whether the first numbers of an array are finite."""
     finite = True
     for i in range(count):
@@ -58,7 +58,7 @@ def find_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any)
     layout, rhs, confirm, _, _, _ = model
     if rhs(t, y, p, w, iw, rate) != 0:
         confirm(t, y, p, w, iw, rate)
-    return bool(is_finite(rate, layout.ny))
+    return bool(all_finite(rate, layout.ny))
 
 
 @exact()
@@ -86,7 +86,7 @@ def take_step(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> b
     find_rates(model, t + h, middle, p, w, iw, d)
     for i in range(n):
         y[i] += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i])
-    return bool(accept(t + h, y, p, w, iw) % 2 == 0 and is_finite(y, n))
+    return bool(accept(t + h, y, p, w, iw) % 2 == 0 and all_finite(y, n))
 
 
 @exact()
@@ -106,7 +106,7 @@ def copy_counters(source: Any, copy: Any) -> int:
 
 
 @exact()
-def remember(now: Any, iw: Any, work: Any) -> int:
+def keep_beginning(now: Any, iw: Any, work: Any) -> int:
     """Keep the beginning of a step."""
     copy_numbers(now.y, work.y, work.y.shape[0])
     copy_numbers(now.w, work.w, work.w.shape[0])
@@ -160,7 +160,7 @@ def step_to_event(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) 
         Length of the step, nan where it failed.
     """
     _, _, _, _, happens, directions = model
-    remember(now, iw, work)
+    keep_beginning(now, iw, work)
     if directions.shape[0] > 0:
         happens(t, now.y, now.p, now.w, work.middle, work.before)
     count = attempt(model, t, h, now, iw, work)
@@ -180,7 +180,7 @@ def step_to_event(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) 
 
 
 @exact(types.int64(RUN_MODEL, _F, _F, INSTANT, _K, STEP_WORK, EFFECT_WORK))
-def advance(model: Any, until: float, h: float, now: Any, iw: Any, work: Any, impact: Any) -> int:
+def take_steps(model: Any, until: float, h: float, now: Any, iw: Any, work: Any, impact: Any) -> int:
     """Make steps up to a time; events happen at their times, and one that ends runs is the last.
 
     Parameters

@@ -138,7 +138,9 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> 
     functions = checked(compiled) | events.functions
     printed = Printed(functions)
     printed.add_start(assembly)
-    printed.add_steps(compiled, events, ("advance",))
+    printed.add_steps(compiled, events, ("take_steps",))
+    if drivers := _drivers(mechanism):
+        printed.add_lock(compiled, drivers)
     bound = printed.bound()
     memory = [(name, size) for name, (_, size) in bound.memory.items() if name not in ("p", "w", "iw")]
     return f"{LOOP_HELPERS}{javascript(functions, bound)}", memory, len(javascript(functions))
@@ -194,6 +196,11 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
     }
 
 
+def _drivers(mechanism: Mechanism) -> set[str]:
+    """Return the joints that drive."""
+    return {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
+
+
 def _spec(
     mechanism: Mechanism,
     compiled: CompiledModel,
@@ -203,7 +210,7 @@ def _spec(
     constants: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
-    drivers = {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
+    drivers = _drivers(mechanism)
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
@@ -226,7 +233,6 @@ def _spec(
         "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],
         "moving": moving_names(info),
         **{"most_named": MOST_NAMED, "counts": COUNTS},
-        "jacobian": [[row, column, constant, slot] for row, column, constant, slot in info.jacobian],
         "at": sections,
         "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
         "ended": ENDED,

@@ -138,12 +138,7 @@ class CModel:
             scratch[first : first + size] = start.w[first : first + size]
         parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
         of_bodies = self.run.assembled.of_bodies[0].info
-        drivers = {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
-        entries = [
-            f"{{{row}, {column}, {-1 if slot is None else info.sections['jacobian'][0] + slot}, "
-            f"{c_number(constant or 0.0)}}}"
-            for row, column, constant, slot in info.jacobian
-        ]
+        drivers = self.drivers
         return {
             "name": mechanism.name,
             "title": mechanism.title or mechanism.name,
@@ -177,8 +172,7 @@ class CModel:
             "p0": _list(map(c_number, start.p)),
             "y0": _list(map(c_number, start.y)),
             "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
-            "jacobian": _list(entries),
-            "driven": _list(int(row.joint in drivers) for row in info.rows),
+            "driven": any(row.joint in drivers for row in info.rows),
             "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
             "moving": _list(f'"{name}"' for name in moving_names(info)),
             **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
@@ -229,8 +223,17 @@ class CModel:
         turns = None if self._is_described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
         printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
         further = ("apply_effects",) if self.events.effects else ()
-        printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "advance", *further))
+        printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
+        if self.drivers:
+            printed.add_lock(self.compiled, self.drivers)
+        if self.target == "fmu" and self.compiled.info.m:
+            printed.add_jacobian(self.compiled)
         return printed.bound()
+
+    @property
+    def drivers(self) -> set[str]:
+        """Joints that drive."""
+        return {joint.name for joint in self.mechanism.joints if joint.kind == DRIVER}
 
     @property
     def _is_described(self) -> bool:

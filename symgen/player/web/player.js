@@ -250,7 +250,7 @@ function show(next) {
 // -- live -----------------------------------------------------------------------------------------------------------------
 
 let live = null, state = null, clock = 0, follow = null;
-if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, bodies: null }, emitted));
+if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, bodies: null, find_lock: null }, emitted));
 
 // Begin again with the sliders' parameters; steps are taken while the page is drawn.
 function restart(row) {
