@@ -54,10 +54,13 @@ class Live:
         Emitted functions as JavaScript.
     spec : mapping
         Sizes, places and numbers, as JSON has them.
+    columns : str
+        Expression for the functions of columns that are worked out at each frame.
     """
 
     code: str
     spec: Mapping[str, Any]
+    columns: str = "null"
 
 
 def live_part(

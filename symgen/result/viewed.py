@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.digits import cleaned
 from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.evaluate import independent_values, parameter_values
 from symgen.describe.events import DOES
@@ -20,10 +21,12 @@ from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
 from symgen.result.export import SAVED
-from symgen.result.labelled import Array, Labelled
+from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
+from symgen.result.live_columns import live_columns
 from symgen.result.plots import panels
 from symgen.result.saved import check_names, checked_file, dataset_of
 from symgen.result.signals import TABLES
+from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -116,28 +119,64 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
     return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
 
 
-#: Tables that a page plots, each with what stands before the meaning of its units, and those that it has in any case.
+#: Tables that a page plots, each with the section of its groups and what stands before the meaning of their units.
 _PLOTTED = {
-    **{"outputs": "outputs", "elements": "element", "q": "", "energy": "", "violations": ""},
-    **{"magnitudes": "reaction", "reactions": "reaction component", "joint_coordinates": "joint", "points": "point"},
-    **{"v": "", "a": "", "lam": "multiplier", "body_reactions": "reaction in body axes"},
+    "outputs": ("outputs", "outputs"),
+    "elements": ("forces and drivers", "elements"),
+    "q": ("bodies", ""),
+    "magnitudes": ("joints", "joints"),
+    "reactions": ("joints", ""),
+    "joint_coordinates": ("joints", "joints"),
+    **{"points": ("bodies", "points"), "v": ("bodies", ""), "a": ("bodies", "")},
+    **{"energy": ("energy and errors", ""), "violations": ("energy and errors", "")},
+    "lam": ("multipliers", "multipliers"),
+    "body_reactions": ("joints, in axes of bodies", ""),
 }
+#: Those that a page has in any case, those with a group for each joint, and those without groups that are 0.
 _ALWAYS = ("outputs", "q", "energy", "violations")
+_BY_JOINT = {"reactions": "", "body_reactions": " in axes of its body"}
+_NONZERO = ("magnitudes", "reactions", "body_reactions")
+#: Digits that the equations of multipliers lose, as a factor of scales: what is less in a reaction is rounding.
+_LOST = 1e3
 
 
 def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
     """Yield the quantities that a page plots, the most important ones first."""
-    for table, head in _PLOTTED.items():
+    tables = {table: read(table) for table in _PLOTTED}
+    scales = dict[str, float]()
+    for part in tables.values():
+        scales |= {unit: max(x, scales.get(unit, 0.0)) for unit, x in unit_scales(part).items()}
+    grounded = {joint.name for joint in mechanism.joints if joint.bodies[0] == GROUND}
+    for table, (section, head) in _PLOTTED.items():
         if table == "q":
             yield from position_groups(mechanism, q)
             continue
-        for meaning, unit, logarithmic, part in panels(read(table)):
-            title = head if table == "outputs" else f"{head} {meaning}".strip()
-            for numbered, some in parts_of(title, len(part.names)):
-                further = table not in _ALWAYS
-                yield PlottedGroup(
-                    *(numbered, unit, part.names[some], part.values[:, some], logarithmic), further=further
-                )
+        for title, unit, logarithmic, part in _titled(table, head, tables[table]):
+            scale = 0.0 if logarithmic else max(scales[unit], least_scale(scales, unit)) if unit in scales else 0.0
+            if table in _NONZERO:
+                scale *= _LOST
+                if not cleaned(part.values, scale).any():
+                    continue
+            if table == "body_reactions" and title.partition(":")[0] in grounded:
+                continue  # they are those in ground axes
+            for whole, some in parts_of(title, part.names):
+                names, values, further = part.names[some], part.values[:, some], table not in _ALWAYS
+                options: dict[str, Any] = {"further": further, "section": section, "scale": scale}
+                yield PlottedGroup(whole, unit, names, values, logarithmic, **options)
+
+
+def _titled(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
+    """Yield the groups of a table: title, unit, whether sizes are drawn as logarithms, and columns."""
+    for meaning, unit, logarithmic, part in panels(columns):
+        owners = [name.partition(".")[0] for name in part.names]
+        if table in _BY_JOINT:
+            for joint in dict.fromkeys(owners):
+                places = [i for i, owner in enumerate(owners) if owner == joint]
+                yield f"{joint}: {meaning}{_BY_JOINT[table]}", unit, logarithmic, columns_at(part, places)
+        else:
+            one = len(set(owners)) == 1 and head and table != "outputs"
+            before = owners[0] if one else head
+            yield ": ".join(filter(None, (before, meaning))), unit, logarithmic, part
 
 
 def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:
@@ -178,7 +217,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
             return _live_on_tree(prepared, prepared.tree, step, begin)
-    return live, note
+    return _with_columns(live, mechanism, prepared), note
 
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
@@ -212,7 +251,16 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
     live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
-    return live, note
+    return _with_columns(live, mechanism, run), note
+
+
+def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
+    """Return a live part that works out all columns that it can."""
+    if live is None:
+        return None
+    bodies = None if run.tree is None else run.tree.bodies
+    text, spec = live_columns(mechanism, run.compiled, run.start, bodies)
+    return replace(live, columns=text, spec={**live.spec, "columns": spec})
 
 
 def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:

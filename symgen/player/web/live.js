@@ -88,5 +88,5 @@ function makeLive(spec, code) {
     return Array.from(seen.subarray(0, spec.nb));
   }
 
-  return { spec, p, rates, start, closes, open, step, end, bodies, setParameters, reset };
+  return { spec, p, w, iw, rhs, rates, start, closes, open, step, end, bodies, setParameters, reset };
 }
