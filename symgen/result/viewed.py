@@ -17,6 +17,7 @@ from symgen.describe.events import DOES
 from symgen.describe.inputs import are_words_of_data
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.layout import abi
+from symgen.methods import METHODS
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from symgen.running.tree import TreeRun
 
 
-def view(result: MotionTables, beside: MotionTables | None = None, live: bool = True) -> Page:
+def view(result: MotionTables, beside: MotionTables | None = None, live: bool | str = True) -> Page:
     """Return the page of a motion.
 
     Parameters
@@ -46,18 +47,19 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool = 
         Of this process.
     beside : MotionTables, optional
         Another motion of the same mechanism, drawn faintly behind.
-    live : bool
-        Whether the page shall be able to work out other motions.
+    live : bool or str
+        Whether the page shall be able to work out other motions; the method of these, whose gains have sliders.
 
     Raises
     ------
     InputError
-        If the motions are of different mechanisms, or have no outputs.
+        If the motions are of different mechanisms, or have no outputs, or there is no such method.
     """
     first, second = playable_motion(result), None if beside is None else playable_motion(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
-    return page(first, *(_live(first.mechanism, result.run_facts()) if live else (None, "")), second)
+    method = METHODS.canonical(live, "live") if isinstance(live, str) else ""
+    return page(first, *(_live(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
 
 
 def playable_motion(result: MotionTables) -> Recording:
@@ -179,7 +181,7 @@ def _titled(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str
             yield ": ".join(filter(None, (before, meaning))), unit, logarithmic, part
 
 
-def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:
+def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tuple[Live | None, str]:
     """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
 
     Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
@@ -205,6 +207,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
+    settings = replace(settings, method=method) if method else settings
     prepared = prepare(mechanism, settings, Purpose.STATE)
     state = {**begun["q"], **begun["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
@@ -258,9 +261,20 @@ def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Liv
     """Return a live part that works out all columns that it can."""
     if live is None:
         return None
+    law = run.compiled.law
+    units = {parameter.name: parameter.unit for parameter in METHODS.get(law.method).parameters}
+    gains = [
+        {"name": f"method.{name}", "unit": units[name], "value": float(x), "follows": False, "place": place}
+        for place, ((name, _), x) in enumerate(
+            zip(law.parameters, run.start.p[law.parameter_offset :], strict=False), law.parameter_offset
+        )
+        if name in units and not name.endswith("tolerance")
+    ]
     bodies = None if run.tree is None else run.tree.bodies
     text, spec = live_columns(mechanism, run.compiled, run.start, bodies)
-    return replace(live, columns=text, spec={**live.spec, "columns": spec})
+    return replace(
+        live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
+    )
 
 
 def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:

@@ -128,3 +128,20 @@ def test_a_run_of_a_script_says_why_there_is_none(chromium: Chromium, tmp_path: 
     assert chromium.run(f"{tried}({{ crank_length: 0.6 }})") == "the mechanism does not close with these parameters"
     assert len(chromium.run(f"{tried}({{}})")) >= 18
     assert chromium.said == [] and chromium.run(f"{field('arm_mass')}.value") == "0.4"
+
+
+def test_gains_of_a_method_have_sliders(chromium: Chromium, tmp_path: Path) -> None:
+    """Greater gains hold the joints of a motion closer together, as those of a run do."""
+    model = load("four-bar")
+    chromium.open(model.simulate(until=1.0).view(live="baumgarte").save(tmp_path / "page.html"))
+    names = chromium.run("[...document.querySelectorAll('#live input[type=number]')].map((i) => i.dataset.name)")
+    assert {"crank_mass", "method.alpha", "method.beta"} <= set(names)
+    typed(chromium, "method.alpha", "20")
+    typed(chromium, "method.beta", "20")
+    settled(chromium)
+    seen = chromium.run("symgen.column('violation.position')")
+    options = {"method.alpha": 20.0, "method.beta": 20.0}
+    run = model.simulate(method="baumgarte", integrator="rk4", step=1e-3, until=1.0, options=options)
+    middle = np.interp(0.5, seen["t"], seen["values"])  # as powers of ten
+    assert middle == pytest.approx(np.log10(np.interp(0.5, run.t, run["violation.position"])), abs=0.3)
+    assert chromium.said == []

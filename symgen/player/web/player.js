@@ -448,7 +448,7 @@ function sliders() {
   closes.setAttribute("role", "status");
   head.append(element("span", `${data.live.method}, rk4 with steps of ${short(data.live.step)} s`, "small"), back);
   box.append(head, list, closes);
-  rows = data.live.parameters.map((parameter, i) => (parameter.still ? null : makeRow(parameter, i))).filter(Boolean);
+  rows = data.live.parameters.map((parameter, i) => (parameter.still ? null : makeRow(parameter, parameter.place ?? i))).filter(Boolean);
   box.hidden = !rows.length;
   const heading = (row) => (row.follows ? "from others" : row.unit ? `in ${row.unit}` : "without unit");
   const alike = (row) => rows.filter((other) => heading(other) === heading(row));
@@ -610,7 +610,8 @@ window.symgen = {
   // The state at the end of a run with parameters by name, by steps of the classical Runge-Kutta method.
   run(values = {}, until = motions[0].end, step = data.live.step) {
     for (const x of data.live.parameters) if (x.still && x.name in values) throw new Error(`${x.name} keeps its value in this page`);
-    live.setParameters(Object.entries(values).map(([name, x]) => [this.parameters.indexOf(name), x]));
+    const places = new Map(data.live.parameters.map((x, i) => [x.name, x.place ?? i]));
+    live.setParameters(Object.entries(values).map(([name, x]) => [places.get(name), x]));
     const y = live.start(), count = Math.round(until / step);
     let why = y && y.every(Number.isFinite) ? "" : "the mechanism does not close with these parameters";
     for (let k = 0; k < count && !why; k++) {
