@@ -139,7 +139,7 @@ PRODUCTS = {"N m": ("N", "m"), "J": ("N", "m"), "W": ("N", "m/s")}
 
 
 def least_scale(scales: Mapping[str, float], unit: str) -> float:
-    """Return the scale of a unit from those of its factors; 0 where it is no product or a factor has none."""
+    """Return the scale of a unit from the scales of its factors; 0 where it is no product or a factor has none."""
     a, b = PRODUCTS.get(unit, (unit, ""))
     return scales.get(a, 0.0) * scales.get(b, 0.0)
 

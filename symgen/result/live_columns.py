@@ -71,7 +71,7 @@ def _is_integral(mechanism: Mechanism, signal: Signal) -> bool:
 def _functions(
     mechanism: Mechanism, compiled: CompiledModel, tables: Mapping[str, tuple[Signal, ...]], of_bodies: bool
 ) -> tuple[dict[str, Function], dict[str, tuple[int, int]]]:
-    """Return functions by table, and where the seats of joints are among those of ``seats``: point and centre."""
+    """Return functions by table, and the places of point and centre of each joint in ``seats``."""
     functions = dict[str, "Function"]()
     for table, columns in FORMULAS.items():
         keys = {signal.key for signal in tables[table]}
