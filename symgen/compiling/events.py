@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.formula_text import to_text
-from symgen.describe.friction import bound_in_motion, mode_events, rate_of
-from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
+from symgen.describe.friction import bound_in_motion, components, mode_events, rate_of
+from symgen.describe.kinks import Discontinuity, changes_in_time, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.effects.effects import Effect, Effects
 from symgen.ir.interpolation import Interpolation
@@ -79,10 +79,17 @@ def frictions_of(mechanism: Mechanism, compiled: CompiledModel) -> DryFrictions 
     state += [(f"bound of {f.name} at rest", f.static) for f in every]
     state += [(f"bound of {f.name} in motion", bound_in_motion(f)) for f in every]
     rates = [(f"second derivative of {f.name}", rate_of(f, 2)) for f in every]
+    pressed = tuple(i for i, f in enumerate(every) if f.pressed)
+    forces = list[tuple[str, Expr]]()
+    for i in pressed:
+        forces += zip((f"{every[i].name}, reaction {k}" for k in range(2)), (*components(every[i]), ZERO), strict=False)
     return DryFrictions(
         tuple(f.name for f in every),
         compile_side(mechanism, compiled, "friction", "Dry friction", state),
         compile_side(mechanism, compiled, "accelerations", "Accelerations along dry friction", rates),
+        compile_side(mechanism, compiled, "reactions", "Reactions at dry friction", forces) if pressed else None,
+        pressed,
+        changes_in_time(mechanism),
     )
 
 

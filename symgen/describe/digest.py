@@ -15,7 +15,7 @@ from symgen.describe.tables import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures",)
+_LATER = ("flexures", "pressed")
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -84,6 +84,7 @@ def identity(mechanism: Mechanism) -> str:
         ", beams=b''",
         ", switchable=()",
         ", frictions=()",
+        ", pressed=()",
     ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()

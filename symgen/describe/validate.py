@@ -363,6 +363,8 @@ class _Validator:
         self.rotor(scope, joint, self.raw["joints"][name])
         if "friction" in self.raw["joints"][name]:
             self._frictions[name] = read_friction(scope, joint, self.raw["joints"][name]["friction"])
+            if any(friction.pressed for friction in self._frictions[name]) and name not in self._cuts:
+                self._cuts.append(name)  # its reaction is a multiplier
         self._joints[name] = joint
         self._open -= 1
         return joint

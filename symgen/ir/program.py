@@ -88,6 +88,8 @@ SECTIONS = (
 #: effort where it is in force.
 MODES = ("held", "constant", "sign", "limit")
 MODE_NUMBERS = len(MODES)
+#: Where friction depends on a reaction, the square of its jamming number is in the section ``jamming``.
+JAMMING = "jamming"
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 SETTLED = ("status", "winding", "modes", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")

@@ -80,12 +80,21 @@ class DryFrictions:
         Their names.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates, their rates, bounds at rest, bounds at the beginning of a motion; second
-        derivatives of the coordinates.
+        derivatives of the coordinates. Bounds by reactions are over these.
+    reactions : callable or None
+        ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
+    pressed : tuple of int
+        Coordinates whose bounds depend on the reaction of their joint.
+    changes : bool
+        Whether anything but the motion and inputs changes over time.
     """
 
     names: tuple[str, ...]
     state: Formulas
     accelerations: Formulas
+    reactions: Formulas | None = None
+    pressed: tuple[int, ...] = ()
+    changes: bool = True
 
 
 @dataclass(frozen=True)

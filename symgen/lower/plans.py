@@ -45,7 +45,8 @@ def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
     law = multiplier_law(system, system.gamma)
     outputs = ("rates.v", law.acceleration.index), ("multipliers", law.multipliers.index)
     part = Part("rhs", "", outputs, system.flag().index)
-    record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
+    record = RecordedLaw(tuple(system.tape.operations), (part,))
+    record = record.resolved(plan.schur, frozenset(("constrained",) if equations.drags else ()))
     scalars = ScalarNodes(equations, record.operations, plan=plan)
     scalars = scalars.with_closed_loops() if plan.loops else scalars
     scalars.compute(record.ends)

@@ -13,6 +13,7 @@ from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
 from symgen.ir.program import STATUS, EliminationPlan, FixedVelocities, Target
 from symgen.lower.blocks import SaddleMatrix
+from symgen.lower.drag import drag_forces
 from symgen.lower.factor import FactorNodes, factorisation, minimum_degree
 from symgen.lower.replay import Nodes
 from symgen.lower.scalar_mass import OfMass
@@ -51,8 +52,32 @@ class ScalarNodes(OfMass):
         self.run(needed(ends, lambda i: self.operations[i].operands))
 
     def _on_constrained(self, operation: FormulaStep, f: Nodes, gamma: Nodes) -> Nodes:
-        accelerations, multipliers = self.saddle.solve(f, gamma)
+        accelerations, multipliers = self._dragged(f, gamma) if self.equations.drags else self.saddle.solve(f, gamma)
         return accelerations if operation.payload == ("accelerations",) else multipliers
+
+    def _dragged(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda with friction by reactions; leave its power and the squares of jamming numbers."""
+        g, e, drags = self.graph, self.equations, self.equations.drags
+        accelerations, multipliers = self._eliminated(f, gamma)
+        effects = list[tuple[Nodes, Nodes]]()
+        for drag in drags:
+            against = [g.zero] * e.nv
+            for j, node in self.rows[drag.row]:
+                against[j] = g.mul(drag.sign, node)
+            effects.append(self._eliminated(tuple(against), (g.zero,) * e.m))
+        alone = [tuple(multipliers[i] for i in drag.pressed) for drag in drags]
+        parts = [[tuple(effect[i] for i in drag.pressed) for _, effect in effects] for drag in drags]
+        forces, self.drag_power, self.jamming = drag_forces(g, drags, alone, parts), g.zero, []
+        for i, (drag, force, (moved, pressed)) in enumerate(zip(drags, forces, effects, strict=True)):
+            accelerations = tuple(g.sub(a, g.mul(force, x)) for a, x in zip(accelerations, moved, strict=True))
+            multipliers = tuple(g.sub(a, g.mul(force, x)) for a, x in zip(multipliers, pressed, strict=True))
+            self.drag_power = g.sub(self.drag_power, g.mul(g.mul(drag.sign, drag.rate), force))
+            self.jamming.append(g.mul(g.mul(drag.coefficient, drag.coefficient), g.dot(parts[i][i], parts[i][i])))
+        return accelerations, multipliers
+
+    def _eliminated(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda by the cheaper elimination."""
+        return self.by_factor(f, gamma, self._schur) if self.plan.schur else self.saddle.solve(f, gamma)
 
     def _on_stored_constrained(self, operation: FormulaStep, rank: FactorNodes, f: Nodes, gamma: Nodes) -> Nodes:
         metric, name = operation.payload
@@ -161,6 +186,10 @@ class ScalarNodes(OfMass):
 
     def _on_schur(self, operation: FormulaStep) -> FactorNodes:
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
+        return self._schur
+
+    @cached_property
+    def _schur(self) -> FactorNodes:
         return self._masked_factor(self.mass_gram(self.rows))
 
     def _on_compliant(self, operation: FormulaStep, compliance: int) -> FactorNodes:

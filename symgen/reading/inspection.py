@@ -326,7 +326,8 @@ def _frictions(mechanism: Mechanism) -> list[dict[str, Any]]:
         {
             "name": x.name,
             "row": x.row,
-            "unit": "N m" if x.unit == "rad" else "N",
+            "unit": f"N{' m' if x.unit == 'rad' else ''}",
+            "reaction": list(x.pressed),
             **{key: to_text(getattr(x, key)) for key in ("static", "sliding", "viscous")},
             "stribeck_speed": None if x.stribeck_speed is None else to_text(x.stribeck_speed),
         }
@@ -366,7 +367,8 @@ def as_text(facts: dict[str, Any]) -> str:
     for x in facts.get("friction", ()):
         viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
         stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
-        at_rest = f"row {x['row']} in force at rest up to {x['static']} {x['unit']}"
+        unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
+        at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
         lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}")
     section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.describe.events import RESET
-from symgen.describe.friction import MODE, REVERSE, SLIP, STICK
+from symgen.describe.friction import JAM, MODE, REVERSE, SLIP, STICK
 from symgen.layout import abi
 from symgen.layout.probe import rate_functions
 from symgen.loopcode.entry import direct
@@ -40,6 +40,8 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 _AT_BOUND = 1.0 - 1e-9
 #: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
 DEPENDENT, _NO_FACTOR = 1e-11, 1e-9
+#: Bounds by reactions agree within this part of them, after so many solutions at most.
+_AGREED, _AGREEMENTS = 1e-14, 2000
 #: Assumed step until an adaptive run has chosen one, as a part of the run.
 FIRST = 1e-3
 #: Places of the numbers of a row.
@@ -101,6 +103,9 @@ class Transitions:
         broken, stopped = (
             [i for i, name in enumerate(self.frictions.names) if f"{name}.{word}" in names] for word in (SLIP, REVERSE)
         )
+        for i, name in enumerate(self.frictions.names):
+            if f"{name}.{JAM}" in names:
+                self._refuse_jam(i, 1.0)
         self._note(self.choose(broken, stopped))
 
     def release(self, happened: Sequence[Happening]) -> None:
@@ -135,6 +140,7 @@ class Transitions:
             If bounds are undefined, or forces at rest are not determined well enough to see when they break loose.
         """
         simulation, state = self.simulation, self.simulation.state
+        self._refuse_redundant(state.w)
         before = self._modes(state.w)
         value, rate, static, sliding = self._read(state.w)
         still = np.abs(rate) <= STILL * self._speeds(state.w)
@@ -164,37 +170,79 @@ class Transitions:
         return result
 
     def _solve(self, rest: Integers, signs: Array, static: Array, sliding: Array, loose: Array) -> tuple[Array, Array]:
-        """Return the signs of coordinates at rest, 0 where they stay at rest, and G among all of them."""
-        k, size = len(rest), len(signs)
+        """Return the signs of coordinates at rest, 0 where they stay at rest, and G among all of them.
+
+        Bounds by reactions follow the forces, which follow the bounds, until both agree; `static` and `sliding` of
+        these coordinates become bounds.
+        """
+        k, size, pressed = len(rest), len(signs), list(self.frictions.pressed)
         matrix = np.zeros((size, size))
+        if k == 0 and not pressed:
+            return np.zeros(0), matrix
+        moving = [i for i in pressed if signs[i] != 0.0]
+        plain = np.where(np.isin(np.arange(size), pressed), 0.0, signs)
+        offset, alone = self._accelerations(plain), self._reactions()
+        parts = np.zeros((*alone.shape, size))
+        for j in (*rest, *moving):
+            if sliding[j] > 0.0:
+                probe, force = plain.copy(), 1.0 if j in pressed else sliding[j]
+                probe[j] = 0.0 if j in pressed else 1.0
+                matrix[:, j] = (offset - self._accelerations(probe, j if j in pressed else None)) / force
+                parts[:, :, j] = (alone - self._reactions()) / force
+        for i in pressed:
+            self._refuse_jam(i, float((sliding if i in moving else static)[i] * np.linalg.norm(parts[i, :, i])))
         if k == 0:
             return np.zeros(0), matrix
-        offset = self._accelerations(signs)
-        for j in rest:
-            if sliding[j] > 0.0:
-                probe = signs.copy()
-                probe[j] = 1.0
-                matrix[:, j] = (offset - self._accelerations(probe)) / sliding[j]
         among = matrix[np.ix_(rest, rest)]
         among = 0.5 * (among + among.T)
         fixed = np.diag(among) <= DEPENDENT * self._mobility()[rest]  # as at a dead centre
         among[fixed], among[:, fixed] = 0.0, 0.0
-        bounds, box = np.where(loose, sliding, static)[rest], new_box(k)
-        box.matrix[:], box.offset[:] = among.ravel(), offset[rest]
-        while True:
-            box.bounds[:] = bounds
+        coefficients, box, forces = np.where(loose, sliding, static)[rest], new_box(k), np.zeros(size)
+        size_of = np.ones(size)
+        size_of[pressed] = np.where(signs[pressed] == 0.0, np.inf, np.linalg.norm(alone[pressed], axis=1))
+        box.matrix[:] = among.ravel()
+        for _ in range(_AGREEMENTS):
+            forces[moving] = signs[moving] * sliding[moving] * size_of[moving]
+            bounds = np.where(coefficients > 0.0, coefficients, 0.0)
+            np.multiply(bounds, size_of[rest], out=bounds, where=bounds > 0.0)
+            box.bounds[:], box.offset[:] = bounds, offset[rest] - matrix[rest][:, moving] @ forces[moving]
             if compiled_form(solve_box)(k, box) != 0:
                 raise InputError("friction", "forces at rest that can be found", "none after many changes")
+            forces[rest] = box.forces
+            before = size_of.copy()
+            size_of[pressed] = np.linalg.norm(alone[pressed] - parts[pressed] @ forces, axis=1)
+            if (np.abs(size_of - before) > _AGREED * size_of).any():
+                continue
             sizes = np.abs(box.offset) + np.abs(among) @ np.abs(box.forces)
             moves = (box.place != INSIDE) & (np.abs(box.left) > NO_ACCELERATION * sizes)
-            over = moves & (bounds > sliding[rest])
+            over = moves & (coefficients > sliding[rest])
             if not over.any():
                 break
-            bounds = np.where(over, sliding[rest], bounds)
+            coefficients = np.where(over, sliding[rest], coefficients)
+        else:
+            names = ", ".join(self.frictions.names[i] for i in pressed)
+            raise InputError("friction", "bounds and reactions that agree", f"others at {names} after many changes")
         moves |= loose[rest] & (np.abs(box.forces) >= _AT_BOUND * bounds) & (bounds > 0.0)
         matrix[np.ix_(rest, rest)] = among
         direction = np.sign(np.where(box.forces == 0.0, box.left, box.forces))
+        static[pressed], sliding[pressed] = static[pressed] * size_of[pressed], sliding[pressed] * size_of[pressed]
         return np.where(moves, direction, 0.0), matrix
+
+    def _refuse_redundant(self, w: Array) -> None:
+        """Refuse friction by reactions where rows depend on others: reactions are not determined."""
+        info, mask = self.simulation.compiled.info, self.simulation.compiled.section(w, "mask")
+        rows = [info.rows[i].name for i in range(info.m) if mask[i] != 0.0 and i not in info.bounded]
+        if rows and self.frictions.pressed:
+            names = ", ".join(self.frictions.names[i] for i in self.frictions.pressed)
+            expected = "rows that determine all reactions, where friction depends on one"
+            raise InputError(f"friction of {names}", expected, f"{', '.join(rows)}, which other rows determine")
+
+    def _refuse_jam(self, i: int, number: float) -> None:
+        """Refuse friction that alone brings about all of its reaction: accelerations are none, or not unique."""
+        if not number < 1.0:
+            now, name = float(self.simulation.state.clock[abi.TIME]), self.frictions.names[i]
+            expected = "friction that brings about less than all of its own reaction (a jamming number below 1)"
+            raise InputError(f"friction of {name}", expected, f"{number:.12g} at t = {now:.9g} s")
 
     def _hold(self, rest: list[int], matrix: Array, value: Array, static: Array, before: Array, after: Array) -> None:
         """Put independent rows among those at rest into force; write their constants and largest efforts."""
@@ -210,11 +258,18 @@ class Transitions:
             left = left - np.outer(left[:, best], left[best, :]) / left[best, best]
         taken.sort()
         for i in taken:
-            held = before[i, HELD] != 0.0
-            after[i] = 1.0, before[i, CONSTANT] if held else value[i], 0.0, static[i]
+            held, limit = before[i, HELD] != 0.0, 0.0 if i in self.frictions.pressed else static[i]
+            after[i] = 1.0, before[i, CONSTANT] if held else value[i], 0.0, limit
         others = [i for i in rest if i not in taken and matrix[i, i] > DEPENDENT * alone[i]]
         if not others:
             return
+        pressed = set(rest) & set(self.frictions.pressed)
+        if pressed and (self.frictions.changes or self._moves(taken)):
+            names = ", ".join(self.frictions.names[i] for i in rest)
+            expected = "friction by reactions whose forces at rest are determined, or that rests for good"
+            raise InputError("friction", expected, f"{names} at rest at one time, beside what changes")
+        for i in pressed & set(taken):
+            after[i, LIMIT] = static[i]
         factors = np.linalg.solve(matrix[np.ix_(taken, taken)], matrix[np.ix_(taken, others)])
         for j, i in enumerate(others):
             owners = np.flatnonzero(np.abs(factors[:, j]) > _NO_FACTOR * np.abs(factors[:, j]).max())
@@ -223,7 +278,7 @@ class Transitions:
                 expected = "dry friction whose forces at rest are determined, or share one direction of motion"
                 raise InputError("friction", expected, f"forces of {names} that rest at one time")
             factor = abs(float(factors[owners[0], j]))
-            after[i] = 0.0, taken[owners[0]], 0.0, factor * static[i]
+            after[i] = 0.0, taken[owners[0]], 0.0, 0.0 if i in self.frictions.pressed else factor * static[i]
             after[taken[owners[0]], LIMIT] += factor * static[i]
 
     # -- numbers of the present state ----------------------------------------------------------------------------------
@@ -251,6 +306,15 @@ class Transitions:
         units = [rows[row].unit for row in self.simulation.compiled.info.bounded]
         return np.array([speed / length if unit == "rad" else speed for unit in units])
 
+    def _moves(self, taken: Sequence[int]) -> bool:
+        """Return whether the mechanism can move with the rows of some coordinates at rest in force."""
+        compiled, w = self.simulation.compiled, self._scratch
+        info = compiled.info
+        rows = [i for i in range(info.m) if i not in info.bounded] + [info.bounded[i] for i in taken]
+        mass = compiled.section(w, "mass")
+        weights = np.divide(1.0, np.sqrt(mass), out=np.ones_like(mass), where=mass > 0.0)
+        return bool(np.linalg.matrix_rank(compiled.jacobian(w)[rows] * weights, DEPENDENT) < info.nv)
+
     def _mobility(self) -> Array:
         """Return the acceleration of each coordinate by a force on it if no joints held the bodies."""
         compiled, w = self.simulation.compiled, self._scratch
@@ -259,14 +323,29 @@ class Transitions:
         result: Array = jacobian**2 @ inverse
         return result
 
-    def _accelerations(self, signs: Array) -> Array:
-        """Return the accelerations of coordinates with all rows off and efforts of some signs."""
+    def _reactions(self) -> Array:
+        """Return the components of reactions after `_accelerations`, of all coordinates."""
+        frictions, state = self.frictions, self.simulation.state
+        result = np.zeros((len(frictions.names), 2))
+        if frictions.reactions is not None:
+            now = float(state.clock[abi.TIME])
+            forces = frictions.reactions(now, self._y, state.p, self._scratch, self._rate)
+            result[list(frictions.pressed)] = forces.reshape(-1, 2)
+        return result
+
+    def _accelerations(self, signs: Array, pushed: int | None = None) -> Array:
+        """Return the accelerations of coordinates with all rows off and efforts of some signs.
+
+        A coordinate whose bounds depend on a reaction may be `pushed` by a force of -1.
+        """
         state, now = self.simulation.state, float(self.simulation.state.clock[abi.TIME])
         w = self._scratch
         w[:] = state.w
         modes = self.simulation.compiled.modes(w)
         modes[self._places] = 0.0
         modes[self._places, SIGN] = signs
+        if pushed is not None:
+            modes[self._places[pushed], LIMIT] = 1.0
         if w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
             span = self.simulation.span
             w[abi.STEP_STATUS] = span.step if span.step > 0.0 else FIRST * span.duration
