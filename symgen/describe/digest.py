@@ -15,7 +15,7 @@ from symgen.describe.tables import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed")
+_LATER = ("flexures", "pressed", "speed")
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -85,6 +85,7 @@ def identity(mechanism: Mechanism) -> str:
         ", switchable=()",
         ", frictions=()",
         ", pressed=()",
+        ", speed=None",
     ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()

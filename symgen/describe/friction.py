@@ -9,12 +9,13 @@ the bounds depend on the joint's reaction, laws solve for the effort in motion (
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
 
 import msgspec
 
 from symgen.base.errors import InputError
 from symgen.describe.fields import Scalar, read_table, words_of
-from symgen.describe.mechanism import Event, Friction, Joint, Mechanism, Output
+from symgen.describe.mechanism import Event, Force, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
 from symgen.ir.program import JAMMING, MODE_NUMBERS, MODES
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
@@ -50,6 +51,10 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     stribeck_speed : scalar
         Rate [m/s or rad/s] over which the bound falls from `static` to `sliding`; without it the bound is `sliding` as
         soon as the coordinate moves.
+    law : {"exact", "tanh"}
+        Friction that sticks, or a smooth force in its place: the bound times tanh(rate / `speed`), which creeps.
+    speed : scalar
+        Rate of `law` = "tanh" [m/s or rad/s].
     """
 
     sliding: Scalar | None = None
@@ -59,6 +64,8 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     radius: Scalar | None = None
     viscous: Scalar = 0.0
     stribeck_speed: Scalar | None = None
+    law: Literal["exact", "tanh"] = "exact"
+    speed: Scalar | None = None
 
 
 def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ...]:
@@ -117,7 +124,15 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
     if section.radius is not None:
         radius = scope.constant(f"{key}.radius", section.radius, positive=True)
         sliding, static = call("mul", sliding, radius), call("mul", static, radius)
-    speed = section.stribeck_speed
+    speed, smooth = section.stribeck_speed, section.law == "tanh"
+    if smooth != (section.speed is not None):
+        got = "no such key" if smooth else words_of(section.speed)
+        raise scope.error(
+            f"{key}.speed", 'a rate beside law = "tanh"' if smooth else 'no such key without law = "tanh"', got
+        )
+    if smooth and (pressed or (speed is None and section.static is not None)):
+        got = "coefficient" if pressed else "static without stribeck_speed"
+        raise scope.error(f"{key}.law", 'a constant bound in motion beside "tanh"', f"the key {got}")
     return Friction(
         name=joint.name if single else f"{joint.name}.{label}",
         joint=joint.name,
@@ -128,6 +143,7 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
         viscous=bound("viscous", section.viscous),
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
         pressed=pressed,
+        speed=scope.constant(f"{key}.speed", section.speed, positive=True) if section.speed is not None else None,
     )
 
 
@@ -313,13 +329,16 @@ def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
     """Yield mode (0 at rest, else the sign of the rate) and force of each dry friction."""
     for friction in frictions:
         force = Reading(f"{friction.name}.force", Exerted((effort_in_motion(friction),)))
-        unit = "N m" if friction.unit == "rad" else "N"
         total = call("add", force, effort_at_rest(friction))
         if friction.pressed:
             against = call("mul", bound_in_motion(friction, rate_of(friction)), reaction_of(friction))
             total = call("sub", total, call("mul", sign_of(friction), against))
         yield Output(f"{friction.name}.mode", sign_of(friction), "")
-        yield Output(f"{friction.name}.force", total, unit)
+        yield Output(f"{friction.name}.force", total, _unit(friction))
+
+
+def _unit(friction: Friction) -> str:
+    return "N m" if friction.unit == "rad" else "N"
 
 
 def without_friction(mechanism: Mechanism) -> Mechanism:
@@ -329,6 +348,44 @@ def without_friction(mechanism: Mechanism) -> Mechanism:
     reported = {output.name for output in friction_outputs(mechanism.frictions)}
     outputs = tuple(output for output in mechanism.outputs if output.name not in reported)
     return msgspec.structs.replace(mechanism, frictions=(), outputs=outputs)
+
+
+def smooth_force(friction: Friction, bodies: tuple[str, ...]) -> Force:
+    """Return dry friction as a force: the bound times tanh(rate / `speed`), or times the sign of the rate."""
+    rate = Name("rate")
+    if friction.speed is None:
+        way = call("sign", rate)
+    else:
+        way = call("tanh", call("div", rate, friction.speed))
+    against = call("add", call("mul", way, bound_in_motion(friction, rate)), call("mul", friction.viscous, rate))
+    effort = Effort("friction", friction.measure, call("neg", against))
+    return Force(friction.row, "friction", bodies, (effort,))
+
+
+def with_smooth_friction(mechanism: Mechanism, frictions: Sequence[Friction]) -> Mechanism:
+    """Return a mechanism with some dry friction as forces, which ``NAME.force`` reports."""
+    forces = tuple(smooth_force(friction, mechanism.joint_named(friction.joint).bodies) for friction in frictions)
+    outputs = tuple(
+        Output(f"{friction.name}.force", Reading(f"{friction.name}.force", Exerted(force.efforts)), _unit(friction))
+        for friction, force in zip(frictions, forces, strict=True)
+    )
+    return msgspec.structs.replace(
+        mechanism, forces=(*mechanism.forces, *forces), outputs=(*mechanism.outputs, *outputs)
+    )
+
+
+def with_sliding_friction(where: str, mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism with its dry friction as forces against the rates, 0 at rest.
+
+    Raises
+    ------
+    InputError
+        If bounds depend on reactions.
+    """
+    names = ", ".join(friction.name for friction in mechanism.frictions if friction.pressed)
+    if names:
+        raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
+    return with_smooth_friction(without_friction(mechanism), mechanism.frictions)
 
 
 def refuse_friction(where: str, mechanism: Mechanism) -> None:

@@ -294,6 +294,8 @@ class Friction(msgspec.Struct, frozen=True):
         A rate [m/s or rad/s].
     pressed : tuple of str
         Rows of the joint whose forces are its reaction; none where the bounds do not depend on it.
+    speed : Expr or None
+        Where the friction is regularised, the rate of tanh(rate / speed) in place of the sign [m/s or rad/s].
     """
 
     name: str
@@ -305,6 +307,7 @@ class Friction(msgspec.Struct, frozen=True):
     viscous: Expr = ZERO
     stribeck_speed: Expr | None = None
     pressed: tuple[str, ...] = ()
+    speed: Expr | None = None
 
     @property
     def row(self) -> str:

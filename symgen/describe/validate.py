@@ -24,7 +24,7 @@ from symgen.describe.fields import (
     read_value,
     words_of,
 )
-from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs
+from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs, with_smooth_friction
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import (
@@ -142,6 +142,7 @@ class _Validator:
         described = [(self.scope("bodies", body.name), self.raw["bodies"][body.name], body) for body in bodies]
         holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
         holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
+        frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
         mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
@@ -154,7 +155,7 @@ class _Validator:
             forces=forces,
             defaults=self.defaults(line(head.source)),
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
-            frictions=tuple(friction for joint in joints for friction in self._frictions.get(joint.name, ())),
+            frictions=tuple(friction for friction in frictions if friction.speed is None),
             states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
@@ -165,6 +166,7 @@ class _Validator:
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
         mechanism = with_friction_outputs(mechanism)
+        mechanism = with_smooth_friction(mechanism, [friction for friction in frictions if friction.speed is not None])
         check_columns(mechanism, self.source)
         check_frictions(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice
