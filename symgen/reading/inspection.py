@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -23,6 +24,7 @@ from symgen.lower.law import lower_law
 from symgen.lower.looped.instances import instances
 from symgen.lower.model import lower_model
 from symgen.player.motion_page import PAGES
+from symgen.reading.jamming import jamming_numbers
 from symgen.reading.page import MOST_STRAIGHT, EquationPage, check_size
 from symgen.reading.quantity_names import input_names
 from symgen.reading.structure import element_terms, shared_terms, structure
@@ -186,7 +188,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
-        **({"friction": _frictions(mechanism)} if mechanism.frictions else {}),
+        **({"friction": _frictions(mechanism, jamming_numbers(run))} if mechanism.frictions else {}),
         "dropped_rows": list(equations.dropped_rows),
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
@@ -320,7 +322,7 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
     }
 
 
-def _frictions(mechanism: Mechanism) -> list[dict[str, Any]]:
+def _frictions(mechanism: Mechanism, jamming: Mapping[str, float]) -> list[dict[str, Any]]:
     """Return the dry friction of a mechanism: rows with bounds."""
     return [
         {
@@ -328,6 +330,7 @@ def _frictions(mechanism: Mechanism) -> list[dict[str, Any]]:
             "row": x.row,
             "unit": f"N{' m' if x.unit == 'rad' else ''}",
             "reaction": list(x.pressed),
+            "jamming_number": jamming.get(x.name),
             **{key: to_text(getattr(x, key)) for key in ("static", "sliding", "viscous")},
             "stribeck_speed": None if x.stribeck_speed is None else to_text(x.stribeck_speed),
         }
@@ -369,7 +372,8 @@ def as_text(facts: dict[str, Any]) -> str:
         stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
         unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
         at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
-        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}")
+        jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
+        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}{jam}")
     section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
     lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]

@@ -143,6 +143,17 @@ def painleve(coefficient: float) -> Mechanism:
     return validate(raw, "rod.toml")
 
 
+def test_inspect_shows_jamming_numbers() -> None:
+    """Of the rod 3 mu sin cos / (1 + 3 cos^2), which is 3 mu / 4 at tan = 2."""
+    inspected = symgen.load(painleve(0.5)).inspect()
+    (friction,) = inspected.facts["friction"]
+    assert friction["reaction"] == ["slot.normal"]
+    assert abs(friction["jamming_number"] - 0.375) < 1e-12
+    assert "up to 0.5 times the force of slot.normal; 0.5 in motion; jamming number 0.375 at the start" in str(
+        inspected
+    )
+
+
 def test_friction_that_brings_about_its_own_reaction_is_named() -> None:
     """1 + 3 cos^2 = 3 mu sin cos: the least mu is 4/3 at tan = 2 (Painleve 1895)."""
     symgen.load(painleve(4.0 / 3.0 - 1e-9)).simulate(until=1e-6)
