@@ -17,8 +17,8 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.friction import with_sliding_friction
 from symgen.describe.inputs import are_words_of_data
+from symgen.describe.smooth_friction import with_sliding_friction
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded

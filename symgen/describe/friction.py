@@ -15,7 +15,7 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.describe.fields import Scalar, read_table, words_of
-from symgen.describe.mechanism import Event, Force, Friction, Joint, Mechanism, Output
+from symgen.describe.mechanism import Event, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
 from symgen.ir.program import JAMMING, MODE_NUMBERS, MODES
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
@@ -334,10 +334,11 @@ def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
             against = call("mul", bound_in_motion(friction, rate_of(friction)), reaction_of(friction))
             total = call("sub", total, call("mul", sign_of(friction), against))
         yield Output(f"{friction.name}.mode", sign_of(friction), "")
-        yield Output(f"{friction.name}.force", total, _unit(friction))
+        yield Output(f"{friction.name}.force", total, unit_of_effort(friction))
 
 
-def _unit(friction: Friction) -> str:
+def unit_of_effort(friction: Friction) -> str:
+    """Return the unit of its force."""
     return "N m" if friction.unit == "rad" else "N"
 
 
@@ -348,44 +349,6 @@ def without_friction(mechanism: Mechanism) -> Mechanism:
     reported = {output.name for output in friction_outputs(mechanism.frictions)}
     outputs = tuple(output for output in mechanism.outputs if output.name not in reported)
     return msgspec.structs.replace(mechanism, frictions=(), outputs=outputs)
-
-
-def smooth_force(friction: Friction, bodies: tuple[str, ...]) -> Force:
-    """Return dry friction as a force: the bound times tanh(rate / `speed`), or times the sign of the rate."""
-    rate = Name("rate")
-    if friction.speed is None:
-        way = call("sign", rate)
-    else:
-        way = call("tanh", call("div", rate, friction.speed))
-    against = call("add", call("mul", way, bound_in_motion(friction, rate)), call("mul", friction.viscous, rate))
-    effort = Effort("friction", friction.measure, call("neg", against))
-    return Force(friction.row, "friction", bodies, (effort,))
-
-
-def with_smooth_friction(mechanism: Mechanism, frictions: Sequence[Friction]) -> Mechanism:
-    """Return a mechanism with some dry friction as forces, which ``NAME.force`` reports."""
-    forces = tuple(smooth_force(friction, mechanism.joint_named(friction.joint).bodies) for friction in frictions)
-    outputs = tuple(
-        Output(f"{friction.name}.force", Reading(f"{friction.name}.force", Exerted(force.efforts)), _unit(friction))
-        for friction, force in zip(frictions, forces, strict=True)
-    )
-    return msgspec.structs.replace(
-        mechanism, forces=(*mechanism.forces, *forces), outputs=(*mechanism.outputs, *outputs)
-    )
-
-
-def with_sliding_friction(where: str, mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism with its dry friction as forces against the rates, 0 at rest.
-
-    Raises
-    ------
-    InputError
-        If bounds depend on reactions.
-    """
-    names = ", ".join(friction.name for friction in mechanism.frictions if friction.pressed)
-    if names:
-        raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
-    return with_smooth_friction(without_friction(mechanism), mechanism.frictions)
 
 
 def refuse_friction(where: str, mechanism: Mechanism) -> None:

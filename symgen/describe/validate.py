@@ -24,7 +24,7 @@ from symgen.describe.fields import (
     read_value,
     words_of,
 )
-from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs, with_smooth_friction
+from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import (
@@ -54,6 +54,7 @@ from symgen.describe.sections import (
     StateSection,
     TableSection,
 )
+from symgen.describe.smooth_friction import with_smooth_friction
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.vocabulary.expressions import ONE, call, names_in
@@ -165,8 +166,8 @@ class _Validator:
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
-        mechanism = with_friction_outputs(mechanism)
-        mechanism = with_smooth_friction(mechanism, [friction for friction in frictions if friction.speed is not None])
+        smooth = [friction for friction in frictions if friction.speed is not None]
+        mechanism = with_smooth_friction(with_friction_outputs(mechanism), smooth)
         check_columns(mechanism, self.source)
         check_frictions(mechanism, self.source)
         holds_of(mechanism, self.source)  # says what is held twice

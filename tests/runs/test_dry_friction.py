@@ -401,7 +401,7 @@ def test_inspect_shows_rows_with_bounds() -> None:
     assert facts["friction"] == [
         {
             **{"name": "on_a", "row": "on_a.friction", "unit": "N", "static": "6.0", "sliding": "4.0"},
-            **{"viscous": "0.0", "stribeck_speed": None},
+            **{"viscous": "0.0", "stribeck_speed": None, "reaction": [], "jamming_number": None},
         }
     ]
 
