@@ -176,7 +176,8 @@ def test_equalities_of_mjcf(tmp_path: Path) -> None:
   <body name="a"><joint name="x" axis="0 1 0" ref="0.2"/><geom size="0.1" pos="0.3 0 0"/></body>
   <body name="b" pos="1 0 0"><joint name="y" axis="0 1 0"/><geom size="0.1" pos="0.3 0 0"/></body>
   <body name="c" pos="0 1 0" euler="0 -40 0"><joint name="u" axis="0 1 0"/><geom size="0.1" pos="0.3 0 0"/>
-    <body name="d" pos="0.6 0 0" euler="0 80 0"><joint name="w" axis="0 1 0"/><geom size="0.1" pos="0.3 0 0"/></body></body>
+    <body name="d" pos="0.6 0 0" euler="0 80 0"><joint name="w" axis="0 1 0"/><geom size="0.1" pos="0.3 0 0"/></body>
+  </body>
   </worldbody><equality><joint joint1="y" joint2="x" polycoef="0 0.5 0.25"/><connect body1="d" anchor="0.6 0 0"/>
   </equality><contact/><option><flag contact="disable"/></option></mujoco>"""
     run = model_of(imported(tmp_path, text, "eq.xml")).simulate(until=0.2, coordinates="joint")
