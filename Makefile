@@ -16,7 +16,7 @@ INSTALLED := $(VENV)/.installed
 DOCS_INSTALLED := $(VENV)/.installed-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow browser lint format generated docs gallery bench clean
+.PHONY: help demo test slow browser lint format generated docs gallery findings bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -78,6 +78,9 @@ docs: $(DOCS_INSTALLED)  ## build the site into out/site; a warning is an error
 
 gallery: $(INSTALLED)  ## measure the catalogue anew: data, pictures and pages of docs/gallery and docs/pictures
 	@"$(BIN)/python" -m benchmarks.gallery
+
+findings: $(INSTALLED)  ## measure tables of pages anew and write them into the pages; without run times, which need a quiet machine
+	@"$(BIN)/python" -m benchmarks.findings
 
 bench: $(INSTALLED)  ## measure: right-hand side against gcc, time to first result, singular passages, space, peers if installed
 	@"$(BIN)/python" -m benchmarks.against_gcc

@@ -13,15 +13,13 @@ from __future__ import annotations
 
 import statistics
 import sys
-from collections.abc import Callable, Mapping, Sequence
-from functools import cache
+from collections.abc import Iterator, Mapping
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
-from rich.markup import escape
-from rich.table import Table
 
-from benchmarks.show import show
+from benchmarks.page_tables import KEPT, PageTable, list_of, number, print_tables, step_size
 from symgen.api import Model, load
 from symgen.describe import MechanismBuilder
 from symgen.integrators import INTEGRATORS
@@ -35,18 +33,25 @@ Options = Mapping[str, str | float]
 UNWATCHED = {"max_violation": 1e3, "max_energy_error": 1e3}
 SCHEMES = {"euler": 1e-4, "heun": 1e-3, "rk4": 2e-3, "dopri5": 8e-3, "dop853": 3.125e-2}
 MASS: Options = {"method.weight": "mass"}
-#: Methods that solve one and the same equations: name of the class, method, options.
-CLASSES: tuple[tuple[str, str, Options], ...] = (
-    *(("law of lagrange", "lagrange", {"method.solver": s}) for s in ("elimination", "augmented", "dense")),
-    ("law of lagrange", "udwadia-kalaba", {}),
-    ("penalty", "penalty", {}),
-    ("penalty", "compliant-constraints", {}),
-    ("stabilised multipliers", "baumgarte", {"method.alpha": 10.0, "method.beta": 10.0}),
-    ("stabilised multipliers", "augmented-lagrangian", {}),
-    ("mass-orthogonal", "direct-correction", MASS),
-    ("mass-orthogonal", "mass-orthogonal-projection", {}),
-    ("stabilised invariants", "invariant-stabilization", {}),
-    ("stabilised invariants", "braun-goldfarb", {}),
+FINDINGS = "docs/findings.md"
+#: An order is shown where the smallest error is above this: below, errors are those of the reference and of rounding.
+RESOLVED = 5e-12
+#: Methods that solve one and the same equations: name of the class at its first line, label, method, options.
+CLASSES: tuple[tuple[str, str, str, Options], ...] = (
+    ("law of `lagrange`", "`lagrange`, elimination", "lagrange", {}),
+    ("", "`udwadia-kalaba`", "udwadia-kalaba", {}),
+    ("", "`lagrange`, `solver=augmented`", "lagrange", {"method.solver": "augmented"}),
+    ("", "`lagrange`, `solver=dense`", "lagrange", {"method.solver": "dense"}),
+    ("penalty", "`penalty`", "penalty", {}),
+    ("", "`compliant-constraints`", "compliant-constraints", {}),
+    *(
+        ("stabilised multipliers", "`baumgarte`, gains 10", "baumgarte", {"method.alpha": 10.0, "method.beta": 10.0}),
+        ("", "`augmented-lagrangian`", "augmented-lagrangian", {}),
+        ("mass-orthogonal", "`direct-correction`, mass", "direct-correction", MASS),
+    ),
+    ("", "`mass-orthogonal-projection`", "mass-orthogonal-projection", {}),
+    ("stabilised invariants", "`invariant-stabilization`", "invariant-stabilization", {}),
+    ("", "`braun-goldfarb`", "braun-goldfarb", {}),
 )
 
 
@@ -99,83 +104,84 @@ def error(result: Result, name: str, until: float) -> float:
     return float(np.abs(q - exact(name, until)).max()) if len(q) == 9 else np.inf
 
 
-def table(title: str, headings: Sequence[str], words: int = 1) -> Table:
-    """Return an empty table whose first columns hold words."""
-    result = Table(title=escape(title))
-    for i, heading in enumerate(headings):
-        result.add_column(escape(heading), justify="left" if i < words else "right")
-    return result
-
-
-def gains() -> Table:
+def gains() -> PageTable:
     """Return errors and orders of `baumgarte` with alpha = beta = g / h."""
     values = (0.0, 1e-3, 1e-2, 1e-1, 0.5, 1.0)
-    title = "four-bar, 2 s: error [m, rad] at the longest of three steps, and order between the others"
-    result = table(title, ("scheme", "order", "step [s]", "none", *(f"g = {g:g}" for g in values[1:])))
-    for name, first in SCHEMES.items():
-        cells = []
+
+    def cells(name: str, first: float) -> Iterator[str]:
         for g in values:
             errors = []
             for step in (first, first / 2, first / 4):
                 options = {"method.alpha": g / step, "method.beta": g / step} if g else {}
                 one = run(load("four-bar"), "baumgarte" if g else "lagrange", step, 2.0, options, name)
                 errors.append(error(one, "four-bar", 2.0))
-            cells.append(f"{errors[0]:.1e} ({np.log2(errors[1] / errors[2]):.1f})")
-        result.add_row(name, str(INTEGRATORS.get(name).order), f"{first:g}", *cells)
-    return result
+            order = f"{np.log2(errors[1] / errors[2]):.1f}" if errors[2] > RESOLVED else "rounding"
+            yield f"{number(errors[0])} ({order})"
+
+    rows = [
+        ((f"`{name}`", str(INTEGRATORS.get(name).order), step_size(first)), partial(list_of, cells, name, first))
+        for name, first in SCHEMES.items()
+    ]
+    headings = ("scheme", "order", "h [s]", "none", *(f"g = {g:g}" for g in values[1:]))
+    return PageTable("literature gains", FINDINGS, headings, tuple(rows))
 
 
-def adaptive() -> Table:
+def adaptive() -> PageTable:
     """Return errors of `adaptive-baumgarte` by its largest gain, and of what it is compared with."""
-    result = table(
-        "four-bar, rk4, 2 s: error [m, rad]; largest |D v - nu| [m/s] at 8 ms",
-        ("method", "8 ms", "4 ms", "2 ms", "|D v - nu|"),
-    )
-    rows: list[tuple[str, str, Options]] = [("lagrange", "lagrange", {})]
-    rows += [(f"gain {g:g}", "adaptive-baumgarte", {"method.gain": g}) for g in (1, 2, 5, 10, 20, 50, 1e9)]
-    rows += [(rule, "adaptive-baumgarte", {"method.rule": rule}) for rule in ("taylor", "pole-placed")]
-    for label, method, options in rows:
+
+    def cells(method: str, options: Options) -> Iterator[str]:
         runs = [run(load("four-bar"), method, step, 2.0, options) for step in (8e-3, 4e-3, 2e-3)]
-        cells = [f"{error(one, 'four-bar', 2.0):.1e}" for one in runs]
-        result.add_row(label, *cells, f"{runs[0].velocity_violation_max:.1e}")
-    return result
+        yield from (number(error(one, "four-bar", 2.0)) for one in runs)
+        yield number(runs[0].velocity_violation_max)
+
+    kinds: list[tuple[str, str, Options]] = [("none (`lagrange`)", "lagrange", {})]
+    for g in (1, 2, 5, 10, 20, 50):
+        kinds.append((f"`gain` = {g:g}", "adaptive-baumgarte", {"method.gain": g}))
+    kinds.append(("`a` / h", "adaptive-baumgarte", {"method.gain": 1e9}))
+    kinds += [(f"`{rule}`", "adaptive-baumgarte", {"method.rule": rule}) for rule in ("taylor", "pole-placed")]
+    rows = tuple(((label,), partial(list_of, cells, method, options)) for label, method, options in kinds)
+    headings = ("gains", "8 ms", "4 ms", "2 ms", r"largest \|D v - nu\| at 8 ms [m/s]")
+    return PageTable("literature adaptive", "docs/methods.md", headings, rows)
 
 
-def energy() -> Table:
+def energy() -> PageTable:
     """Return errors with and without scaling to the energy."""
-    result = table(
-        "rk4 at 10 ms: error [m, rad], largest energy error [J]",
-        ("mechanism", "end [s]", "projected", "energy [J]", "scaled", "energy [J]", "gain"),
-    )
-    for name, label in (("four-bar", "closed, 1 degree"), ("open", "open, 3 degrees")):
+
+    def cells(name: str, until: float) -> Iterator[str]:
         model = opened_four_bar() if name == "open" else load(name)
-        for until in (2.0, 10.0, 40.0) if name == "four-bar" else (2.0, 5.0):
-            both = [
-                run(model, method, 1e-2, until, options)
-                for method, options in (("direct-correction", MASS), ("energy-projection", {}))
-            ]
-            errors = [error(one, name, until) for one in both]
-            cells = [f"{x:.1e}" for e, one in zip(errors, both, strict=True) for x in (e, one.energy_drift_max)]
-            result.add_row(label, f"{until:g}", *cells, f"{errors[0] / errors[1]:.1f}")
-    return result
+        kinds: tuple[tuple[str, Options], ...] = (("direct-correction", MASS), ("energy-projection", {}))
+        both = [run(model, method, 1e-2, until, options) for method, options in kinds]
+        errors = [error(one, name, until) for one in both]
+        for e, one in zip(errors, both, strict=True):
+            yield from (number(e), number(one.energy_drift_max))
+        yield f"{errors[0] / errors[1]:.2g}"
+
+    cases = [("four-bar", "closed, 1 degree", until) for until in (2.0, 10.0, 40.0)]
+    cases += [("open", "open, 3 degrees", until) for until in (2.0, 5.0)]
+    rows = tuple(((label, f"{until:g}"), partial(list_of, cells, name, until)) for name, label, until in cases)
+    errors = ("`direct-correction`, mass", "its energy error [J]", "`energy-projection`", "its energy error [J]")
+    return PageTable("literature energy", FINDINGS, ("mechanism", "end [s]", *errors, "gain"), rows)
 
 
-def violation() -> Table:
+def violation() -> PageTable:
     """Return violations and errors of corrections."""
-    result = table(
-        "four-bar, rk4 at 2 ms, 40 s: largest violations beside the error of the motion",
-        ("method", "|Phi| [m]", "|D v - nu| [m/s]", "error [m, rad]"),
-    )
-    rows: tuple[tuple[str, Options], ...] = (
-        *(("lagrange", {}), ("baumgarte", {}), ("velocity-projection", {}), ("velocity-projection", MASS)),
-        *(("post-stabilization", {}), ("direct-correction", {}), ("direct-correction", MASS)),
-        *(("dependent-correction", {}), ("coordinate-partitioning", {}), ("braun-goldfarb", {})),
-    )
-    for method, options in rows:
+
+    def cells(method: str, options: Options) -> Iterator[str]:
         one = run(load("four-bar"), method, 2e-3, 40.0, options)
         numbers = (one.position_violation_max, one.velocity_violation_max, error(one, "four-bar", 40.0))
-        result.add_row(method + (", mass" if options else ""), *(f"{x:.1e}" for x in numbers))
-    return result
+        yield from map(number, numbers)
+
+    kinds: tuple[tuple[str, Options], ...] = (
+        *(("lagrange", {}), ("baumgarte", {}), ("velocity-projection", {}), ("velocity-projection", MASS)),
+        *(("dependent-correction", {}), ("direct-correction", {}), ("direct-correction", MASS)),
+        *(("post-stabilization", {}), ("coordinate-partitioning", {}), ("braun-goldfarb", {})),
+    )
+    rows = tuple(
+        ((f"`{method}`" + (", mass" if options else ""),), partial(list_of, cells, method, options))
+        for method, options in kinds
+    )
+    headings = ("method", r"\|Phi\| [m]", r"\|D v - nu\| [m/s]", "error [m, rad]")
+    return PageTable("literature violation", FINDINGS, headings, rows)
 
 
 def energy_taken(step: float, until: float, order: int) -> tuple[float, float]:
@@ -206,46 +212,40 @@ def energy_taken(step: float, until: float, order: int) -> tuple[float, float]:
     return taken, float(w[STATUS.index("kinetic")] + w[STATUS.index("potential")] - first)
 
 
-def projection() -> Table:
+def projection() -> PageTable:
     """Return the energy that velocity projections take, beside the energy error of the run."""
-    result = table(
-        "four-bar, 10 s: energy that projections take in all, and energy error at the end [J]",
-        ("order", "step [s]", "taken", "energy error", "share"),
-    )
-    for order, step in ((4, 1e-2), (4, 5e-3), (4, 2e-3), (2, 5e-3), (2, 2e-3)):
+
+    def cells(order: int, step: float) -> Iterator[str]:
         taken, lost = energy_taken(step, 10.0, order)
-        result.add_row(str(order), f"{step:g}", *(f"{x:.1e}" for x in (taken, lost, taken / abs(lost))))
-    return result
+        yield from map(number, (taken, lost, taken / abs(lost)))
+
+    cases = ((4, 1e-2), (4, 5e-3), (2, 5e-3), (2, 2e-3))
+    rows = tuple(((str(order), step_size(step)), partial(list_of, cells, order, step)) for order, step in cases)
+    headings = ("order", "step [s]", "taken by all projections [J]", "energy error at the end [J]", "share")
+    return PageTable("literature projection", FINDINGS, headings, rows)
 
 
-def classes(turns: int = 9) -> Table:
+def classes(times: bool = False, turns: int = 9) -> PageTable:
     """Return run times and errors by class of methods that are one in exact arithmetic, times in turns."""
-    title = "four-bar, rk4 at 1 ms, 10 s: run time over that of lagrange beside it, median (smallest to largest)"
-    result = table(title, ("class", "method", "time", "error [m, rad]"), 2)
-    model = load("four-bar")
-    for label, method, options in CLASSES:
-        ratios, one = list[float](), run(model, method, 1e-3, 10.0, options)
-        for _ in range(turns):
+
+    def cells(method: str, options: Options) -> Iterator[str]:
+        model, ratios = load("four-bar"), list[float]()
+        one = run(model, method, 1e-3, 10.0, options)
+        for _ in range(turns if times else 0):
             base = run(model, "lagrange", 1e-3, 10.0, {}, repeat=9).seconds.run
             ratios.append(run(model, method, 1e-3, 10.0, options, repeat=9).seconds.run / base)
-        time = f"{statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
-        words = " ".join(str(x) for x in options.values() if isinstance(x, str))
-        result.add_row(label, f"{method} {words}".strip(), time, f"{error(one, 'four-bar', 10.0):.1e}")
-    return result
+        yield f"{statistics.median(ratios):.2f}" if ratios else KEPT
+        yield number(error(one, "four-bar", 10.0))
+
+    rows = tuple(((label, name), partial(list_of, cells, method, options)) for label, name, method, options in CLASSES)
+    return PageTable("literature classes", FINDINGS, ("class", "method", "time", "error [m, rad]"), rows, (2,))
 
 
-TABLES: dict[str, Callable[[], Table]] = {
-    **{"gains": gains, "adaptive": adaptive, "energy": energy},
-    **{"violation": violation, "projection": projection, "classes": classes},
-}
-
-
-def main(arguments: list[str]) -> int:
-    """Print the tables that are named, or all."""
-    for name in arguments or TABLES:
-        show(TABLES[name]())
-    return 0
+def tables(times: bool = False) -> dict[str, PageTable]:
+    """Return all tables by name; run times are measured only if asked for."""
+    found = (gains(), adaptive(), energy(), violation(), projection(), classes(times))
+    return {table.command.split()[-1]: table for table in found}
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(print_tables(tables(times=True), sys.argv[1:]))

@@ -3,11 +3,13 @@
     python -m benchmarks.operations [MODEL ...]
 
 Operations of the emitted right-hand side of `direct-correction` and of a round of its correction, in coordinates of
-bodies and of joints.
+bodies and of joints; and what CasADi's elimination of common parts leaves of the right-hand side, where CasADi can be
+imported.
 """
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from collections.abc import Iterator
 from unittest.mock import patch
@@ -42,8 +44,10 @@ def blocks(equations: Equations, plan: EliminationPlan) -> dict[str, Block]:
     return {block.name: block for block in (*model.blocks, *law.blocks)}
 
 
-def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
+def rows(names: tuple[str, ...], casadi: bool) -> Iterator[list[str]]:
     """Yield the rows of the table."""
+    if casadi:
+        from benchmarks.peers.casadi_graph import shared_by_casadi
     for name in names:
         mechanism = symgen.load(name).mechanism
         for coordinates, described in (("bodies", mechanism), ("joints", on_tree(mechanism))):
@@ -56,17 +60,27 @@ def rows(names: tuple[str, ...]) -> Iterator[list[str]]:
                 f"{len(plan.rows)} of {equations.m}",
                 *(str(each["rhs"].operations) for each in (old, new)),
                 *(str(sum(each[x].operations for x in CORRECTION if x in each)) for each in (old, new)),
+                *((str(shared_by_casadi(new["rhs"])),) if casadi else ()),
             ]
 
 
 def main(names: tuple[str, ...] = MODELS) -> None:
     """Print the table."""
     table = Table("", "coordinates", "rows that fix", title="Operations")
-    for head in ("`rhs` by S", "`rhs`", "correction by S", "correction"):
+    casadi = importlib.util.find_spec("casadi") is not None
+    for head in (
+        "`rhs` by S",
+        "`rhs`",
+        "correction by S",
+        "correction",
+        *(("CasADi's `cse` of `rhs`",) if casadi else ()),
+    ):
         table.add_column(head, justify="right")
-    for row in rows(names):
+    for row in rows(names, casadi):
         table.add_row(*row)
     show(table)
+    if not casadi:
+        print("No column of CasADi, which is not installed: pip install casadi.")
 
 
 if __name__ == "__main__":

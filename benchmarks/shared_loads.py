@@ -9,12 +9,13 @@ share it like ``k_i (u + x_i phi)``, u and phi from the balance of forces and mo
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from rich.table import Table
 
-from benchmarks.show import show
+from benchmarks.page_tables import PageTable, list_of, print_tables
 from symgen.api import Model, load
 from symgen.describe import MechanismBuilder
 
@@ -55,19 +56,20 @@ def tensions(stiffness: tuple[float, ...], method: str, angle: float = 0.3, unti
     return np.asarray(result.lam), np.asarray(result.q)[-1]
 
 
-def main() -> int:
-    """Print the tensions at the start of the motion."""
-    table = Table(title="tensions of three bars [N], bars turned by 0.3 rad, at rest")
-    for heading in ("stiffness [N/m]", "closed form", *METHODS):
-        table.add_column(heading)
-    for stiffness in CASES:
+def table() -> PageTable:
+    """Return the tensions at the start of the motion."""
+
+    def cells(stiffness: tuple[float, ...]) -> Iterator[str]:
         exact = shares(stiffness, MASS * GRAVITY * float(np.cos(0.3)))
-        rows = [exact, *(tensions(stiffness, method)[0][0] for method in METHODS)]
-        numbers = [", ".join(f"{x:.4f}" for x in row) for row in rows]
-        table.add_row(", ".join(f"{k:g}" for k in stiffness), *numbers)
-    show(table)
-    return 0
+        for row in (exact, *(tensions(stiffness, method)[0][0] for method in METHODS)):
+            yield ", ".join(f"{x:.4f}" for x in row)
+
+    rows = tuple(
+        ((", ".join(f"{k:.0e}".replace("e+0", "e") for k in case),), partial(list_of, cells, case)) for case in CASES
+    )
+    headings = ("stiffness of the bars [N/m]", "bars that give, closed form", *(f"`{method}`" for method in METHODS))
+    return PageTable("shared_loads", "docs/findings.md", headings, rows)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(print_tables({"shared_loads": table()}, sys.argv[1:]))

@@ -2,7 +2,7 @@
 
 The coupler of a four-bar is elastic, 1e8 N/m with a strong damper. The largest stable step of `rk4` is found by
 bisection; implicit pairs run at 100 times that and are compared with a tight run of `radau5`, which in turn is compared
-with an explicit run below the limit.
+with `ggl` at another step.
 
     python -m benchmarks.stiff
 """
@@ -10,16 +10,16 @@ with an explicit run below the limit.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from rich.table import Table
 
 from benchmarks.motions import positions, run
-from benchmarks.show import show
+from benchmarks.page_tables import PageTable, Row, list_of, number, print_tables
 from symgen.api import Model, load
 from symgen.integrators import INTEGRATORS
 from symgen.result.points import Points
@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 UNTIL = 0.5
 TIMES = np.linspace(0.0, UNTIL, 6)
 FACTOR = 100.0
+#: About `FACTOR` times the largest stable step of `rk4`.
+STEP = 5e-3
 PAIRS = (
     ("direct-correction", "radau5"),
     ("lagrange", "radau5"),
@@ -62,7 +64,7 @@ def explicit_limit(method: str = "direct-correction", integrator: str = "rk4") -
 
 
 @dataclass(frozen=True)
-class Row:
+class Attempt:
     """One pair at a step far above the explicit limit."""
 
     method: str
@@ -91,34 +93,32 @@ def points() -> Points:
     return Points.of(model().mechanism, model().parameters())
 
 
-def row(method: str, integrator: str, step: float) -> Row:
+def row(method: str, integrator: str, step: float) -> Attempt:
     """Run one pair with a constant step."""
     result = run(model(), method, integrator, step, TIMES)
     q, exact = positions(result), reference()[0]
     error = points().distance(q, exact[: len(q)]) if len(q) > 1 else np.inf
-    return Row(method, integrator, step, result.status, error, result.steps, result.seconds.run, result.reason or "")
+    return Attempt(
+        method, integrator, step, result.status, error, result.steps, result.seconds.run, result.reason or ""
+    )
 
 
-def main() -> int:
-    """Print the table."""
-    limit = explicit_limit()
-    explicit = run(model(), "direct-correction", "rk4", limit / 1.5, TIMES)
-    distance = points().distance(positions(explicit), reference()[0])
-    table = Table(
-        title=f"elastic coupler, {UNTIL:g} s: rk4 is stable up to {limit:.3g} s; steps {FACTOR:g} times larger"
-    )
-    for heading in ("method", "integrator", "order", "step [s]", "status", "error [m]", "steps", "run [ms]", "reason"):
-        table.add_column(heading, justify="left" if heading in ("method", "integrator") else "right")
-    for r in (row(m, i, limit * FACTOR) for m, i in PAIRS):
-        numbers = f"{r.step:.2e}", r.status, f"{r.error:.1e}", str(r.steps), f"{r.seconds * 1e3:.1f}", r.reason[:70]
-        table.add_row(r.method, r.integrator, str(INTEGRATORS.get(r.integrator).order), *numbers)
-    table.caption = (
-        f"reference: radau5 at 1e-4 s, {reference()[1]:.1e} m from ggl at 1.25e-4 s; rk4 at {limit / 1.5:.2e} s: "
-        f"{explicit.steps} steps, {explicit.seconds.run * 1e3:.1f} ms, {distance:.1e} m from it"
-    )
-    show(table)
-    return 0
+def table() -> PageTable:
+    """Return the errors of all pairs at `STEP`, behind the largest stable step of `rk4`."""
+
+    def cells(method: str, integrator: str) -> Iterator[str]:
+        one = row(method, integrator, STEP)
+        yield from (one.status, number(one.error))
+
+    def explicit() -> Iterator[str]:
+        yield from (f"stable to {explicit_limit():.1e} s".replace("e-0", "e-"), "")
+
+    rows: list[Row] = [(("`direct-correction` with `rk4`", "4"), partial(list_of, explicit))]
+    for method, integrator in PAIRS:
+        names = f"`{method}` with `{integrator}`", str(INTEGRATORS.get(integrator).order)
+        rows.append((names, partial(list_of, cells, method, integrator)))
+    return PageTable("stiff", "docs/findings.md", ("pair", "order", "status", "error [m]"), tuple(rows))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(print_tables({"stiff": table()}, sys.argv[1:]))

@@ -8,20 +8,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.measured_data import Data, data_of
+from symgen.analyses.null_directions import null_directions
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 from symgen.base.settings import Settings, is_set
 from symgen.describe.evaluate import parameter_values
 from symgen.layout import abi
 from symgen.result.build import build_result
-from symgen.result.saved import Recorded, read_recorded
 from symgen.result.sensitivities import Differentiated, place_of
 
 if TYPE_CHECKING:
@@ -34,31 +33,8 @@ Bounds = tuple[float | None, float | None]
 
 #: Tolerances of runs whose derivatives are compared with data, unless they are set.
 _RTOL = _ATOL = 1e-10
-#: A direction is none below this part of the largest singular value, or behind a gap of this size.
-NONE, GAP = 1e-10, 1e-8
-#: Exponents in words have at most this denominator, and are right to this.
-_DENOMINATOR, _NEAR = 6, 1e-3
 #: Share of intervals that cover the value.
 _COVERED = 0.95
-
-
-@dataclass(frozen=True)
-class Data:
-    """Measured columns over time.
-
-    Attributes
-    ----------
-    whence : str
-        Where they are from, for messages.
-    t : Array, shape (k,)
-        Times [s], increasing.
-    columns : mapping of str to Array
-        Measured quantities by name.
-    """
-
-    whence: str
-    t: Array
-    columns: Mapping[str, Array]
 
 
 @dataclass(frozen=True)
@@ -124,39 +100,6 @@ class Fit:
             }
         )
         return facts
-
-
-def data_of(source: object, number: int = 0) -> Data:
-    """Return measured columns: of a file, of a mapping with ``t``, or of a result.
-
-    Raises
-    ------
-    InputError
-        If they are no columns over increasing times, or hold numbers that are not finite.
-    """
-    if isinstance(source, str | Path):
-        record = read_recorded("identify: data", Path(source))
-        whence, t, columns = record.whence, record.t, dict(record.columns)
-    elif isinstance(source, Recorded):
-        whence, t, columns = source.whence, source.t, dict(source.columns)
-    elif isinstance(source, Mapping):
-        whence = f"identify: data {number + 1}"
-        columns = {str(name): np.asarray(values, dtype=np.float64) for name, values in source.items()}
-        if "t" not in columns:
-            raise InputError(whence, "a column 't' of times", "none")
-        t = columns.pop("t")
-    else:
-        raise InputError("identify: data", "files, or mappings with a column 't'", f"a {type(source).__name__}")
-    if len(t) == 0 or not np.all(np.diff(t) > 0.0) or not np.all(np.isfinite(t)):
-        raise InputError(whence, "increasing times", "others")
-    if t[0] < 0.0:
-        raise InputError(whence, "times from the start of the run at 0 s on", f"{t[0]:g} s")
-    for name, values in columns.items():
-        if values.shape != t.shape:
-            raise InputError(whence, f"{len(t)} numbers of {name}", f"an array of shape {values.shape}")
-        if not np.all(np.isfinite(values)):
-            raise InputError(whence, "finite numbers", f"others in {name}")
-    return Data(whence, t, columns)
 
 
 class Identification:
@@ -328,54 +271,6 @@ class Identification:
                     residuals.append(self.scales[name] * (values - data.columns[name]))
                 slopes.append(self.scales[name] * by)
         return np.concatenate(residuals), np.concatenate(slopes)
-
-
-def null_directions(slopes: Array, sizes: Array, labels: Sequence[str]) -> tuple[str, ...]:
-    """Return sentences on changes of numbers that leave the data as they are.
-
-    Parameters
-    ----------
-    slopes : Array, shape (k, n)
-        Derivatives of the residuals.
-    sizes : Array, shape (n,)
-        What a change of each number is measured by.
-    labels : sequence of str
-        Their names.
-    """
-    _, singular, rows = np.linalg.svd(slopes * sizes, full_matrices=True)
-    values = np.zeros(len(labels))
-    values[: len(singular)] = singular
-    largest = values[0]
-    if largest == 0.0:
-        return tuple(f"{name} changes nothing that was measured" for name in labels)
-    none = values < NONE * largest
-    gaps = np.flatnonzero(values[1:] < GAP * values[:-1])
-    if len(gaps):
-        none[gaps[0] + 1 :] = True
-    return tuple(_in_words(row, labels) for row in rows[none])
-
-
-def _in_words(row: Array, labels: Sequence[str]) -> str:
-    """Return a sentence on one direction of relative changes."""
-    parts = row / row[int(np.argmax(np.abs(row)))]
-    moving = [(name, x) for name, x in zip(labels, parts, strict=True) if abs(x) > _NEAR]
-    if len(moving) == 1:
-        return f"{moving[0][0]} changes nothing that was measured"
-    powers = [Fraction(x).limit_denominator(_DENOMINATOR) for _, x in moving]
-    if any(abs(float(f) - x) > _NEAR for f, (_, x) in zip(powers, moving, strict=True)):
-        return f"{_listed([name for name, _ in moving])} can change together without a change of what was measured"
-    if all(f == 1 for f in powers):
-        return f"{_listed([name for name, _ in moving])} can be multiplied by one number"
-    factors = [f"{name} by {_power(f)}" for (name, _), f in zip(moving, powers, strict=True)]
-    return f"{_listed(factors)} can be multiplied together, for any number z"
-
-
-def _power(f: Fraction) -> str:
-    return "z" if f == 1 else f"z^{f}" if f.denominator == 1 and f > 0 else f"z^({f})"
-
-
-def _listed(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def identify(

@@ -18,6 +18,7 @@ from symgen.base.errors import InputError
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import are_words_of_data
+from symgen.describe.smooth_friction import with_sliding_friction
 from symgen.describe.stops import refuse_bounds
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
@@ -167,6 +168,7 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
+    mechanism = with_sliding_friction(WHERE, mechanism)
     refuse_bounds(WHERE, mechanism)
     names = arguments.words(WHERE, actuators)
     if len(set(names)) < len(names):

@@ -48,7 +48,7 @@ def command(
     """Show the equations that symgen derives for MODEL, exactly as they are compiled.
 
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
-    of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
+    of freedom, redundant rows, operation counts, shared terms, and what was left out and why.
     """
     from symgen.api import load
     from symgen.base.settings import Settings

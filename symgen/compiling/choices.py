@@ -23,6 +23,7 @@ from symgen.base.errors import InputError
 from symgen.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops
 from symgen.compiling.side import module_beside
 from symgen.describe.mechanism import Mechanism, Topology
+from symgen.describe.remembered import remembered
 from symgen.describe.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
 
 #: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].
@@ -201,8 +202,12 @@ LARGE = 4_000
 GAIN = 0.01
 
 
+@remembered
 def on_tree(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism in the coordinates of its tree's joints; joints with ``cut = true`` carry nothing."""
+    """Return a mechanism in the coordinates of its tree's joints; joints with ``cut = true`` carry nothing.
+
+    Every run of the same description takes the same one, whose digest and numbers are then computed once.
+    """
     first = spanning_tree(mechanism, mechanism.cuts)
     if not loops_of(mechanism, first):
         return with_joint_coordinates(mechanism, first)

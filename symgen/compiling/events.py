@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.formula_text import to_text
-from symgen.describe.friction import bound_in_motion, mode_events, rate_of
-from symgen.describe.kinks import Discontinuity, changing_rows, discontinuities_of
+from symgen.describe.friction import bound_in_motion, components, mode_events, rate_of
+from symgen.describe.kinks import Discontinuity, changes_in_time, changing_rows, discontinuities_of
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.describe.stops import gap_of, stop_events
 from symgen.effects.effects import Effect, Effects
@@ -82,11 +82,20 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
     state += [(f"bound of {f.name} in motion", bound_in_motion(f)) for f in frictions]
     state += [(f"restitution of {s.name}", s.restitution) for s in stops]
     rates = [(f"second derivative of {x.name}", rate_of(x, 2)) for x in every]
+    pressed = tuple(i for i, f in enumerate(frictions) if f.pressed)
+    forces = list[tuple[str, Expr]]()
+    for i in pressed:
+        forces += zip(
+            (f"{frictions[i].name}, reaction {k}" for k in range(2)), (*components(frictions[i]), ZERO), strict=False
+        )
     return BoundedRows(
         tuple(x.name for x in every),
         len(frictions),
         compile_side(mechanism, compiled, "friction", "Rows with bounds", state),
         compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),
+        compile_side(mechanism, compiled, "reactions", "Reactions at dry friction", forces) if pressed else None,
+        pressed,
+        changes_in_time(mechanism),
     )
 
 

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.compiling.checked import checked_function
+from symgen.compiling.events import DIRECTIONS, effects_of
+from symgen.compiling.side import compile_side
+from symgen.describe.events import RECORD, STOP
 from symgen.effects.applying import apply_effects
-from symgen.effects.stepping import new_step_work, step_to_event
+from symgen.effects.effects import Effects
+from symgen.effects.locking import find_lock, new_lock_work
+from symgen.effects.stepping import find_rates, new_step_work, take_step, take_steps
 from symgen.layout import abi
 from symgen.layout.ensemble_abi import N_SUMMARY
+from symgen.layout.scales import fill_jacobian
 from symgen.layout.start_records import Instant, StartConditions
 from symgen.loopcode.exact import compiled_form
 from symgen.native import language as lang
@@ -23,13 +29,15 @@ from symgen.native.loop_values import laid_out
 from symgen.native.loops import read_loop
 from symgen.native.read_values import Foreign
 from symgen.starts.assembler import layout_of
-from symgen.starts.starting import close_row
+from symgen.starts.starting import close_row, observe_nothing
 
 if TYPE_CHECKING:
-    from symgen.effects.effects import Effects
+    from symgen.describe.mechanism import Mechanism
     from symgen.layout.compiled import CompiledModel
     from symgen.starts.assembler import Assembly
 
+#: Names of the switching functions of events, and of the formulas of their effects.
+SWITCHING, CHANGED = "formulas_of_events", "formulas_of_effects"
 #: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
 Naming = Callable[[str], str | None]
 
@@ -102,6 +110,67 @@ def _meaning(
 
 
 @dataclass(frozen=True)
+class PrintedEvents:
+    """The events of a mechanism, for printed steps.
+
+    Attributes
+    ----------
+    directions, ends : sequence of int
+        Of each event, as in `symgen.effects.stepping.STEP_MODEL`; 1 for each event that ends runs, else 0. Empty where
+        all events are only recorded.
+    switching : emitted function, optional
+        Switching functions of all events.
+    effects : Effects, optional
+        What events change.
+    """
+
+    directions: Sequence[int] = ()
+    ends: Sequence[int] = ()
+    switching: Any = None
+    effects: Effects | None = None
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, compiled: CompiledModel) -> PrintedEvents:
+        """Return the events of a mechanism."""
+        events = mechanism.events
+        if not events:
+            return cls()
+        conditions = [(event.name, event.when) for event in events]
+        switching = compile_side(mechanism, compiled, "events", "Switching functions", conditions).function
+        effects = effects_of(mechanism, compiled, events)
+        if all(event.action == RECORD for event in events):
+            return cls((), (), switching, effects)
+        directions = [2 if event.action == RECORD else DIRECTIONS[event.direction] for event in events]
+        return cls(directions, [int(event.action == STOP) for event in events], switching, effects)
+
+    @property
+    def functions(self) -> dict[str, lang.Function]:
+        """Emitted functions by their names in the text."""
+        sides = {SWITCHING: self.switching, CHANGED: self.effects.formulas if self.effects else None}
+        return {name: checked_function(f, abi.OBSERVE) for name, f in sides.items() if f is not None}
+
+
+#: Arrays that are no part of a record; states and rates are passed.
+_ALONE = {"y": "", "rate": "", "p": "p", "w": "w", "iw": "iw", "chosen": "chosen"}
+
+
+def _room_of_steps(name: str) -> str | None:
+    """Return the name of an array of steps or effects in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    if owner == "work":
+        return own if own == "chosen" else f"step_{own}"
+    if owner == "impact":
+        return f"effect_{own.replace('.', '_')}"
+    return own.replace("y", "") if owner == "now" else _ALONE.get(name)
+
+
+def _room_of_lock(name: str) -> str | None:
+    """Return the name of an array of `find_lock` in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    return own.replace("y", "") if owner == "now" else f"lock_{own}" if owner == "work" else None
+
+
+@dataclass(frozen=True)
 class Printed:
     """Functions of the runtime for one compiled model in another language.
 
@@ -120,66 +189,68 @@ class Printed:
         """Return the functions bound to the model."""
         return bind(self.entries, frozenset(f.key for f in self.emitted.values()))
 
-    def add_effects(self, effects: Effects, formulas: str) -> None:
-        """Add ``apply_effects(t, y)``, which changes a state by the effects of the events in ``chosen``.
+    def add_steps(self, compiled: CompiledModel, events: PrintedEvents, names: Collection[str]) -> None:
+        """Add functions of `symgen.effects.stepping`, and the effects of events.
 
-        Parameters
-        ----------
-        effects : Effects
-            The effects.
-        formulas : str
-            Name of the function of their formulas in the text.
-        """
-        info, scratch = effects.compiled.info, effects.compiled.scratch()
-        layout, geometry, of_formulas, of_bodies, changes = effects.model
-        functions = {id(geometry): self.emitted["geometry"], id(of_formulas): self.emitted[formulas]}
-        if effects.bodies:
-            functions[id(of_bodies)] = self.emitted["bodies"]
-        now = Instant(np.zeros(info.ny), np.zeros(1), scratch)
-        work = effects.memory(info.ny, len(scratch))
-        chosen = effects.chosen(())
-
-        def room(name: str) -> str | None:
-            if name.startswith("now."):
-                return name.removeprefix("now.").replace("y", "")
-            own = name.removeprefix("work.").replace(".", "_")
-            return "chosen" if name == "chosen" else f"effect_{own}" if name.startswith("work.") else None
-
-        model = layout, geometry, of_formulas, of_bodies, changes
-        meanings = meanings_of(apply_effects, (model, None, now, chosen, work), functions, room)
-        self.entries["apply_effects"] = source_of(apply_effects), meanings
-
-    def add_steps(self, compiled: CompiledModel, functions: Any, switching: str, directions: Sequence[int]) -> None:
-        """Add ``step_to_event(t, h, y)``; see `symgen.effects.stepping`.
+        They are ``find_rates(t, y, rate)``, ``take_step(t, h, y)`` and ``take_steps(until, h, y)``, and where events
+        change the state ``apply_effects(t, y)`` for the events in ``chosen``.
 
         Parameters
         ----------
         compiled : CompiledModel
             Model and method.
-        functions : emitted function
-            Switching functions of all events.
-        switching : str
-            Name of their function in the text.
-        directions : sequence of int
-            Of each event, as in `symgen.effects.stepping.STEP_MODEL`.
+        events : PrintedEvents
+            The events.
+        names : collection of str
+            Names of those functions that are added.
         """
         law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
         confirm = getattr(law, "confirm", law.rhs)
-        emitted = {id(law.rhs): "rhs", id(confirm): "confirm" if confirm is not law.rhs else "rhs"}
-        emitted |= {id(law.accept): "accept", id(functions): switching}
-        model = layout_of(compiled), law.rhs, confirm, law.accept, functions, np.array(directions, dtype=np.int64)
+        effects = events.effects or Effects(compiled, (), {}, observe_nothing, ())
+        layout, geometry, formulas, bodies, changes = effects.model
+        switching = events.switching or observe_nothing
+        emitted = {id(law.rhs): self.emitted["rhs"], id(law.accept): self.emitted["accept"]}
+        emitted[id(confirm)] = self.emitted["rhs" if confirm is law.rhs else "confirm"]
+        emitted[id(geometry)] = self.emitted["geometry"]
+        if events.switching is not None:
+            emitted[id(switching)] = self.emitted[SWITCHING]
+        if events.effects is not None:
+            emitted[id(formulas)] = self.emitted[CHANGED]
+        if effects.bodies:
+            emitted[id(bodies)] = self.emitted["bodies"]
+        directions, ends = (np.array(x, dtype=np.int64) for x in (events.directions, events.ends))
+        steps = layout, law.rhs, confirm, law.accept, switching, directions
+        of_effects = layout, geometry, formulas, bodies, changes
         now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
-        work = new_step_work(ny, len(scratch), len(directions))
+        work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
+        iw, rate = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(ny)
+        arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
+            "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
+            "take_step": (take_step, (steps, None, None, now, iw, work)),
+            "take_steps": (take_steps, ((steps, of_effects, ends), None, None, now, iw, work, impact)),
+            "apply_effects": (apply_effects, (of_effects, None, now, work.chosen, impact)),
+        }
+        for name in names:
+            function, values = arguments[name]
+            own = function is apply_effects  # whose memory has another name elsewhere
+            room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
+            self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
 
-        def room(name: str) -> str | None:
-            if name == "work.chosen" or name.startswith("now."):
-                return name.partition(".")[2].replace("y", "")
-            own = name.removeprefix("work.")
-            return f"step_{own}" if name != own else "iw" if name == "iw" else None
+    def add_lock(self, compiled: CompiledModel, drivers: Collection[str]) -> None:
+        """Add ``find_lock(t, y)``, see `symgen.effects.locking`, for these joints."""
+        layout, geometry = layout_of(compiled), compiled.model.geometry
+        driven = np.array([int(row.joint in drivers) for row in compiled.info.rows], dtype=np.int64)
+        now = Instant(np.zeros(compiled.info.ny), np.zeros(1), compiled.scratch())
+        arguments = (layout, geometry, driven), None, now, new_lock_work(layout)
+        emitted = {id(geometry): self.emitted["geometry"]}
+        self.entries["find_lock"] = source_of(find_lock), meanings_of(find_lock, arguments, emitted, _room_of_lock)
 
-        arguments = model, None, None, now, np.zeros(abi.N_COUNTERS, dtype=np.int64), work
-        meanings = meanings_of(step_to_event, arguments, {k: self.emitted[n] for k, n in emitted.items()}, room)
-        self.entries["step_to_event"] = source_of(step_to_event), meanings
+    def add_jacobian(self, compiled: CompiledModel) -> None:
+        """Add ``fill_jacobian()``, which writes the dense D to the array ``d``."""
+        layout = layout_of(compiled)
+        arguments = layout, compiled.scratch(), np.zeros(layout.m * layout.nv)
+        meanings = meanings_of(fill_jacobian, arguments, {}, {"w": "w", "rows": "d"}.get)
+        self.entries["fill_jacobian"] = source_of(fill_jacobian), meanings
 
     def add_start(self, assembly: Assembly) -> None:
         """Add ``close_row()``, which makes the start of the model consistent; see `symgen.starts.starting`.

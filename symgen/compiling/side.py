@@ -24,6 +24,7 @@ from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.describe.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.readings import integrals
+from symgen.ir.program import JAMMING
 from symgen.layout import abi
 from symgen.layout.compiled import CompiledModel
 from symgen.lower.windings import Beside, winding_order
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Sections of ``w`` that formulas of a run may read, at the places of a model of either shape.
-READ = ("status", "winding", "modes", "multipliers")
+READ = ("status", "winding", "modes", "multipliers", JAMMING)
 
 
 @dataclass(frozen=True)

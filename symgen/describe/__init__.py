@@ -4,7 +4,7 @@ TOML, catalogue entries and a `MechanismBuilder` become the same nested dictiona
 
 In: a file, a catalogue entry or the keys of a builder.
 Out: a `Mechanism` with its inputs, events, tables and described start.
-Imports: msgspec; `catalogue` and rooms below; `forces`, `joints` by name.
+Imports: msgspec; mujoco for MJCF; `catalogue` and rooms below; `forces`, `joints` by name.
 """
 
 from __future__ import annotations

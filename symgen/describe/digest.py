@@ -15,7 +15,7 @@ from symgen.describe.tables import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures",)
+_LATER = ("flexures", "pressed", "speed")
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -86,6 +86,8 @@ def identity(mechanism: Mechanism) -> str:
         ", beams=b''",
         ", switchable=()",
         ", frictions=()",
+        ", pressed=()",
+        ", speed=None",
         ", stops=()",
     ):
         text = text.replace(absent, "")

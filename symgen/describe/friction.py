@@ -1,12 +1,15 @@
 """Dry friction of joints: the key ``friction`` of a file, its force as an effort, and the events of its modes.
 
 A coordinate with dry friction has a row that is in force at rest (`symgen.ir.program.MODES`), and an effort of a given
-sign in motion. The numbers of the row are names of formulas: ``NAME.friction.held``, ``.sign`` and ``.limit``.
+sign in motion. The numbers of the row are names of formulas: ``NAME.friction.held``, ``.sign`` and ``.limit``. Where
+the bounds depend on the joint's reaction, laws solve for the effort in motion (`symgen.lower.drag`), and
+``NAME.friction.jamming`` is the square of the part of the reaction that its own friction brings about.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
 
 import msgspec
 
@@ -14,14 +17,18 @@ from symgen.base.errors import InputError
 from symgen.describe.fields import Scalar, read_table, words_of
 from symgen.describe.mechanism import EndStop, Event, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
-from symgen.ir.program import MODE_NUMBERS, MODES
+from symgen.ir.program import JAMMING, MODE_NUMBERS, MODES
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
 from symgen.vocabulary.measures import Driven, Effort, Exerted, Holonomic, Measure, Sum
 
+#: Kinds of joints in the plane whose rows of forces are the components of a reaction.
+REACTING = ("revolute", "translational", "pin-in-slot")
 #: Action of events at which modes are chosen anew.
 MODE = "mode"
 #: Last words of their names: rest ends, a rate passes zero, rest begins.
 SLIP, REVERSE, STICK = "slip", "reverse", "stick"
+#: Last word of the event at which friction by a reaction would bring about all of the reaction itself.
+JAM = "jam"
 
 
 class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -31,6 +38,12 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     ----------
     sliding : scalar
         Force or torque in motion [N or N m].
+    coefficient : scalar
+        In place of `sliding`, force in motion over the size of the joint's reaction.
+    static_coefficient : scalar
+        The same at rest; `coefficient` by default.
+    radius : scalar
+        Of a pin, the arm of this force [m].
     static : scalar
         Largest force or torque at rest; `sliding` by default.
     viscous : scalar
@@ -38,12 +51,21 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     stribeck_speed : scalar
         Rate [m/s or rad/s] over which the bound falls from `static` to `sliding`; without it the bound is `sliding` as
         soon as the coordinate moves.
+    law : {"exact", "tanh"}
+        Friction that sticks, or a smooth force in its place: the bound times tanh(rate / `speed`), which creeps.
+    speed : scalar
+        Rate of `law` = "tanh" [m/s or rad/s].
     """
 
-    sliding: Scalar
+    sliding: Scalar | None = None
     static: Scalar | None = None
+    coefficient: Scalar | None = None
+    static_coefficient: Scalar | None = None
+    radius: Scalar | None = None
     viscous: Scalar = 0.0
     stribeck_speed: Scalar | None = None
+    law: Literal["exact", "tanh"] = "exact"
+    speed: Scalar | None = None
 
 
 def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ...]:
@@ -114,14 +136,28 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
             raise scope.error(f"{key}.{name}", "a value of at least 0", repr(size))
         return expression
 
-    sliding = bound("sliding", section.sliding)
-    static = sliding if section.static is None else bound("static", section.static)
-    low, high = scope.value(sliding, f"{key}.sliding"), scope.value(static, f"{key}.static")
+    pressed = _pressed(scope, joint, label, key, section)
+    names = ("coefficient", "static_coefficient") if pressed else ("sliding", "static")
+    least, most = (getattr(section, name) for name in names)
+    sliding = bound(names[0], least)
+    static = sliding if most is None else bound(names[1], most)
+    low, high = (scope.value(x, f"{key}.{name}") for x, name in zip((sliding, static), names, strict=True))
     if high < low:
-        raise scope.error(f"{key}.static", f"a bound of at least that in motion ({low!r})", repr(high))
+        raise scope.error(f"{key}.{names[1]}", f"a bound of at least that in motion ({low!r})", repr(high))
     if low == 0.0 < high:
-        raise scope.error(f"{key}.sliding", "a value above 0, as that at rest is above 0", "0.0")
-    speed = section.stribeck_speed
+        raise scope.error(f"{key}.{names[0]}", "a value above 0, as that at rest is above 0", "0.0")
+    if section.radius is not None:
+        radius = scope.constant(f"{key}.radius", section.radius, positive=True)
+        sliding, static = call("mul", sliding, radius), call("mul", static, radius)
+    speed, smooth = section.stribeck_speed, section.law == "tanh"
+    if smooth != (section.speed is not None):
+        got = "no such key" if smooth else words_of(section.speed)
+        raise scope.error(
+            f"{key}.speed", 'a rate beside law = "tanh"' if smooth else 'no such key without law = "tanh"', got
+        )
+    if smooth and (pressed or (speed is None and section.static is not None)):
+        got = "coefficient" if pressed else "static without stribeck_speed"
+        raise scope.error(f"{key}.law", 'a constant bound in motion beside "tanh"', f"the key {got}")
     return Friction(
         name=joint.name if single else f"{joint.name}.{label}",
         joint=joint.name,
@@ -131,7 +167,37 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
         static=static,
         viscous=bound("viscous", section.viscous),
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
+        pressed=pressed,
+        speed=scope.constant(f"{key}.speed", section.speed, positive=True) if section.speed is not None else None,
     )
+
+
+def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: FrictionSection) -> tuple[str, ...]:
+    """Return the rows whose forces are the reaction that bounds depend on; none where they are constant."""
+    by_reaction = ("coefficient", "static_coefficient", "radius")
+    given = [name for name in by_reaction if getattr(section, name) is not None]
+    constant = [name for name in ("sliding", "static") if getattr(section, name) is not None]
+    if constant and given:
+        raise scope.error(f"{key}.{given[0]}", f"no such key beside {constant[0]}", f"{getattr(section, given[0])}")
+    first = "coefficient" if given else "sliding"
+    if getattr(section, first) is None:
+        got = " and ".join(given or constant) or "neither"
+        expected = "the key coefficient" if given else "the key sliding, or coefficient for friction by the reaction"
+        raise scope.error(key, expected, got)
+    if not given:
+        return ()
+    if scope.spatial:
+        raise scope.error(f"{key}.coefficient", "friction by the reaction in the plane", "a mechanism in space")
+    rows = tuple(f"{joint.name}.{row.label}" for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m")
+    if not rows or joint.kind not in REACTING:
+        expected = f"friction by the reaction of a joint among {', '.join(REACTING)}"
+        raise scope.error(f"{key}.coefficient", expected, f"a {joint.kind} joint")
+    turns = joint.unit(label) == "rad"
+    if turns and section.radius is None:
+        raise scope.error(f"{key}.radius", "the radius of the pin, as its reaction acts there", "no such key")
+    if not turns and section.radius is not None:
+        raise scope.error(f"{key}.radius", "no radius, as the coordinate is a displacement", f"{section.radius}")
+    return rows
 
 
 def check_frictions(mechanism: Mechanism, source: str) -> None:
@@ -186,6 +252,12 @@ def mode_names(mechanism: Mechanism) -> dict[str, int]:
     }
 
 
+def jamming_names(mechanism: Mechanism) -> dict[str, int]:
+    """Return the names of jamming numbers, with their places in the section ``jamming``."""
+    pressed = (friction for friction in mechanism.frictions if friction.pressed)
+    return {f"{friction.row}.{JAMMING}": i for i, friction in enumerate(pressed)}
+
+
 def number_of(bounded: Friction | EndStop, number: str) -> Name:
     """Return the name of a number of a row with bounds."""
     return Name(f"{bounded.row}.{number}")
@@ -200,16 +272,48 @@ def bound_in_motion(friction: Friction, rate: Expr = ZERO) -> Expr:
     return call("add", friction.sliding, call("mul", call("sub", friction.static, friction.sliding), fall))
 
 
+def sign_of(friction: Friction) -> Name:
+    """Return the sign of the rate in motion, 0 at rest."""
+    return number_of(friction, "sign")
+
+
+def coefficient_of(friction: Friction) -> Expr:
+    """Return the bound in motion over the size of the reaction, a formula of ``rate``."""
+    return bound_in_motion(friction, Name("rate"))
+
+
 def effort_in_motion(friction: Friction) -> Effort:
-    """Return the effort of a coordinate that moves; its sign is a number of the row, 0 at rest."""
+    """Return the effort of a coordinate that moves; its sign is a number of the row, 0 at rest.
+
+    Of friction by a reaction it is the rest: the viscous part and, where the row is off, the number ``limit``.
+    """
     rate = Name("rate")
-    against = call("mul", number_of(friction, "sign"), bound_in_motion(friction, rate))
+    if friction.pressed:
+        against = call("mul", call("sub", ONE, number_of(friction, "held")), number_of(friction, "limit"))
+    else:
+        against = call("mul", sign_of(friction), bound_in_motion(friction, rate))
     return Effort("friction", friction.measure, call("neg", call("add", against, call("mul", friction.viscous, rate))))
 
 
 def effort_at_rest(bounded: Friction | EndStop) -> Reading:
     """Return the effort of the row, 0 where it is off."""
     return Reading(bounded.row, Driven(bounded.row, bounded.measure))
+
+
+def components(friction: Friction) -> tuple[Reading, ...]:
+    """Return the components of the reaction that bounds depend on."""
+    return tuple(Reading(row, Driven(row, friction.measure)) for row in friction.pressed)
+
+
+def reaction_of(friction: Friction) -> Expr:
+    """Return the factor of the bounds: the size of the reaction, or 1."""
+    parts = components(friction)
+    if not parts:
+        return ONE
+    if len(parts) == 1:
+        return call("abs", parts[0])
+    squares = [call("mul", part, part) for part in parts]
+    return call("sqrt", call("add", *squares))
 
 
 def rate_of(bounded: Friction | EndStop, order: int = 1) -> Reading:
@@ -225,11 +329,18 @@ def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:
     events = list[Event]()
     for friction in mechanism.frictions:
         held, sign, limit = (number_of(friction, number) for number in ("held", "sign", "limit"))
-        left = call("sub", limit, call("abs", effort_at_rest(friction)))
+        if friction.pressed:
+            limit_at_rest: Expr = call("add", call("mul", friction.static, reaction_of(friction)), limit)
+        else:
+            limit_at_rest = limit
+        left = call("sub", limit_at_rest, call("abs", effort_at_rest(friction)))
         resting = call("add", call("mul", held, left), call("sub", ONE, held))
         moving = call("add", call("mul", sign, rate_of(friction)), call("sub", ONE, call("mul", sign, sign)))
         events.append(Event(f"{friction.name}.{SLIP}", resting, "falling", MODE, (), "effort at rest at its bound"))
         events.append(Event(f"{friction.name}.{REVERSE}", moving, "falling", MODE, (), "rate of sliding 0"))
+        if friction.pressed:
+            free = call("sub", ONE, number_of(friction, JAMMING))
+            events.append(Event(f"{friction.name}.{JAM}", free, "falling", MODE, (), "jamming number 1"))
     return tuple(events)
 
 
@@ -244,9 +355,17 @@ def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
     """Yield mode (0 at rest, else the sign of the rate) and force of each dry friction."""
     for friction in frictions:
         force = Reading(f"{friction.name}.force", Exerted((effort_in_motion(friction),)))
-        unit = "N m" if friction.unit == "rad" else "N"
-        yield Output(f"{friction.name}.mode", number_of(friction, "sign"), "")
-        yield Output(f"{friction.name}.force", call("add", force, effort_at_rest(friction)), unit)
+        total = call("add", force, effort_at_rest(friction))
+        if friction.pressed:
+            against = call("mul", bound_in_motion(friction, rate_of(friction)), reaction_of(friction))
+            total = call("sub", total, call("mul", sign_of(friction), against))
+        yield Output(f"{friction.name}.mode", sign_of(friction), "")
+        yield Output(f"{friction.name}.force", total, unit_of_effort(friction))
+
+
+def unit_of_effort(friction: Friction) -> str:
+    """Return the unit of its force."""
+    return "N m" if friction.unit == "rad" else "N"
 
 
 def without_friction(mechanism: Mechanism) -> Mechanism:

@@ -77,6 +77,11 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     return tuple(kinks), tuple(sides)
 
 
+def changes_in_time(mechanism: Mechanism) -> bool:
+    """Return whether anything but the motion changes over time: a formula of t, or a state of the file's own."""
+    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode(integrated(mechanism))
+
+
 def _tables(mechanism: Mechanism) -> dict[str, Table]:
     """Return the tables at whose points runs stop."""
     return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}

@@ -48,7 +48,8 @@ def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None =
     Parameters
     ----------
     model : str or path
-        ``"four-bar"``, ``"n-four-bar:40"`` or the path of a TOML file.
+        ``"four-bar"``, ``"n-four-bar:40"`` or the path of a file: TOML, or of another program's format
+        (`symgen.describe.formats`), read with a fixed base.
     parameters : mapping of str to float, optional
         Values in place of the defaults of some parameters; dependent quantities are checked with these.
 
@@ -88,6 +89,7 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
 def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     """Return the nested dictionary of `model`, not yet validated, and the name of its origin for messages."""
     from symgen import catalogue
+    from symgen.describe.formats import format_of, read_robot
 
     arguments.path("model", model)
     text = os.fspath(model)
@@ -97,7 +99,8 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return catalogue.raw(match.group("name"), None if size is None else int(size)), text
     path = Path(text)
     if _is_file(path):
-        return read_toml(path), path.name
+        other = format_of(path)
+        return (read_toml(path) if other is None else read_robot(path, other).raw), path.name
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
     entries = catalogue.all_names()

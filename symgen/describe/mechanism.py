@@ -271,7 +271,7 @@ class Rotor(msgspec.Struct, frozen=True):
 
 
 class Friction(msgspec.Struct, frozen=True):
-    """Dry friction along a coordinate of a joint, with a bound that does not depend on reactions.
+    """Dry friction along a coordinate of a joint.
 
     At rest the force is what keeps it at rest, up to `static`; in motion it is `sliding` against the rate. Where
     `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^2).
@@ -287,11 +287,15 @@ class Friction(msgspec.Struct, frozen=True):
     unit : str
         Unit of the coordinate.
     sliding, static : Expr
-        Bounds [N or N m].
+        Bounds [N or N m], or these over the size of the joint's reaction [1 or m].
     viscous : Expr
         Force over rate [N s/m or N m s].
     stribeck_speed : Expr or None
         A rate [m/s or rad/s].
+    pressed : tuple of str
+        Rows of the joint whose forces are its reaction; none where the bounds do not depend on it.
+    speed : Expr or None
+        Where the friction is regularised, the rate of tanh(rate / speed) in place of the sign [m/s or rad/s].
     """
 
     name: str
@@ -302,6 +306,8 @@ class Friction(msgspec.Struct, frozen=True):
     static: Expr
     viscous: Expr = ZERO
     stribeck_speed: Expr | None = None
+    pressed: tuple[str, ...] = ()
+    speed: Expr | None = None
 
     @property
     def row(self) -> str:

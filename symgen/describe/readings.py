@@ -281,9 +281,13 @@ def points(mechanism: Mechanism) -> tuple[Column, ...]:
 
 def elements(mechanism: Mechanism) -> tuple[Column, ...]:
     """Return measures, forces and power of force elements and drivers: ``spring.length``, ``.force``, ``.power``."""
-    forces = (column for force in mechanism.forces for column in _columns(of_force(force, OUTPUT)))
     drivers = (column for j in mechanism.joints if j.kind == "driver" for column in _driver(of_joint(j, OUTPUT)))
-    return (*forces, *drivers)
+    return (*of_force_elements(mechanism), *drivers)
+
+
+def of_force_elements(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return measures, forces and power of force elements."""
+    return tuple(column for force in mechanism.forces for column in _columns(of_force(force, OUTPUT)))
 
 
 def outputs(mechanism: Mechanism) -> tuple[Column, ...]:

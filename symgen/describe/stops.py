@@ -129,13 +129,17 @@ def _restitution(scope: Scope, key: str, value: float | str) -> Expr:
 
 
 def check_stops(mechanism: Mechanism, source: str) -> None:
-    """Refuse stops where a body has no mass, as impacts change velocities by masses.
+    """Refuse stops where a body has no mass, as impacts change velocities by masses, or beside friction by reactions.
 
     Raises
     ------
     InputError
-        With the first such body.
+        With the first such body or friction.
     """
+    pressed = next((friction for friction in mechanism.frictions if friction.pressed), None)
+    if mechanism.stops and pressed is not None:
+        where, expected = f"{source}: joints.{pressed.joint}.friction", "friction of constant bound, beside stops"
+        raise InputError(where, expected, "friction by the reaction of the joint")
     body = next((body.name for body in mechanism.bodies if body.massless), None)
     if mechanism.stops and body is not None:
         where = f"{source}: bodies.{body}"

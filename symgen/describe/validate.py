@@ -55,6 +55,7 @@ from symgen.describe.sections import (
     StateSection,
     TableSection,
 )
+from symgen.describe.smooth_friction import with_smooth_friction
 from symgen.describe.stops import check_stops, read_gap, read_limits, with_stop_outputs
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
@@ -145,6 +146,7 @@ class _Validator:
         described = [(self.scope("bodies", body.name), self.raw["bodies"][body.name], body) for body in bodies]
         holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
         holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
+        frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
         mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
@@ -157,7 +159,7 @@ class _Validator:
             forces=forces,
             defaults=self.defaults(line(head.source)),
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
-            frictions=tuple(friction for joint in joints for friction in self._frictions.get(joint.name, ())),
+            frictions=tuple(friction for friction in frictions if friction.speed is None),
             stops=(
                 *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
                 *(read_gap(self.scope("stops", name), value) for name, value in self.entries("stops")),
@@ -171,7 +173,8 @@ class _Validator:
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )
-        mechanism = with_stop_outputs(with_friction_outputs(mechanism))
+        smooth = [friction for friction in frictions if friction.speed is not None]
+        mechanism = with_smooth_friction(with_stop_outputs(with_friction_outputs(mechanism)), smooth)
         check_columns(mechanism, self.source)
         check_frictions(mechanism, self.source)
         check_stops(mechanism, self.source)
@@ -371,6 +374,8 @@ class _Validator:
         self.rotor(scope, joint, self.raw["joints"][name])
         if "friction" in self.raw["joints"][name]:
             self._frictions[name] = read_friction(scope, joint, self.raw["joints"][name]["friction"])
+            if any(friction.pressed for friction in self._frictions[name]) and name not in self._cuts:
+                self._cuts.append(name)  # its reaction is a multiplier
         if "stop" in self.raw["joints"][name]:
             self._limits[name] = read_limits(scope, joint, self.raw["joints"][name]["stop"])
         self._joints[name] = joint

@@ -43,6 +43,8 @@ def force_item(pen: Pen, force: Force) -> Item:
         marks = [pen.stretch(_kind(pen, force), a, b, COIL), pen.dot(a, 0.2), pen.dot(b, 0.2)]
     elif force.kind == "bushing":
         marks = [pen.dot(place, 0.9, Look(INK, "#9aa7b5", 1.0, 0.4)) for place in numbers.markers(force)[:1]]
+    elif force.kind == "friction":  # its joint is drawn
+        marks = []
     elif turned and force.kind in ("torsional-spring-damper", "torque"):
         marks = _turning(pen, force)
     else:

@@ -10,7 +10,7 @@ import numpy as np
 from symgen.effects.impulse import IMPULSE, new_impulse, smallest_impulse
 from symgen.layout import abi
 from symgen.layout.redundancy import is_off
-from symgen.layout.scales import entry_of
+from symgen.layout.scales import fill_jacobian
 from symgen.layout.start_records import INSTANT, LAYOUT, record_type
 from symgen.loopcode.exact import exact
 from symgen.native import types
@@ -160,10 +160,7 @@ def struck_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) ->
     if not finite:
         return False
     geometry(t, now.y, now.p, work.scratch)
-    for i in range(m * n):
-        rows[i] = 0.0
-    for e in range(layout.constants.shape[0]):
-        rows[layout.entries[3 * e] * n + layout.entries[3 * e + 1]] = entry_of(layout, work.scratch, e)
+    fill_jacobian(layout, work.scratch, rows)
     for i in range(m):
         impulse.values[i] = work.scratch[layout.nu + i]
         if is_off(layout, i, work.scratch):

@@ -135,7 +135,11 @@ class Effects:
         InputError
             If the joints, or other effects, do not allow an effect; nothing is changed then.
         """
-        info, work = self.compiled.info, self.memory(len(y), len(w))
+        return self.applied(numbers, t, y, p, w, self.memory(len(y), len(w)))
+
+    def applied(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, work: Any) -> Impact:
+        """Change a state as `apply` does; working memory keeps the problem of impulses."""
+        info = self.compiled.info
         chosen, before = self.chosen(numbers), y[info.nq : info.work].copy()
         try:
             with np.errstate(all="ignore"):

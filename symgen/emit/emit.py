@@ -80,13 +80,13 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu",
 
 def _elimination(program: ModelProgram) -> str:
     """Return the line on the elimination of rows."""
+    closed = f"; {counted(len(program.plan.loops), 'loop')} in closed form" if program.plan.loops else ""
     if not program.plan.fixed:
-        return f"{program.fill} fill-ins in the factor of D D^T"
+        return f"{program.fill} fill-ins in the factor of D D^T{closed}"
     divisions = sum(len(each.rows) > 1 for each in program.plan.fixed)
     how = "without a division" if not divisions else f"with {counted(divisions, 'division')}"
-    return (
-        f"{len(program.plan.rows)} of {program.layout.m} rows eliminated {how}, together with velocities that they fix"
-    )
+    rows = f"{len(program.plan.rows)} of {program.layout.m} rows"
+    return f"{rows} eliminated {how}, together with velocities that they fix{closed}"
 
 
 def emit_law(

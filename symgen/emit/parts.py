@@ -10,7 +10,7 @@ from typing import Any
 from symgen.emit.module import PLATFORMS, ModulePiece, Origins, function_source, module_source, python_number, render
 from symgen.emit.whole import Places
 from symgen.ir.numerics import NUMBERS
-from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
+from symgen.ir.program import BY_PIVOTS, COUNTERS, STATUS, Correction, LawCode
 
 
 class PartsLayout:
@@ -219,6 +219,7 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     if law.closed:
         parts.add("closed", "closed")
     if flagged:
+        parts.values["evaluation"] = BY_PIVOTS if BY_PIVOTS in names else "rhs"
         parts.add("confirm", "confirmation")
     by_metric = "partition" if law.correction.metric == "independent" else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")

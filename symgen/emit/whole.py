@@ -43,6 +43,7 @@ MEANINGS = {
     "row_chosen": "rows in the order of the factorisation Q R",
     "row_corner": "diagonal of R",
     "row_factor": "factors of the reflections that make Q",
+    "jamming": "squares of the parts of a reaction that friction by the reaction itself brings about",
     "mass_entry": "entries of M that depend on positions",
     "body_entry": "entries of the metric of bodies' own velocities",
     "moved": "sum of the corrections in this step",

@@ -14,7 +14,9 @@ from symgen.compiling.events import compile_events
 from symgen.ensemble.chunks import Chunk, Results, Rows
 from symgen.ensemble.device_runs import DeviceRuns, need_of
 from symgen.ensemble.loop_runs import LoopRuns, TreeRuns
+from symgen.ensemble.measures import MeasuredOutputs
 from symgen.ensemble.recipe import Code, Recipe
+from symgen.ensemble.verdicts import summary_column
 from symgen.integrators import INTEGRATORS
 from symgen.layout import ensemble_abi as e
 from symgen.layout.compiled import CompiledModel
@@ -137,9 +139,18 @@ class RowKernel:
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
         if model.measures is not None:
-            left = recipe.behind, recipe.times, selected, out.values, now.p, now.w
+            left = recipe.behind, self._outputs(rows, out.summary), selected, out.values, now.p, now.w
             out.behind[selected] = model.measures.work_out(model.compiled, *left)
         return True
+
+    def _outputs(self, rows: Rows, summary: Array) -> MeasuredOutputs:
+        """Return the outputs of rows, after they have run: the only one may be at an event that has ended a run."""
+        recipe, spec = self.recipe, self.recipe.spec
+        times = recipe.times[np.newaxis]
+        if recipe.watch is not None and recipe.watch.ends:
+            early = summary_column(summary, "outputs") == 0.0
+            times = np.where(early, summary_column(summary, "end"), times.T).T.copy()
+        return MeasuredOutputs(times, rows.stops, spec.adaptive, spec.step or 0.0)
 
     def _look_at_sides(self, info: ModelInfo, ys: Array, selected: Integers, summary: Array) -> None:
         """Refuse starts in which joints hold bodies the wrong way round, as single runs do."""

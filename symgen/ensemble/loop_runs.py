@@ -22,7 +22,7 @@ from symgen.loops.searching import decide
 from symgen.loops.stopping import with_table
 from symgen.rows.row_events import OfEffects
 from symgen.rows.rows import observe_nothing, over_rows
-from symgen.runs.events import event_state
+from symgen.runs.events import event_state, forget_steps
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.starts.assembler import layout_of
 from symgen.starts.tree_start import TURNED_OVER, Carried
@@ -127,11 +127,26 @@ class LoopRuns:
         further: tuple[Any, ...] = ()
         if self.watched is not None and self.watched.effects is not None:
             further = (self._effects(self.watched, sizes.width, len(state.w)),)
-        loop = over_rows(self.integrator.loop(adaptive), self.watched is not None, recipe.stops, bool(further))
+        examined = self.watched is not None and self.watched.rows is not None
+        loop = over_rows(
+            self.integrator.loop(adaptive), self.watched is not None, recipe.stops, bool(further), examined
+        )
         if recipe.stops:
             system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
         done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
+        while control[e.EXAMINATION] == e.WAITS:
+            self._examine(state)
+            chunk = chunk._replace(selected=chunk.selected[done:])
+            done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         return bool(done == len(chunk.selected))
+
+    def _examine(self, state: Any) -> None:
+        """Examine the constraints that may jump in the last step of a run, as a single run does."""
+        assert self.watched is not None and self.watched.rows is not None, "a run waits for it"
+        jumps = bool(self.watched.rows.sentence(self.compiled, state))
+        if not jumps and self.watched.adaptive:
+            forget_steps(state)
+        state.control[e.EXAMINATION] = e.JUMPS if jumps else e.HOLDS
 
     def _effects(self, watched: Watched, width: int, nw: int) -> Any:
         """Return the effects of events, and memory for one thread."""

@@ -1,7 +1,7 @@
 """Points, force elements, drivers, formulas of ``[outputs]`` and reactions of the runs of an ensemble.
 
 Loops write the states and other inputs of formulas as further columns of each run. Behind the loops, one compiled loop
-(`symgen.runs.observe`) calls the side module of single runs for all of them. The loops of all targets are the same
+(`symgen.rows.row_measures`) calls the side module of single runs for all of them. The loops of all targets are the same
 with and without such quantities.
 """
 
@@ -20,6 +20,7 @@ from symgen.compiling.side import compile_side
 from symgen.describe.readings import TABLES
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
+from symgen.loops.stopping import preparing, table_of
 from symgen.result.reactions import Acting, Seat
 from symgen.result.signals import Signal
 from symgen.vocabulary.expressions import readings
@@ -28,6 +29,7 @@ from symgen.vocabulary.measures import GROUND, Integral
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.layout.compiled import CompiledModel, ModelInfo
+    from symgen.loops.run_spec import Stop
     from symgen.vocabulary.expressions import Expr
 
 Array = NDArray[np.float64]
@@ -84,6 +86,28 @@ class Place:
 
 
 @dataclass(frozen=True)
+class MeasuredOutputs:
+    """Outputs at which quantities of runs are measured.
+
+    Attributes
+    ----------
+    times : Array, shape (1, times) or (runs, times)
+        Output times, of all runs or of each [s].
+    stops : tuple of tuple of Stop
+        As in `symgen.ensemble.chunks.Rows`.
+    adaptive : bool
+        Whether steps vary.
+    step : float
+        Constant step [s].
+    """
+
+    times: Array
+    stops: tuple[tuple[Stop, ...], ...]
+    adaptive: bool
+    step: float
+
+
+@dataclass(frozen=True)
 class Measures:
     """Code for quantities that no loop computes; it travels as source.
 
@@ -96,7 +120,7 @@ class Measures:
     reads : tuple of Signal
         Columns of the loops that it reads.
     places : tuple of int
-        Where each of these goes, see `symgen.runs.observe.Left`.
+        Where each of these goes, see `symgen.rows.row_measures.Left`.
     joints : mapping of str to Place
         Where reactions act; empty where none are kept.
     """
@@ -131,7 +155,7 @@ class Measures:
         self,
         compiled: CompiledModel,
         quantities: Sequence[Signal],
-        times: Array,
+        outputs: MeasuredOutputs,
         selected: Integers,
         columns: Array,
         ps: Array,
@@ -145,26 +169,30 @@ class Measures:
             Code of the runs.
         quantities : sequence of Signal
             Those that no loop leaves.
-        times : Array
-            Output times [s].
+        outputs : MeasuredOutputs
+            When they are measured.
         selected : Array of int
             Runs.
         columns : Array, shape (runs, columns, times)
             Columns that loops wrote; the last ones are `reads`.
         ps, ws : Array, shapes (runs, np), (runs, nw)
-            Parameters, and scratch, which is overwritten.
+            Parameters at the start, and scratch, which is overwritten.
         """
+        from symgen.layout.records import Span
+        from symgen.rows.row_measures import Left, measure_rows
         from symgen.rows.rows import observe_nothing
-        from symgen.runs.observe import Left, measure_rows
 
-        info, runs, n_times = compiled.info, len(ps), len(times)
+        info, runs, n_times = compiled.info, len(ps), outputs.times.shape[1]
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = columns.shape[1] - len(self.reads)
-        left = Left(times, selected, columns, first, places, ps, ws, y, rates)
+        left = Left(outputs.times, selected, columns, first, places, ps, ws, y, rates, np.zeros(ps.shape[1]))
+        stops = table_of(compiled, outputs.adaptive, outputs.stops or ((),))
+        span = Span._make((outputs.step, *(0.0 for _ in Span._fields[1:])))
+        changing = stops, span, *preparing(compiled)
         numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
         entries = np.zeros((runs if self.joints else 0, n_times, size))
         function = self.function if self.length else observe_nothing
-        measure_rows((left, function, compiled.model.geometry), numbers, at, entries)
+        measure_rows((left, changing, function, compiled.model.geometry), numbers, at, entries)
         sides = [q for q in quantities if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}
         tables: dict[int, Array] = {}

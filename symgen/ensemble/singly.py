@@ -1,9 +1,8 @@
 """Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
 
-Where events are looked for, Python has something to do between two parts of a run; what is observed of joints' motion
-as one of bodies, and points, forces and reactions where an input jumps, are worked out as for single runs. Such
-runs are done one after the other, in the same threads, chunks and folders; ensembles that need none of it know nothing
-of this module.
+Modes of dry friction are chosen in Python between two parts of a run; accelerations, multipliers and what follows from
+them are worked out of joints' motion as one of bodies. Such runs are done one after the other, in the same threads,
+chunks and folders; ensembles that need none of it know nothing of this module.
 """
 
 from __future__ import annotations
@@ -22,6 +21,7 @@ from symgen.compiling.events import compile_events, effects_of
 from symgen.describe.events import RESET
 from symgen.describe.friction import MODE
 from symgen.effects.effects import Effects
+from symgen.ensemble.measures import MeasuredOutputs
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.loops.event_loop import undefined_event
@@ -191,11 +191,12 @@ class SingleRuns:
 
     def _behind(self, measures: Measures, outcome: Outcome, columns: Array) -> Array:
         """Return the quantities computed after loops, shape (quantities, outputs), with the parameters of each part."""
-        quantities, one = self.recipe.behind, np.zeros(1, dtype=np.int64)
+        quantities, one, spec = self.recipe.behind, np.zeros(1, dtype=np.int64), self.recipe.spec
         values = np.empty((len(quantities), len(outcome.times)))
         for first, last, p in outcome.parameters:
             part = np.ascontiguousarray(columns[np.newaxis, :, first:last])
-            part_of_run = outcome.times[first:last], one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
+            outputs = MeasuredOutputs(outcome.times[np.newaxis, first:last], (), spec.adaptive, spec.step or 0.0)
+            part_of_run = outputs, one, part, p[np.newaxis], outcome.w[np.newaxis].copy()
             values[:, first:last] = measures.work_out(self.compiled, quantities, *part_of_run)[0]
         return values
 

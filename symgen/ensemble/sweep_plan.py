@@ -22,7 +22,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
 from symgen.describe.digest import identity
 from symgen.describe.evaluate import derived, parameter_values, scalars
-from symgen.describe.events import RECORD, STOP
+from symgen.describe.events import RECORD
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
@@ -37,7 +37,6 @@ from symgen.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_ide
 from symgen.ensemble.row_quantities import choose_quantities
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import LANES
-from symgen.layout.ensemble_abi import SIDE
 from symgen.running.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
@@ -254,12 +253,8 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    late = any(event.action == STOP for event in events) and any(q.source >= SIDE for q in kept)
-    # what Python does something between; and measures behind the loops know the inputs of one part
-    measured = driving.changes and any(q.source >= SIDE for q in kept)
-    parts = late or measured or examined or bool(mechanism.bounded)
-    alone = parts or (joint and not {q.source for q in kept} <= PLAIN)
-    watch = EventPlan(mechanism, events, ends, alone) if parts or joint or events or looks else None
+    alone = bool(mechanism.bounded) or (joint and not {q.source for q in kept} <= PLAIN)
+    watch = EventPlan(mechanism, events, ends, alone) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)

@@ -1,4 +1,4 @@
-"""Spring, damper and actuator along the line between two points."""
+"""Spring, damper and actuator along the line between two points, or along the displacement of a joint."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import msgspec
 
-from symgen.describe.fields import BodyPair, PointPair, Potential, Scalar, StateFunction
+from symgen.describe.fields import BodyPair, PointPair, Potential, Scalar, StateFunction, Text
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.forces._parts import spring, sprung
@@ -15,7 +15,7 @@ from symgen.vocabulary.measures import Distance, Effort, HalfSquare
 
 
 class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A spring, a damper and an actuator between two points, along the line through them.
+    """A spring, a damper and an actuator along the line through two points, or along the displacement of a joint.
 
     Parameters
     ----------
@@ -23,6 +23,10 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         The two bodies.
     at : pair of points
         The ends, a point of each body; singular where they meet, unless there is nothing but a spring of free length 0.
+    joint : joint name
+        In place of `between` and `at`: the joint whose displacement is the length, which may be negative.
+    coordinate : str
+        Which displacement of the joint, where it has several.
     stiffness, damping : scalar
         [N/m] and [N s/m]; 0 by default.
     free_length : scalar
@@ -41,8 +45,10 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
-    between: BodyPair
-    at: PointPair
+    between: BodyPair | None = None
+    at: PointPair | None = None
+    joint: Text | None = None
+    coordinate: Text | None = None
     stiffness: Scalar = 0.0
     damping: Scalar = 0.0
     free_length: Scalar = 0.0
@@ -50,8 +56,16 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     potential: Potential = 0.0
 
     def build(self, scope: Scope) -> Force:
-        """Resolve to an effort along the distance of the points."""
-        a, b = scope.pair("between", self.between)
+        """Resolve to an effort along the distance of the points, or along the displacement."""
+        if self.joint is not None:
+            scope.only("joint", between=self.between, at=self.at, joint=self.joint)
+            joint, _, displacement = scope.joint_coordinate(self.joint, self.coordinate, unit="m")
+            effort = sprung(scope, self, "force", displacement, "length", self.free_length)
+            return Force(scope.name, scope.kind, joint.bodies, (effort,))
+        scope.only("between", between=self.between, joint=self.joint, coordinate=self.coordinate)
+        if self.at is None:
+            raise scope.error("at", "the ends, a point of each body", "no such key")
+        a, b = scope.pair("between", self.between or ("", ""))
         ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
         effort = sprung(scope, self, "force", Distance(*ends), "length", self.free_length)
         stiffness = scope.constant("stiffness", self.stiffness)

@@ -97,6 +97,27 @@ class DriverPower:
 
 
 @dataclass(frozen=True)
+class Drag:
+    """Sliding friction by a reaction: a force ``sign coefficient |N|`` against the rate of a coordinate.
+
+    Attributes
+    ----------
+    row : int
+        The row of the coordinate.
+    sign, coefficient, rate : int
+        Nodes of the sign, 0 at rest, of the force over |N| [1 or m], and of the rate.
+    pressed : tuple of int
+        Rows whose multipliers are N.
+    """
+
+    row: int
+    sign: int
+    coefficient: int
+    rate: int
+    pressed: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class Equations(Counted):
     """Equations of motion ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v`` as nodes of one graph.
 
@@ -142,6 +163,8 @@ class Equations(Counted):
         States that the file defines.
     state_rates : tuple of int
         Nodes of their rates; as inputs of the graph the states are ``z``, numbered from 1.
+    drags : tuple of Drag
+        Sliding friction by reactions; no part of `forces` and `power`.
     """
 
     name: str
@@ -168,6 +191,7 @@ class Equations(Counted):
     metric: tuple[MassBlock, ...] = ()
     states: tuple[Quantity, ...] = ()
     state_rates: tuple[int, ...] = ()
+    drags: tuple[Drag, ...] = ()
 
     def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:
         """Return the nodes of each quantity by its name, for `rows` or else for all rows."""

@@ -6,16 +6,16 @@ inverted.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from symgen.base.errors import finite_numbers
-from symgen.describe.friction import effort_in_motion, first_modes
+from symgen.base.errors import InputError, finite_numbers
+from symgen.describe.friction import coefficient_of, effort_in_motion, first_modes, sign_of
 from symgen.describe.mechanism import EndStop, Friction, Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.stops import probing_effort
 from symgen.describe.topology import UNITS, quantities
-from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
+from symgen.formulate.equations import ConstraintRow, Drag, Equations, JointCoordinate, MassBlock, Omission, mass_blocks
 from symgen.formulate.flexure import exertions
 from symgen.formulate.measures import DerivedMeasure, ModelNodes, exertion
 from symgen.formulate.of_time import time_function
@@ -94,6 +94,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         metric=() if model.tree is None else model.tree.metric(),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
+        drags=tuple(_drag(model, friction, rows, repeats) for friction in mechanism.frictions if friction.pressed),
     )
 
 
@@ -158,6 +159,22 @@ def _bounded_row(model: ModelNodes, bounded: Friction | EndStop, first: int) -> 
     else:
         owner, row = bounded.joint, Holonomic("friction", bounded.measure, unit=bounded.unit)
     return replace(_switched(model, _row(model, owner, row), first), name=bounded.row, bounded=True)
+
+
+def _drag(
+    model: ModelNodes, friction: Friction, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
+) -> Drag:
+    """Return friction by the reaction of a joint."""
+    places = {row.name: i for i, row in enumerate(rows)}
+    for pair in repeats:
+        if set(pair) & set(friction.pressed):
+            expected = "a joint whose reaction is determined, for friction by it"
+            raise InputError(f"joints.{friction.joint}.friction", expected, f"rows {' and '.join(pair)}, the same")
+    rate = model.measure(friction.measure).rate(model.graph, model.velocities)
+    with finite_numbers(f"joints.{friction.joint}.friction"):
+        sign, coefficient = model.expression(sign_of(friction)), model.expression(coefficient_of(friction), rate=rate)
+    pressed = tuple(places[name] for name in friction.pressed)
+    return Drag(places[friction.row], sign, coefficient, rate, pressed)
 
 
 def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:

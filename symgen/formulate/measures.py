@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
-from symgen.describe.friction import mode_names
+from symgen.describe.friction import jamming_names, mode_names
 from symgen.describe.mechanism import is_speed
 from symgen.formulate.euler_parameters import matrix_of, turning
 from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
@@ -18,6 +18,7 @@ from symgen.formulate.tree_plane import PlanarTree
 from symgen.formulate.tree_space import SpatialTree
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
+from symgen.ir.program import JAMMING
 from symgen.vocabulary.expressions import ZERO, Name, Reading, moving, with_names
 from symgen.vocabulary.measures import (
     GROUND,
@@ -77,6 +78,7 @@ class ModelNodes(Formulas):
             self.velocities = self.tree.velocities
             self.names |= self.tree.names
         self.names |= {name: self.graph.input("modes", i) for name, i in mode_names(self.mechanism).items()}
+        self.names |= {name: self.graph.input(JAMMING, i) for name, i in jamming_names(self.mechanism).items()}
         self._memo: dict[object, DerivedMeasure] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures with counted turns, in the order of their slots in the section ``winding``.

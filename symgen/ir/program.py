@@ -18,6 +18,9 @@ from symgen.vocabulary.infos import LawInfo
 
 Info = TypeVar("Info")
 
+#: The right-hand side that `confirm` evaluates where loops in closed form are suspicious.
+BY_PIVOTS = "rhs_by_pivots"
+
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3
 
@@ -85,6 +88,8 @@ SECTIONS = (
 #: effort where it is in force.
 MODES = ("held", "constant", "sign", "limit")
 MODE_NUMBERS = len(MODES)
+#: Where friction depends on a reaction, the square of its jamming number is in the section ``jamming``.
+JAMMING = "jamming"
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 SETTLED = ("status", "winding", "modes", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
@@ -245,6 +250,9 @@ class EliminationPlan:
     ----------
     fixed : tuple of FixedVelocities
         Velocities eliminated with their rows, before all others, in order.
+    loops : tuple of FixedVelocities
+        Two velocities and the two rows of a joint that leave no others free, eliminated next, in order. Their
+        determinant vanishes in some positions, so that only functions with a flag take them.
     schur : bool
         Whether S = D M^-1 D^T is formed from all rows, which takes no velocities with their rows.
     normal : bool
@@ -254,6 +262,7 @@ class EliminationPlan:
     fixed: tuple[FixedVelocities, ...] = ()
     schur: bool = True
     normal: bool = False
+    loops: tuple[FixedVelocities, ...] = ()
 
     @cached_property
     def rows(self) -> frozenset[int]:

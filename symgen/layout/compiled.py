@@ -42,7 +42,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
     never left out, so nothing reads their mask; `switchable` are rows that may be off,
     and `bounded` those of them with forces within bounds, which are off at a start;
-    `shadows` is the number of elements behind the state without error control, directions (`symgen.runs.directions`).
+    `shadows` is the number of elements behind the state without error control, directions
+    (`symgen.runs.directed_model`).
     """
 
     name: str

@@ -73,4 +73,8 @@ HALF_TURN, TURNED_OVER = 8, 9
 
 #: In the integers shared with the watching thread, after those of single runs: number of completed runs.
 RUNS_DONE = abi.N_CONTROL
-N_CONTROL = abi.N_CONTROL + 1
+#: Then the state of the examination of the present run: `NOT_EXAMINED`; `WAITS` where the loop was left for it; its
+#: result, `HOLDS` or `JUMPS`.
+EXAMINATION = abi.N_CONTROL + 1
+NOT_EXAMINED, WAITS, HOLDS, JUMPS = range(4)
+N_CONTROL = abi.N_CONTROL + 2

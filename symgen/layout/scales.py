@@ -11,9 +11,11 @@ import math
 from typing import Any
 
 from symgen.layout import abi
+from symgen.layout.start_records import LAYOUT
 from symgen.loopcode.bare import part
 from symgen.loopcode.exact import exact
 from symgen.loopcode.loop_instances import viewing
+from symgen.native import types
 
 #: Least length of a body over that of the longest one, so that rounding does not decide.
 LEAST_LENGTH = 1e-2
@@ -47,6 +49,16 @@ def entry_of(layout: Any, w: Any, k: int) -> float:
     """Return structural entry `k` of D: a constant, or computed by ``geometry`` in the scratch array."""
     slot = layout.entries[3 * k + 2]
     return layout.constants[k] if slot < 0 else w[layout.jacobian + slot]  # type: ignore[no-any-return]  # arrays
+
+
+@exact(types.int64(LAYOUT, types.float64[::1], types.float64[::1]))
+def fill_jacobian(layout: Any, w: Any, rows: Any) -> int:
+    """Write the dense D, row after row, from the results of ``geometry``; return its number of rows."""
+    for i in range(layout.m * layout.nv):
+        rows[i] = 0.0
+    for k in range(layout.constants.shape[0]):
+        rows[layout.entries[3 * k] * layout.nv + layout.entries[3 * k + 1]] = entry_of(layout, w, k)
+    return int(layout.m)
 
 
 @exact()

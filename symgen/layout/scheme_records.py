@@ -182,6 +182,38 @@ class ConstrainedStages(NamedTuple):
     plan: Any
 
 
+class PartitionedStages(NamedTuple):
+    """An explicit pair whose stages close states of their own.
+
+    Attributes
+    ----------
+    a, c : Array
+        Stages row by row, and their nodes.
+    closing, closed : Array
+        States that the multipliers of the stages close, row by row, the last one at the end, and their nodes.
+    embedded : Array
+        Weights of the embedded scheme on the stages and on the rate at the end.
+    stages, order : int
+        Number of stages, and order of the estimate.
+    spins : Array of int64
+        First index of the angular velocity of each body in v.
+    slopes, numbers, plan : Array
+        Of M and D, see `symgen.loops.newton.acceleration_plan`.
+    """
+
+    a: Any
+    c: Any
+    closing: Any
+    closed: Any
+    embedded: Any
+    stages: int
+    order: int
+    spins: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
+
+
 class Nodes(NamedTuple):
     """A collocation scheme whose rates are unknown at all nodes of a step at once.
 
@@ -238,4 +270,5 @@ STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
 NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _A, _K, _I, TABLEAU), Nodes)
 CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
+PARTITIONED = types.RecordType((_A, _A, _A, _A, _A, _I, _I, _K, _A, _A, _K), PartitionedStages)
 PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)

@@ -139,6 +139,28 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
+def store_behind(outputs: Any, count: int, now: float, near: float, y: Any, w: Any) -> None:
+    """Have outputs at the time of a reset hold the state behind it, from which the motion goes on.
+
+    Parameters
+    ----------
+    outputs, count : Outputs, int
+        Outputs of the run, and the number of those written.
+    now, near : float
+        The time, and the difference up to which times count as the same [s].
+    y, w : Array
+        State and scratch behind the reset.
+    """
+    out = count
+    while out > 0 and abs(outputs.times[out - 1] - now) <= near:
+        out -= 1
+        for i in range(outputs.states.shape[1]):
+            outputs.states[out, i] = y[i]
+        outputs.status[out, abi.KINETIC] = w[abi.KINETIC]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            outputs.status[out, abi.N_STATUS + i] = w[abi.WINDING + i]
+
+
 def store_between(sizes: Any, run: Any, outputs: Any) -> None:
     """Measure and store the trial state as an output between steps."""
     out = run.control[abi.OUTPUTS]

@@ -82,13 +82,23 @@ class BoundedRows:
         Number of coordinates with dry friction.
     state, accelerations : callable
         ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, of friction bounds at rest and bounds at the
-        beginning of a motion, of stops restitutions; second derivatives of coordinates and gaps.
+        beginning of a motion, of stops restitutions; second derivatives of coordinates and gaps. Bounds by reactions
+        are over these.
+    reactions : callable or None
+        ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
+    pressed : tuple of int
+        Coordinates whose bounds depend on the reaction of their joint.
+    changes : bool
+        Whether anything but the motion and inputs changes over time.
     """
 
     names: tuple[str, ...]
     dry: int
     state: Formulas
     accelerations: Formulas
+    reactions: Formulas | None = None
+    pressed: tuple[int, ...] = ()
+    changes: bool = True
 
 
 @dataclass(frozen=True)

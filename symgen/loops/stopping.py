@@ -55,6 +55,29 @@ def change(stops: Any, count: int, p: Any) -> bool:
     return other
 
 
+def select_row(stops: Any, r: int) -> None:
+    """Select the stops of a row: its own, or the common ones."""
+    stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0
+
+
+def parameters_at(stops: Any, span: Any, prepare: Any, prepare_law: Any, t: float, passed: int, p: Any) -> int:
+    """Set `p` to the parameters at an output, from those behind `passed` stops; at a stop, to those before it.
+
+    Returns
+    -------
+    int
+        Number of stops before the output.
+    """
+    changed = False
+    while t > due(stops, passed) + same(stops, span, t):
+        changed = change(stops, passed, p) or changed
+        passed += 1
+    if changed:
+        prepare(p)
+        prepare_law(p)
+    return passed
+
+
 def is_defined(p: Any) -> bool:
     """Whether all numbers are finite."""
     for i in range(p.shape[0]):
@@ -149,10 +172,28 @@ def with_table(
 
     Parameters
     ----------
-    compiled : CompiledModel
-        Model and method.
+    compiled, adaptive, rows
+        As for `table_of`.
     system, loop : tuple, compiled loop
         First argument of the enclosed loop, and this loop.
+    """
+    # in looped code nothing is prepared in the loop, and modes of friction are chosen behind it
+    left = compiled.shape == "looped" or compiled.info.bounded
+    return system, table_of(compiled, adaptive, rows), loop, *((by_caller, by_caller) if left else preparing(compiled))
+
+
+def preparing(compiled: CompiledModel) -> tuple[Any, Any]:
+    """Return the emitted functions that follow a change of parameters: ``prepare`` of the model and of the law."""
+    return compiled.model.prepare, compiled.law_module.prepare
+
+
+def table_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[Stop]]) -> Any:
+    """Return the stops of rows as `Stops`.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
     adaptive : bool
         Whether steps vary.
     rows : sequence of sequence of Stop
@@ -161,7 +202,7 @@ def with_table(
     places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     stops = [stop for row in rows for stop in row]
     changes = [(places[name], value) for stop in stops for name, value in stop.values.items()]
-    table = Stops(
+    return Stops(
         head=np.array([0, int(adaptive)]),
         rows=np.cumsum([0, *map(len, rows)]),
         times=np.array([stop.t for stop in stops], dtype=np.float64),
@@ -169,8 +210,3 @@ def with_table(
         places=np.array([place for place, _ in changes], dtype=np.int64),
         values=np.array([value for _, value in changes], dtype=np.float64),
     )
-    modules = compiled.model, compiled.law_module
-    # in looped code nothing is prepared in the loop, and modes of friction are chosen behind it
-    left = compiled.shape == "looped" or compiled.info.bounded
-    preparing = (by_caller, by_caller) if left else tuple(module.prepare for module in modules)
-    return system, table, loop, *preparing

@@ -6,6 +6,10 @@ The other entries of M become N^T M N, those of D lose a column. This cannot fai
 rows are independent of each other. Accelerations of fixed velocities then follow from their rows, and multipliers of
 the rows from the equations of the velocities, both as they were before.
 
+Where velocities that are fixed, by drivers as a rule, leave just two velocities to the two rows of a joint, these rows
+close a loop: one determinant takes the place of two pivots. It vanishes where both columns are parallel, so that a flag
+goes with it.
+
 What is left over is eliminated one by one: velocities, then rows.
 """
 
@@ -16,6 +20,7 @@ from dataclasses import dataclass
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import Graph
+from symgen.ir.polynomial import NormalForms
 from symgen.ir.program import FixedVelocities
 from symgen.lower.factor import minimum_degree
 from symgen.lower.replay import Nodes
@@ -24,13 +29,14 @@ from symgen.lower.scalar_values import Rows
 
 @dataclass(frozen=True)
 class _Fixed:
-    """Fixed velocities that have been eliminated: B^-1, entries of M among them, of others with them, and B^-1 D."""
+    """Fixed velocities that have been eliminated: B^-1, entries of M among them, of others with them, B^-1 D."""
 
     columns: tuple[int, ...]
     rows: tuple[int, ...]
     inverse: list[list[int]]
     mass: list[list[int]]
     beside: dict[int, list[int]]
+    with_rows: dict[int, list[int]]
     motion: dict[int, list[int]]
 
 
@@ -80,6 +86,7 @@ class SaddleMatrix:
         self.left = set(range(len(self.entries)))
         self.changed: set[tuple[int, int]] = set()
         self.fixed: list[_Fixed] = []
+        self.loops: list[_Fixed] = []
         self.singles: list[_Single] = []
         self.solutions: dict[tuple[Nodes, Nodes], tuple[Nodes, Nodes]] = {}
 
@@ -127,8 +134,25 @@ class SaddleMatrix:
                 self.changed |= {(i, j), (j, i)}
                 if node != before:
                     self._set(i, j, self.simpler(node))
-        self.fixed.append(_Fixed(columns, rows, inverse, mass, beside, motion))
+        self.fixed.append(_Fixed(columns, rows, inverse, mass, beside, with_rows, motion))
         return touched
+
+    def close(self, block: FixedVelocities) -> tuple[int, int]:
+        """Eliminate velocities with the rows of a loop; return the squares of the determinant and of its largest value.
+
+        The latter is the product of the columns' squares, the former over it the squared sine of their angle.
+        """
+        g, k, (a, b) = self.graph, self.entries, (self.nv + r for r in block.rows)
+        one, two = ([k[r].get(c, g.zero) for r in (a, b)] for c in block.columns)
+        determinant = g.sub(g.mul(one[0], two[1]), g.mul(two[0], one[1]))
+        self.fix(block)
+        self.loops.append(self.fixed.pop())
+        simpler = NormalForms(g).simpler  # columns of hinges in the plane have constant lengths
+        return g.mul(determinant, determinant), g.mul(simpler(g.dot(one, one)), simpler(g.dot(two, two)))
+
+    def columns(self, row: int) -> tuple[int, ...]:
+        """Return the velocities left over in a row."""
+        return tuple(sorted(i for i in self.entries[self.nv + row] if i < self.nv))
 
     def _inverse(self, matrix: list[list[int]]) -> list[list[int]]:
         g = self.graph
@@ -176,7 +200,7 @@ class SaddleMatrix:
 
     def _solve(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
         g, given, b = self.graph, (*f, *gamma), [*f, *gamma]
-        for step in self.fixed:
+        for step in (*self.fixed, *self.loops):
             known = [g.dot(line, [b[r] for r in step.rows]) for line in step.inverse]
             force = [g.sub(b[c], g.dot(line, known)) for c, line in zip(step.columns, step.mass, strict=True)]
             for i, entries in step.beside.items():
@@ -193,11 +217,30 @@ class SaddleMatrix:
             for i, factor in single.factors.items():
                 value = (g.sub if single.sign > 0 else g.add)(value, g.mul(factor, x[i]))
             x[single.unknown] = value
+        for step in reversed(self.loops):
+            self._from_rest(step, b, x)
         accelerations = [(s.rows, s.columns, s.inverse) for s in self.fixed]
         multipliers = [(s.columns, s.rows, [list(line) for line in zip(*s.inverse, strict=True)]) for s in self.fixed]
         self._from_equations(accelerations, given, x)
         self._from_equations(multipliers, given, x)
         return tuple(x[i] for i in range(self.nv)), tuple(x[i] for i in range(self.nv, len(b)))
+
+    def _from_rest(self, step: _Fixed, right: list[int], x: dict[int, int]) -> None:
+        """Add the unknowns of a loop from what elimination has left of its equations."""
+        g, size = self.graph, range(len(step.rows))
+        moved = [
+            g.sub(right[r], g.total(g.mul(n[a], x[i]) for i, n in step.with_rows.items()))
+            for a, r in enumerate(step.rows)
+        ]
+        x |= {c: g.dot(line, moved) for c, line in zip(step.columns, step.inverse, strict=True)}
+        forces = [
+            g.sub(
+                g.sub(right[c], g.dot(step.mass[a], [x[d] for d in step.columns])),
+                g.total(g.mul(n[a], x[i]) for i, n in step.beside.items()),
+            )
+            for a, c in enumerate(step.columns)
+        ]
+        x |= {r: g.dot([step.inverse[a][b] for a in size], forces) for b, r in enumerate(step.rows)}
 
     def _from_equations(
         self,
@@ -229,14 +272,8 @@ def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocitie
     `hinges`: two angular velocities of a body are fixed by the two rows that keep its axis parallel to another one,
     where these have no part along a third. Their determinant is the cosine of the angle between the axes.
     """
-    mass = {
-        (i, j): node
-        for block in equations.mass
-        for i, line in zip(block.columns, block.entries, strict=True)
-        for j, node in zip(block.columns, line, strict=True)
-    }
     nv, rows = equations.nv, tuple(row.entries for row in equations.rows)
-    matrix = SaddleMatrix(equations.graph.copy(), nv, mass, rows)
+    matrix = SaddleMatrix(equations.graph.copy(), nv, mass_entries(equations), rows)
     candidates = list(_candidates(matrix, equations, hinges))
     costs = {block: _cost(matrix, block) for block in candidates}
     by_unknown: dict[int, list[FixedVelocities]] = {}
@@ -258,6 +295,42 @@ def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocitie
                     if not _is_open(matrix, other):
                         del costs[other]
     return tuple(dict.fromkeys(taken.values()))
+
+
+def closed_loops(equations: Equations, fixed: tuple[FixedVelocities, ...]) -> tuple[FixedVelocities, ...]:
+    """Return the loops whose two rows leave no choice of velocities, in order; none where a row is left without any."""
+    matrix = SaddleMatrix(
+        equations.graph.copy(), equations.nv, mass_entries(equations), tuple(row.entries for row in equations.rows)
+    )
+    for block in fixed:
+        matrix.fix(block)
+    of_joint: dict[str, list[int]] = {}
+    for r, row in enumerate(equations.rows):
+        if row.held is None and not row.axes and equations.nv + r in matrix.left:
+            of_joint.setdefault(row.joint, []).append(r)
+    pairs = [(rows[0], rows[1]) for rows in of_joint.values() if len(rows) == 2]
+    loops: list[FixedVelocities] = []
+    while True:
+        ready = [rows for rows in pairs if len(c := matrix.columns(rows[0])) == 2 and c == matrix.columns(rows[1])]
+        if not ready:
+            break
+        loops.append(FixedVelocities(matrix.columns(ready[0][0]), ready[0]))
+        square, _ = matrix.close(loops[-1])
+        if square == matrix.graph.zero:
+            return ()
+        pairs.remove(ready[0])
+    idle = any(not matrix.columns(x - matrix.nv) for x in matrix.left if x >= matrix.nv)
+    return () if idle else tuple(loops)
+
+
+def mass_entries(equations: Equations) -> dict[tuple[int, int], int]:
+    """Return the entries of M by row and column."""
+    return {
+        (i, j): node
+        for block in equations.mass
+        for i, line in zip(block.columns, block.entries, strict=True)
+        for j, node in zip(block.columns, line, strict=True)
+    }
 
 
 def _closes_a_cycle(matrix: SaddleMatrix, taken: Mapping[int, FixedVelocities], block: FixedVelocities) -> bool:

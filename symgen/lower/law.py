@@ -8,7 +8,7 @@ from dataclasses import replace
 from symgen.base.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import Block, LawProgram, ModelLayout, ModelProgram, Target
+from symgen.ir.program import BY_PIVOTS, JAMMING, Block, LawProgram, ModelLayout, ModelProgram, Target
 from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
 from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_form, record_law
@@ -53,7 +53,9 @@ def lower_law(
     if any(row.held is not None for row in equations.rows):
         _refuse_switching(method, options, implicit)
     names = [p.name for p in method.parameters]
-    record = record_law(method, options, equations.driving is not None).resolved(model.plan.schur)
+    record = record_law(method, options, equations.driving is not None)
+    apart = _refuse_drags(method, record) if equations.drags else frozenset[str]()
+    record = record.resolved(model.plan.schur, apart)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
@@ -63,6 +65,8 @@ def lower_law(
             hoister.reserve([*(node for _, node in part_outputs(scalars, part)), *([] if flag is None else [flag])])
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
+    if model.plan.loops and not equations.drags and record.form == "direct" and method.integrates != "independent":
+        blocks = [*_with_closed_loops(hoister, scalars, record.parts[0], blocks[0]), *blocks[1:]]
     unknowns, level = 0, ""
     pattern: tuple[tuple[int, int], ...] = ()
     if implicit:
@@ -103,6 +107,25 @@ def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
 
 
+def _with_closed_loops(hoister: Hoister, scalars: ScalarNodes, part: Part, block: Block) -> list[Block]:
+    """Return the right-hand side with loops in closed form, and behind it the one that `confirm` evaluates."""
+    closing = scalars.with_closed_loops()
+    closing.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    behind = replace(block, name=BY_PIVOTS, purpose=f"the same with a pivot for each row of a loop, {block.purpose}")
+    closed = law_block(hoister, closing, part)
+    return [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
+
+
+def _refuse_drags(method: Method, record: RecordedLaw) -> frozenset[str]:
+    """Refuse methods that do not eliminate multipliers; return the operations that have friction by reactions."""
+    outputs = [output for part in record.parts for output in part.outputs]
+    kinds = {record.operations[index].kind for place, index in outputs if place == "rates.v"}
+    if record.form != "direct" or kinds != {"constrained"}:
+        expected = "one that eliminates multipliers, where friction depends on reactions"
+        raise InputError(f"method '{method.name}'", expected, "one for constant friction only", "--method lagrange")
+    return frozenset(kinds)
+
+
 def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
     """Return a function of a law as a block."""
     flag = None if part.flag is None else scalars.values[part.flag]
@@ -122,6 +145,7 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
         if part.velocities is not None:
             rates = scalars.at_velocity(rates, scalars.values[part.velocities])
         outputs += [(Target(space, work + i), node) for i, node in enumerate(rates, 1)]
+        outputs += [(Target(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
     if part.name in _KEEPS_MASS:
         outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
     return outputs
@@ -141,6 +165,8 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     section, _, name = place.partition(".")
     if section == "status":
         return [to_status(name, value)]
+    if place == "rates.work":
+        value = scalars.graph.add(value, scalars.drag_power)
     space, first = scalars.places.get(place, (place, 0))
     nodes = value if isinstance(value, tuple) else (value,)
     return [(Target(space, first + i), node) for i, node in enumerate(nodes)]
@@ -173,6 +199,8 @@ def _form_blocks(
     unknowns are q and v. Rates of states are the last unknowns, and stand last among the derivatives by the state.
     """
     e, scalars = law.equations, law.following(form.operations)
+    if e.drags:
+        scalars.pressing = law.section("k_first", e.m)
     scalars.run(range(len(form.operations)))
     (part,) = form.parts
     groups = {place: scalars.values[index] for place, index in part.outputs}

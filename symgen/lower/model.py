@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symgen.formulate.equations import Equations
-from symgen.ir.program import MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
+from symgen.ir.program import JAMMING, MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
 from symgen.lower.factor import fill_of
 from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
@@ -39,8 +39,9 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         *((name, sizes[size]) for name, size in SECTIONS),
         *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal") if name in scalars.stored),
         ("mass_entry", len(scalars.mass_entries)),
+        (JAMMING, len(equations.drags)),
     ):
-        if size or name not in ("winding", "modes", "mass_entry"):
+        if size or name not in ("winding", "modes", "mass_entry", JAMMING):
             sections[name] = (offset, size)
             offset += size
     layout = ModelLayout(equations.nq, equations.nv, m, len(equations.parameters), sections, len(equations.states))

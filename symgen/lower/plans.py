@@ -8,7 +8,7 @@ from dataclasses import replace
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
 from symgen.ir.program import EliminationPlan
-from symgen.lower.blocks import fixed_velocities
+from symgen.lower.blocks import closed_loops, fixed_velocities
 from symgen.lower.record import Part, RecordedLaw
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._base import multiplier_law
@@ -35,6 +35,9 @@ def _plans(equations: Equations) -> Iterator[EliminationPlan]:
         fixed = fixed_velocities(equations, hinges)
         if fixed:
             yield EliminationPlan(fixed, schur=False)
+        loops = closed_loops(equations, fixed)
+        if loops:
+            yield EliminationPlan(fixed, schur=False, loops=loops)
 
 
 def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
@@ -42,8 +45,10 @@ def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
     law = multiplier_law(system, system.gamma)
     outputs = ("rates.v", law.acceleration.index), ("multipliers", law.multipliers.index)
     part = Part("rhs", "", outputs, system.flag().index)
-    record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
+    record = RecordedLaw(tuple(system.tape.operations), (part,))
+    record = record.resolved(plan.schur, frozenset(("constrained",) if equations.drags else ()))
     scalars = ScalarNodes(equations, record.operations, plan=plan)
+    scalars = scalars.with_closed_loops() if plan.loops else scalars
     scalars.compute(record.ends)
     accelerations, multipliers, flag = (scalars.values[i] for i in record.ends)
     g, nodes = scalars.graph, [*accelerations, *multipliers, *(() if flag is None else (flag,))]

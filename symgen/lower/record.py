@@ -85,11 +85,21 @@ class RecordedLaw:
             index for part in self.parts for index in (*(i for _, i in part.outputs), part.flag) if index is not None
         ]
 
-    def resolved(self, schur: bool) -> RecordedLaw:
-        """Return the same with one way to what may be solved in two: by factors of D W D^T, or by fixed velocities."""
+    def resolved(self, schur: bool, apart: frozenset[str] = frozenset()) -> RecordedLaw:
+        """Return the same with one way to what may be solved in two: by factors of D W D^T, or by fixed velocities.
+
+        Parameters
+        ----------
+        schur : bool
+            Whether by factors.
+        apart : set of str
+            Kinds of operations that choose a way themselves.
+        """
         if schur:
-            same = {i: o.operands[0] for i, o in enumerate(self.operations) if o.kind in ALTERNATIVES}
-            operations = (replace(o, operands=tuple(same.get(i, i) for i in o.operands)) for o in self.operations)
+            kinds = ALTERNATIVES - apart
+            same = {i: o.operands[0] for i, o in enumerate(self.operations) if o.kind in kinds}
+            chosen = (replace(o, operands=o.operands[1:]) if o.kind in apart else o for o in self.operations)
+            operations = (replace(o, operands=tuple(same.get(i, i) for i in o.operands)) for o in chosen)
             parts = (
                 replace(part, outputs=tuple((place, same.get(i, i)) for place, i in part.outputs))
                 for part in self.parts

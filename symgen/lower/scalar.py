@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from functools import cached_property
+from typing import Self
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
-from symgen.ir.program import STATUS, EliminationPlan, Target
+from symgen.ir.program import STATUS, EliminationPlan, FixedVelocities, Target
 from symgen.lower.blocks import SaddleMatrix
+from symgen.lower.drag import drag_forces
 from symgen.lower.factor import FactorNodes, factorisation, minimum_degree
 from symgen.lower.replay import Nodes
 from symgen.lower.scalar_mass import OfMass
@@ -35,14 +38,46 @@ class ScalarNodes(OfMass):
     ) -> None:
         super().__init__(equations, operations, parameters, places)
         self.plan = EliminationPlan() if plan is None else plan
+        self.closing = False
+
+    def with_closed_loops(self) -> Self:
+        """Return the same tape, nothing evaluated yet, with loops in closed form where multipliers are solved for."""
+        other = copy(self)
+        other.__dict__.pop("saddle", None)
+        other.values, other.stored, other.flags, other.closing = {}, {}, [], True
+        return other
 
     def compute(self, ends: Iterable[int]) -> None:
         """Evaluate the operations that some depend on."""
         self.run(needed(ends, lambda i: self.operations[i].operands))
 
     def _on_constrained(self, operation: FormulaStep, f: Nodes, gamma: Nodes) -> Nodes:
-        accelerations, multipliers = self.saddle.solve(f, gamma)
+        accelerations, multipliers = self._dragged(f, gamma) if self.equations.drags else self.saddle.solve(f, gamma)
         return accelerations if operation.payload == ("accelerations",) else multipliers
+
+    def _dragged(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda with friction by reactions; leave its power and the squares of jamming numbers."""
+        g, e, drags = self.graph, self.equations, self.equations.drags
+        accelerations, multipliers = self._eliminated(f, gamma)
+        effects = list[tuple[Nodes, Nodes]]()
+        for drag in drags:
+            against = [g.zero] * e.nv
+            for j, node in self.rows[drag.row]:
+                against[j] = g.mul(drag.sign, node)
+            effects.append(self._eliminated(tuple(against), (g.zero,) * e.m))
+        alone = [tuple(multipliers[i] for i in drag.pressed) for drag in drags]
+        parts = [[tuple(effect[i] for i in drag.pressed) for _, effect in effects] for drag in drags]
+        forces, self.drag_power, self.jamming = drag_forces(g, drags, alone, parts), g.zero, []
+        for i, (drag, force, (moved, pressed)) in enumerate(zip(drags, forces, effects, strict=True)):
+            accelerations = tuple(g.sub(a, g.mul(force, x)) for a, x in zip(accelerations, moved, strict=True))
+            multipliers = tuple(g.sub(a, g.mul(force, x)) for a, x in zip(multipliers, pressed, strict=True))
+            self.drag_power = g.sub(self.drag_power, g.mul(g.mul(drag.sign, drag.rate), force))
+            self.jamming.append(g.mul(g.mul(drag.coefficient, drag.coefficient), g.dot(parts[i][i], parts[i][i])))
+        return accelerations, multipliers
+
+    def _eliminated(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda by the cheaper elimination."""
+        return self.by_factor(f, gamma, self._schur) if self.plan.schur else self.saddle.solve(f, gamma)
 
     def _on_stored_constrained(self, operation: FormulaStep, rank: FactorNodes, f: Nodes, gamma: Nodes) -> Nodes:
         metric, name = operation.payload
@@ -82,9 +117,13 @@ class ScalarNodes(OfMass):
     def saddle(self) -> SaddleMatrix:
         """The eliminated matrix of M and D; masked rows get a reciprocal pivot of 0, small pivots a flag."""
         g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
-        matrix = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal)
+        matrix, eliminated = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal), set(self.plan.rows)
+        for loop in self.plan.loops if self.closing else ():
+            self.flags.append(self._doubtful(loop, *matrix.close(loop)))
+            fixed |= set(loop.columns)
+            eliminated |= set(loop.rows)
         for row, entries in enumerate(self.rows):
-            if row not in self.plan.rows and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
+            if row not in eliminated and fixed & {j for j, _ in entries} and self._pinned_mass(row) is None:
                 rest = self._square(row, sorted(matrix.entries[matrix.nv + row].items()))
                 least = g.mul(g.constant(SUSPICIOUS), self._square(row, entries))
                 self.flags.append(g.call("lt", g.add(rest, self.mask[row]), self.in_force(row, least)))
@@ -101,6 +140,17 @@ class ScalarNodes(OfMass):
 
         matrix.eliminate_rest(reciprocal)
         return matrix
+
+    def _doubtful(self, loop: FixedVelocities, square: int, largest: int) -> int:
+        """Return the node that is true where a loop's columns are nearly parallel or short, or a row is masked."""
+        g, (a, b), (i, j) = self.graph, loop.rows, loop.columns
+        least = g.add(g.mul(g.constant(SUSPICIOUS), largest), g.add(self.mask[a], self.mask[b]))
+        doubtful = g.call("le", square, least)
+        if not g.depends[largest] & ~PARAMETER:
+            return doubtful
+        gauge = g.mul(next(iter(self.gauge[i].values())), next(iter(self.gauge[j].values())))
+        short = g.call("lt", g.mul(largest, gauge), g.constant(SUSPICIOUS**2))
+        return g.call("or", doubtful, short)
 
     def _square(self, row: int, entries: Iterable[tuple[int, int]]) -> int:
         """Return the square of a row of the scale that decides rank."""
@@ -136,6 +186,10 @@ class ScalarNodes(OfMass):
 
     def _on_schur(self, operation: FormulaStep) -> FactorNodes:
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
+        return self._schur
+
+    @cached_property
+    def _schur(self) -> FactorNodes:
         return self._masked_factor(self.mass_gram(self.rows))
 
     def _on_compliant(self, operation: FormulaStep, compliance: int) -> FactorNodes:

@@ -141,9 +141,13 @@ class OfMass(NodeValues):
         return result
 
     def _on_minv(self, operation: FormulaStep, x: Nodes) -> Nodes:
-        g = self.graph
         if self.mass_entries:
-            return tuple(self.mass_factor.back(g, self._half(operation.operands[0])))
+            return tuple(self.mass_factor.back(self.graph, self._half(operation.operands[0])))
+        return self._by_blocks(x)
+
+    def _by_blocks(self, x: Nodes) -> Nodes:
+        """Return M^-1 x of a constant M."""
+        g = self.graph
         result = [g.zero] * len(x)
         for block in self.equations.mass:
             if len(block.columns) == 1:
@@ -156,6 +160,20 @@ class OfMass(NodeValues):
             for i in block.columns:
                 result[i] = g.total(g.mul(e, x[j]) for j, e in sorted(self.inverse_mass[i].items()))
         return tuple(result)
+
+    def by_factor(self, f: Nodes, gamma: Nodes, factor: FactorNodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda with ``M v' + D^T lambda = f``, ``D v' = gamma`` by the factor of D M^-1 D^T."""
+        g = self.graph
+        if not self.mass_entries:
+            changes = self.product(self.rows, self._by_blocks(f))
+            multipliers = tuple(factor.solve(g, [g.sub(x, y) for x, y in zip(changes, gamma, strict=True)]))
+            rest = zip(f, self.transposed(self.rows, multipliers), strict=True)
+            return self._by_blocks(tuple(g.sub(x, y) for x, y in rest)), multipliers
+        (halves, scaled), half = self.row_halves, self.mass_factor.forward(g, f)
+        changes = tuple(g.dot(row, half) for row in scaled)
+        multipliers = tuple(factor.solve(g, [g.sub(x, y) for x, y in zip(changes, gamma, strict=True)]))
+        left = [g.sub(x, g.dot([row[k] for row in halves], multipliers)) for k, x in enumerate(half)]
+        return tuple(self.mass_factor.back(g, left)), multipliers
 
     def _on_product(self, operation: FormulaStep, matrix: Rows, x: Nodes) -> Nodes:
         solved = self.operations[operation.operands[1]]

@@ -7,9 +7,10 @@ from copy import copy
 from functools import cached_property
 from typing import Any, Self
 
-from symgen.formulate.equations import Equations
+from symgen.formulate.equations import Drag, Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import STATUS, JacobianEntry, Target
+from symgen.lower.drag import length
 from symgen.lower.factor import FactorNodes
 from symgen.lower.replay import Nodes, Replay
 from symgen.methods._formula import FormulaStep
@@ -53,6 +54,9 @@ class NodeValues(Replay):
         self.v = tuple(g.input("v", i) for i in range(e.nv))
         self.flags: list[int] = []
         self.stored: dict[str, Outputs] = {}
+        #: Of friction by reactions: its power, the squares of its jamming numbers, and the multipliers of unknowns.
+        self.drag_power, self.jamming = self.graph.zero, list[int]()
+        self.pressing: Nodes = ()
 
     def following(self, operations: tuple[FormulaStep, ...]) -> Self:
         """Return the same for another tape, in the same graph."""
@@ -73,14 +77,32 @@ class NodeValues(Replay):
         e = self.equations
         name = str(operation.payload[0])
         gamma = tuple(r.gamma for r in e.rows)
-        quantities = {"f": e.forces, "q_rates": e.q_rates, "phi": self.phi, "nu": self.nu, "v": self.v, "gamma": gamma}
-        return quantities[name]
+        quantities = {"q_rates": e.q_rates, "phi": self.phi, "nu": self.nu, "v": self.v, "gamma": gamma}
+        return self._forces() if name == "f" else quantities[name]
+
+    def _forces(self) -> Nodes:
+        """Return f; where multipliers are unknowns, with friction by reactions."""
+        g, forces = self.graph, list(self.equations.forces)
+        for drag, force in self._pressed_forces():
+            for j, node in self.rows[drag.row]:
+                forces[j] = g.sub(forces[j], g.mul(force, node))
+        return tuple(forces)
+
+    def _pressed_forces(self) -> Iterator[tuple[Drag, int]]:
+        """Yield friction by reactions of the unknown multipliers, as forces along the coordinates."""
+        g = self.graph
+        for drag in self.equations.drags if self.pressing else ():
+            size = length(g, [self.pressing[i] for i in drag.pressed])
+            yield drag, g.mul(drag.sign, g.mul(drag.coefficient, size))
 
     def _on_section(self, operation: FormulaStep) -> Nodes:
         return self.section(str(operation.payload[0]), self.size(operation.size))
 
     def _on_power(self, operation: FormulaStep) -> int:
-        return self.equations.power
+        g, power = self.graph, self.equations.power
+        for drag, force in self._pressed_forces():
+            power = g.sub(power, g.mul(force, drag.rate))
+        return power
 
     def _on_driving(self, operation: FormulaStep, accelerations: Nodes) -> int:
         g, driving = self.graph, self.equations.driving
@@ -118,6 +140,10 @@ class NodeValues(Replay):
         return self.product(matrix, x)
 
     def _on_transposed(self, operation: FormulaStep, matrix: Rows, y: Nodes) -> Nodes:
+        return self.transposed(matrix, y)
+
+    def transposed(self, matrix: Rows, y: Nodes) -> Nodes:
+        """Return the transpose of a matrix times a vector."""
         g = self.graph
         result = [g.zero] * self.equations.nv
         for row, factor in zip(matrix, y, strict=True):

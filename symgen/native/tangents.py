@@ -121,9 +121,16 @@ class TangentPrinter(FunctionPrinter):
             elif p.array:
                 self.shadows[p.name] = f'%"{p.name}.d"'
             elif p.name in self.function.variables:
-                self.keep(p.name, f'%"{p.name}.d"' if inner else None)
+                self.keep(p.name, f'%"{p.name}.d"' if inner else self.of_time(p.name))
             else:
-                self.tangents[p.name] = f'%"{p.name}.d"' if inner else None
+                self.tangents[p.name] = f'%"{p.name}.d"' if inner else self.of_time(p.name)
+
+    def of_time(self, name: str) -> str | None:
+        """Print the directions of a number that the caller hands over; time may have some, behind the scratch."""
+        if self.places is None or name not in self.places:
+            return None
+        place = self.put(f'getelementptr double, ptr %"w", i64 {self.places[name]}')
+        return self.put(f"load {self.kind}, ptr {place}, align 8")
 
     # -- statements
 

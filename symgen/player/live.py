@@ -8,23 +8,29 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.compiling.checked import checked, checked_function
-from symgen.compiling.events import DIRECTIONS, effects_of
-from symgen.compiling.printed import Printed
-from symgen.compiling.side import compile_side
-from symgen.describe.events import RESET
+from symgen.compiling.checked import checked
+from symgen.compiling.printed import Printed, PrintedEvents
+from symgen.describe.events import STOP
 from symgen.drawing.scene import Array
+from symgen.effects.stepping import ENDED
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of
 from symgen.native.formula_lines import JAVASCRIPT, NotInLines
 from symgen.native.javascript import HELPERS, LOOP_HELPERS, javascript
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
-from symgen.running.start_lines import derived_lines, fixed_velocities, independent_places, lines_for, start_lines
+from symgen.running.start_lines import (
+    derived_lines,
+    exported_start,
+    independent_places,
+    is_described,
+    written_start,
+)
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.layout.compiled import CompiledModel
+    from symgen.starts.assembler import Assembly
     from symgen.starts.assembly import Start
 
 #: Largest number of characters of emitted code in a page, in the plane and in space, and the same in operations.
@@ -48,10 +54,13 @@ class Live:
         Emitted functions as JavaScript.
     spec : mapping
         Sizes, places and numbers, as JSON has them.
+    columns : str
+        Expression for the functions of columns that are worked out at each frame.
     """
 
     code: str
     spec: Mapping[str, Any]
+    columns: str = "null"
 
 
 def live_part(
@@ -91,43 +100,53 @@ def live_part(
         where = "in space" if spatial else "in the plane"
         fewer = "" if hasattr(compiled.model, "bodies") else "; in joint coordinates they may be a tenth"
         return None, f"{NONE}: {operations} operations are more than the {limit} that a page {where} may have{fewer}"
+    joint = hasattr(compiled.model, "bodies")
+    turns = start.w[abi.WINDING :][: compiled.info.windings].tolist()
+    if begun is not None and not np.array_equal(begun, start.y[: len(begun)]):
+        start, turns = replace(start, y=np.concatenate([begun, start.y[len(begun) :]])), []
+        described = False
+    else:
+        described = not joint and is_described(mechanism)
     try:
-        code, memory = _code(acting or mechanism, compiled)
-    except Foreign as error:
-        return None, f"{NONE}: its code has {error}"
-    if len(code) > MOST[spatial]:
-        return None, f"{NONE}: {len(code)} characters are more than the {MOST[spatial]} that a page may have"
-    joint = "function bodies(" in code
-    begin = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
-    try:
-        script = _script(mechanism, joint, begin)
+        script = _script(mechanism, described)
+        code, memory, size = _code(
+            acting or mechanism,
+            compiled,
+            exported_start(mechanism, compiled, start.datum, None if described else turns),
+        )
     except NotInLines:
         return None, f"{NONE}: a formula of the start is not one that pages know"
-    if begin is not None:
-        start = replace(start, y=np.concatenate([begin, start.y[len(begin) :]]))
+    except Foreign as error:
+        return None, f"{NONE}: its code has {error}"
+    if size > MOST[spatial]:
+        return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
     constants = {*still, *dict(mechanism.input_formulas)}
-    spec = _spec(mechanism, compiled, start, step, joint, begin, constants) | {"memory": memory}
+    spec = _spec(mechanism, compiled, start, step, joint, constants) | {"memory": memory}
     return Live(f"{HELPERS}{code}\n{script}", spec), ""
 
 
-def _code(mechanism: Mechanism, compiled: CompiledModel) -> tuple[str, list[tuple[str, int]]]:
-    """Return emitted functions, functions of the runtime for events, and their memory: names and lengths."""
-    functions, effects = checked(compiled), effects_of(mechanism, compiled, mechanism.events)
-    if effects is None:
-        return javascript(functions), []
-    conditions = [(event.name, event.when) for event in mechanism.events]
-    side = compile_side(mechanism, compiled, "events", "Switching functions", conditions)
-    functions |= {
-        "switching": checked_function(side.function, abi.OBSERVE),
-        "effects": checked_function(effects.formulas, abi.OBSERVE),
-    }
+def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> tuple[str, list[tuple[str, int]], int]:
+    """Return emitted functions and functions of the runtime for starts and events.
+
+    Returns
+    -------
+    code : str
+        The text.
+    memory : list of (str, int)
+        Memory of the functions of the runtime: names and lengths.
+    size : int
+        Characters of the emitted functions.
+    """
+    events = PrintedEvents.of(mechanism, compiled)
+    functions = checked(compiled) | events.functions
     printed = Printed(functions)
-    printed.add_effects(effects, "effects")
-    directions = [DIRECTIONS[event.direction] if event.action == RESET else 2 for event in mechanism.events]
-    printed.add_steps(compiled, side.function, "switching", directions)
+    printed.add_start(assembly)
+    printed.add_steps(compiled, events, ("take_steps",))
+    if drivers := _drivers(mechanism):
+        printed.add_lock(compiled, drivers)
     bound = printed.bound()
     memory = [(name, size) for name, (_, size) in bound.memory.items() if name not in ("p", "w", "iw")]
-    return f"{LOOP_HELPERS}{javascript(functions, bound)}", memory
+    return f"{LOOP_HELPERS}{javascript(functions, bound)}", memory, len(javascript(functions))
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
@@ -151,25 +170,15 @@ def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]
     return Live(code, _rates_spec(compiled, start)), ""
 
 
-def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
-    """Return the values that follow from parameters: derived ones, and the start, described or begun with."""
+def _script(mechanism: Mechanism, described: bool) -> str:
+    """Return the values that follow from parameters: derived ones, and the start as far as it is described."""
     formulas = [
         f"if (!independent.has({place})) {{ {' '.join(lines)} }}"
         for place, lines in derived_lines(mechanism, JAVASCRIPT)
     ]
-    text = "function derive(p, independent) {\n" + "\n".join(formulas) + "\n}\n"
-    if joint:
-        return text + "const describe = null;\n"
-    if begun is not None:
-        nq = mechanism.body_coordinates
-        numbers = [repr(float(x)) for x in begun]
-        texts = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
-        return f"{text}function describe(p) {{ return {{ {texts} }}; }}\n"
-    lines = lines_for(mechanism, JAVASCRIPT)
-    q, v = start_lines(mechanism, lines)
-    texts = ", ".join("null" if x is None else lines.result(x) for x in v)
-    body, places_of_bodies = "\n".join(lines.lines), ", ".join(map(lines.result, q))
-    return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{texts}] }};\n}}\n"
+    lines = written_start(mechanism, JAVASCRIPT, described)
+    derive = ["function derive(p, independent) {", *formulas, "}"]
+    return "\n".join([*derive, "function describe(p, q, v, own) {", *lines, "}", ""])
 
 
 def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
@@ -190,17 +199,21 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
     }
 
 
+def _drivers(mechanism: Mechanism) -> set[str]:
+    """Return the joints that drive."""
+    return {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
+
+
 def _spec(
     mechanism: Mechanism,
     compiled: CompiledModel,
     start: Start,
     step: float,
     joint: bool,
-    begun: Array | None,
     constants: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
-    drivers = {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
+    drivers = _drivers(mechanism)
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
@@ -214,6 +227,7 @@ def _spec(
         "joint": joint,
         "nb": mechanism.body_coordinates,
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
+        "scratch": [[i, float(x)] for i, x in enumerate(compiled.scratch()) if x != 0.0],
         "y0": [float(x) for x in start.y],
         "datum": list(start.datum) or [0.0] * info.nq,
         "lengths": [int(x) for x in lengths_of(info)],
@@ -222,15 +236,15 @@ def _spec(
         "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],
         "moving": moving_names(info),
         **{"most_named": MOST_NAMED, "counts": COUNTS},
-        "jacobian": [[row, column, constant, slot] for row, column, constant, slot in info.jacobian],
         "at": sections,
-        "status": {"length": abi.LENGTH, "first": abi.WINDING},
+        "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
+        "ended": ENDED,
+        "ends": [event.name if event.action == STOP else "" for event in mechanism.events],
         "parameters": [
             {**entry, "follows": bool(own.formula), **({"still": True} if own.name in constants else {})}
             for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],
         "independent": independent_places(mechanism, {p["name"]: p["value"] for p in rates["parameters"]}),
-        "fixed": [] if joint or begun is not None else fixed_velocities(mechanism, info),
         "step": step,
     }

@@ -37,7 +37,7 @@ PAGES: Mapping[str, tuple[str, ...]] = {".html": ()}
 #: Characters for the data of motions in the plane and in space; a large mechanism has more, for its fewest frames.
 MOST_DATA = {False: 100_000, True: 180_000}
 #: Further characters for plots of optional quantities.
-MOST_PLOTS = {False: 120_000, True: 200_000}
+MOST_PLOTS = {False: 400_000, True: 600_000}
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
 
@@ -109,8 +109,9 @@ def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
 def _script(live: Live | None, spatial: bool) -> str:
     own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
-        return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
-    return f"(() => {{\n'use strict';\n{model_script(live)}{own}}})();"
+        return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null, observed = null;\n{own}}})();"
+    observed = f"const observed = {live.columns};\n{_web('columns.js')}"
+    return f"(() => {{\n'use strict';\n{model_script(live)}{observed}{own}}})();"
 
 
 def _emitted(live: Live, functions: str, *further: str) -> str:
@@ -122,7 +123,7 @@ def _emitted(live: Live, functions: str, *further: str) -> str:
 def model_script(live: Live) -> str:
     """Return a script that defines ``emitted``, the functions of a mechanism, and ``makeLive``, which runs them."""
     functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
-    functions += " step_to_event apply_effects"
+    functions += " close_row take_steps find_lock"
     return f"{_emitted(live, functions)}{_web('live.js')}"
 
 

@@ -39,6 +39,10 @@ class PlottedGroup:
         Which coordinates of the recording they are; empty for other columns, which a page holds by themselves.
     further : bool
         Whether a page has them only where there is room.
+    section : str
+        Heading above them in a list of groups.
+    scale : float
+        Least scale of their numbers: what is nothing beside it is rounding.
     """
 
     title: str
@@ -48,6 +52,8 @@ class PlottedGroup:
     logarithmic: bool = False
     places: tuple[int, ...] = ()
     further: bool = False
+    section: str = "bodies"
+    scale: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -114,10 +120,12 @@ class Recording:
     moments: tuple[Moment, ...] = ()
 
 
-def parts_of(title: str, count: int) -> Iterator[tuple[str, slice]]:
-    """Yield titles and columns of the groups for a number of columns of one unit."""
-    for i in range(0, min(count, MOST_OF_UNIT), LONGEST_KEY):
-        yield title if i == 0 else f"{title} {1 + i // LONGEST_KEY}", slice(i, i + LONGEST_KEY)
+def parts_of(title: str, names: Sequence[str]) -> Iterator[tuple[str, slice]]:
+    """Yield titles and columns of the groups for columns of one unit; titles of several name their first and last."""
+    for i in range(0, min(len(names), MOST_OF_UNIT), LONGEST_KEY):
+        some = slice(i, i + LONGEST_KEY)
+        first, last = names[some][0].rpartition("."), names[some][-1].rpartition(".")
+        yield title if len(names) <= LONGEST_KEY else f"{title}, {first[0]} to {last[0]}", some
 
 
 def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
@@ -126,10 +134,11 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
     for meaning, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
         columns = [i for i, (_, c) in enumerate(names) if c in wanted]
-        for title, some in parts_of(meaning, len(columns)):
+        for title, some in parts_of(meaning, [names[i][0] for i in columns]):
             chosen = columns[some]
             own = tuple(names[i][0] for i in chosen)
-            groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen)))
+            scale = scale_of(q[:, columns].ravel(), unit)
+            groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen), scale=scale))
     return groups
 
 
@@ -230,6 +239,8 @@ def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str,
                 "unit": group.unit,
                 "names": list(group.names),
                 "log": group.logarithmic,
+                "section": group.section,
+                "scale": float(f"{group.scale:.7g}"),
                 **({"places": list(group.places)} if group.places else _plotted(group, keep)),
             }
             for group in recording.groups
@@ -252,7 +263,7 @@ def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
     if group.logarithmic:
         values = np.log10(np.maximum(np.abs(values), 1e-17))
     else:
-        values = cleaned(values, scale_of(group.values.ravel(), group.unit))
+        values = cleaned(values, max(group.scale, scale_of(group.values.ravel(), group.unit)))
     return {"every": every, **shorts(values)}
 
 

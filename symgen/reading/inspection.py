@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -23,8 +24,11 @@ from symgen.lower.law import lower_law
 from symgen.lower.looped.instances import instances
 from symgen.lower.model import lower_model
 from symgen.player.motion_page import PAGES
+from symgen.reading.jamming import jamming_numbers
 from symgen.reading.page import MOST_STRAIGHT, EquationPage, check_size
-from symgen.reading.typeset import texts
+from symgen.reading.quantity_names import input_names
+from symgen.reading.structure import element_terms, shared_terms, structure
+from symgen.reading.typeset import LONGEST, texts, texts_by_terms
 from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
 
@@ -34,6 +38,8 @@ if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
 
 
+#: Characters of gamma and forces up to which they are written without shared terms.
+SHORT = 110
 #: A wider Jacobian is listed entry by entry only.
 WIDEST = 150
 
@@ -182,7 +188,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
-        **({"friction": _frictions(mechanism)} if mechanism.frictions else {}),
+        **({"friction": _frictions(mechanism, jamming_numbers(run))} if mechanism.frictions else {}),
         **({"stops": _stops(mechanism)} if mechanism.stops else {}),
         "dropped_rows": list(equations.dropped_rows),
         "notes": list(start.notes),
@@ -222,12 +228,32 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "operations": _operations(equations),
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
+    facts |= _by_terms(mechanism, equations)
     if equations.states:
         rates = zip(equations.states, equations.state_rates, strict=True)
         facts["states"] = {x.name: {"unit": x.unit, "rate": show(node)} for x, node in rates}
     if with_method:
         facts["method"] = _method(mechanism, equations, choice)
     return facts
+
+
+def _by_terms(mechanism: Mechanism, equations: Equations) -> dict[str, Any]:
+    """Return gamma and forces, long ones by shared terms, and the terms."""
+    gammas, forces, show = [row.gamma for row in equations.rows], list(equations.forces), texts(equations)
+    long = {n for n in (*gammas, *forces) if len(show(n)) > SHORT or equations.graph.tree_operations([n]) > LONGEST}
+    named = structure if mechanism.space == "spatial" else element_terms
+    taken = {*input_names(equations).values()}
+    terms = shared_terms(equations.graph, sorted(long), named(mechanism, equations), taken)
+    by_terms, definition = texts_by_terms(equations, terms)
+
+    def write(node: int) -> str:
+        return by_terms(node) if node in long else show(node)
+
+    return {
+        "terms": {terms[node]: definition(node) for node in sorted(terms)},
+        "gamma_by_terms": {row.name: write(row.gamma) for row in equations.rows},
+        "forces_by_terms": {v.name: write(n) for v, n in zip(equations.velocities, forces, strict=True)},
+    }
 
 
 def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
@@ -297,13 +323,15 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
     }
 
 
-def _frictions(mechanism: Mechanism) -> list[dict[str, Any]]:
+def _frictions(mechanism: Mechanism, jamming: Mapping[str, float]) -> list[dict[str, Any]]:
     """Return the dry friction of a mechanism: rows with bounds."""
     return [
         {
             "name": x.name,
             "row": x.row,
-            "unit": "N m" if x.unit == "rad" else "N",
+            "unit": f"N{' m' if x.unit == 'rad' else ''}",
+            "reaction": list(x.pressed),
+            "jamming_number": jamming.get(x.name),
             **{key: to_text(getattr(x, key)) for key in ("static", "sliding", "viscous")},
             "stribeck_speed": None if x.stribeck_speed is None else to_text(x.stribeck_speed),
         }
@@ -356,8 +384,10 @@ def as_text(facts: dict[str, Any]) -> str:
     for x in facts.get("friction", ()):
         viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
         stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
-        at_rest = f"row {x['row']} in force at rest up to {x['static']} {x['unit']}"
-        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}")
+        unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
+        at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
+        jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
+        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}{jam}")
     for x in facts.get("stops", ()):
         closed = f"row {x['row']} in force where it is closed, pushing [{x['unit']}]"
         lines.append(f"stop {x['name']}: {closed}; restitution {x['restitution']}")
@@ -377,22 +407,25 @@ def as_text(facts: dict[str, Any]) -> str:
     lines += [f"D[{r['name']}, {v}] = {entry}" for r in facts["rows"] for v, entry in r["jacobian"].items()]
     lines += [f"nu[{r['name']}] = {r['nu']}" for r in facts["rows"] if r["nu"] != "0"] or ["nu = 0"]
     section("Quadratic velocity terms gamma: D v' = gamma")
-    lines += [f"gamma[{r['name']}] = {r['gamma']}" for r in facts["rows"]]
+    lines += [f"gamma[{name}] = {gamma}" for name, gamma in facts["gamma_by_terms"].items()]
     section("Mass matrix M")
     lines += [f"M[{', '.join(b['velocities'])}] = {_matrix(b['matrix'])}" for b in facts["mass"]]
     section("Forces f: M v' + D^T lambda = f")
-    lines += [f"f[{name}] = {force}" for name, force in facts["forces"].items()]
+    lines += [f"f[{name}] = {force}" for name, force in facts["forces_by_terms"].items()]
+    if facts["terms"]:
+        section("Shared terms of gamma and f")
+        lines += [f"{name} = {term}" for name, term in facts["terms"].items()]
     if "states" in facts:
         section("States of the file")
         lines += [f"{name}' = {x['rate']} [{x['unit']}/s]" for name, x in facts["states"].items()]
     section("Energies")
     lines += [f"{name} = {expression}" for name, expression in facts["energies"].items()]
-    section("Operations: before common subexpressions -> after")
-    lines += [f"{name}: {n['before']} -> {n['after']}" for name, n in facts["operations"].items()]
+    section("Operations, each quantity with its common subexpressions")
+    lines += [f"{name}: {n['after']}" for name, n in facts["operations"].items()]
     if "method" in facts:
         method = facts["method"]
         section(f"Functions emitted for {method['name']}")
-        lines += [f"{name}: {f['before']} -> {f['after']}  {f['purpose']}" for name, f in method["functions"].items()]
+        lines += [f"{name}: {f['after']}  {f['purpose']}" for name, f in method["functions"].items()]
         lines.append(f"elimination order: {', '.join(method['elimination_order'])}; fill-ins: {method['fill']}")
     section("Left out")
     lines += [f"{o['what']}: {o['why']}" for o in facts["left_out"]]

@@ -322,13 +322,12 @@ class EquationPage:
             ]
             counts = [g.operations(nodes) for nodes in (*groups, [n for group in groups for n in group])]
             lines.append([f'<a href="#rows-{attribute(joint)}">{escape(joint)}</a>', *map(str, counts)])
-        blocks = [["function", "what it computes", "before sharing", "after"]]
+        blocks = [["function", "what it computes", "operations"]]
         for block in (*self.program.blocks, *self.law.blocks):
-            both = [str(block.tree_operations), str(block.operations)]
-            blocks.append([escape(block.name), escape(block.purpose), *both])
+            blocks.append([escape(block.name), escape(block.purpose), str(block.operations)])
         return [
             fold("by joint, each with what it shares within itself", html_table(lines, numbers=4)),
-            fold("by emitted function", html_table(blocks, numbers=2), True),
+            fold("by emitted function", html_table(blocks, numbers=1), True),
         ]
 
     def _code(self, listed: Mapping[str, str] | None) -> list[str]:

@@ -7,11 +7,15 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import count
 
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.readings import of_force_elements
 from symgen.describe.repeats import without_repeats
 from symgen.formulate.equations import Equations
+from symgen.formulate.flexure import exertions
 from symgen.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.formulate.measures import ModelNodes
 from symgen.ir.graph import Graph
+from symgen.vocabulary.expressions import Reading
+from symgen.vocabulary.measures import Driven, Exerted, Flexed
 
 #: A term that is used more than once gets a number for a name where it has at least so many operations.
 SHARED = 2
@@ -34,7 +38,8 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     dict
         In the plane ``BODY.c`` and ``BODY.s``, cosine and sine of its angle; in space ``BODY.a00`` to ``BODY.a22``,
         its rotation matrix; where joints carry the bodies also their places and velocities, such as ``BODY.x``, but
-        for those that are coordinates and velocities of the state: of free bodies.
+        for those that are coordinates and velocities of the state: of free bodies. Of force elements
+        ``FORCE.length``, ``FORCE.rate``, ``FORCE.force``.
     """
     model = ModelNodes(without_repeats(mechanism)[0])
     slots = SPATIAL_SLOTS if model.spatial else FRAME_SLOTS
@@ -49,7 +54,32 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
         # what has the other sign needs no name: that of its operand serves both
         if f"{body}.{slot}" not in state and node < len(computed) and computed[node].op not in (*_LEAVES, "neg"):
             names.setdefault(node, f"{body}.{slot}")
+    return names | {n: x for n, x in element_terms(mechanism, equations).items() if n not in names}
+
+
+def element_terms(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
+    """Return the nodes of the equations that are measures and efforts of force elements, with their names."""
+    model = ModelNodes(without_repeats(mechanism)[0])
+    columns = [(c.name, c.formula) for c in of_force_elements(mechanism) if isinstance(c.formula, Reading)]
+    written = [(name, node) for name, r in columns if (node := _node_of(model, r)) is not None]
+    nodes = [node for _, node in written]
+    inputs = {key: equations.graph.input(*key) for key in model.graph.keys(nodes)}
+    copies = equations.graph.copy().inline(model.graph, nodes, inputs)
+    names, computed = dict[int, str](), equations.graph.nodes
+    for (name, _), node in zip(written, copies, strict=True):
+        if node < len(computed) and computed[node].op not in (*_LEAVES, "neg"):
+            names.setdefault(node, name)
     return names
+
+
+def _node_of(model: ModelNodes, reading: Reading) -> int | None:
+    """Return the node of a measure or an effort; None of what multipliers, powers or beams are."""
+    source = reading.source
+    if isinstance(source, Driven | Flexed) or (isinstance(source, Exerted) and (source.power or source.flexures)):
+        return None
+    if isinstance(source, Exerted):
+        return model.graph.total(e.total for e in exertions(model, source))
+    return model.reading(reading)
 
 
 def shared_terms(

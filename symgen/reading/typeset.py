@@ -103,11 +103,19 @@ class Writer:
         Inputs as they are written.
     exact : bool
         Whether numbers have all digits.
+    terms : mapping of int to str, optional
+        Nodes that stand under names of their own.
     """
 
-    def __init__(self, graph: Graph, inputs: Mapping[tuple[str, int], Box], exact: bool = False) -> None:
+    def __init__(
+        self,
+        graph: Graph,
+        inputs: Mapping[tuple[str, int], Box],
+        exact: bool = False,
+        terms: Mapping[int, str] | None = None,
+    ) -> None:
         self.graph, self.inputs, self.exact = graph, inputs, exact
-        self._written: dict[int, Sum] = {}
+        self._written: dict[int, Sum] = {n: atom(name(text, whole=True)) for n, text in (terms or {}).items()}
 
     def sum(self, node: int) -> Sum:
         """Return a node as a sum."""
@@ -120,6 +128,12 @@ class Writer:
     def box(self, node: int) -> Box:
         """Return a node in one line."""
         return as_box(self.sum(node))
+
+    def definition(self, node: int) -> Box:
+        """Return a node with a name of its own by its operands."""
+        for operand in self.graph.nodes[node].args:
+            self.sum(operand)
+        return as_box(self._terms(node))
 
     def _terms(self, node: int) -> Sum:
         op, args, payload = self.graph.nodes[node]
@@ -179,6 +193,13 @@ def texts(equations: Equations) -> Callable[[int], str]:
         return f"<{count} operations>" if count > LONGEST else python(writer.box(node))
 
     return text
+
+
+def texts_by_terms(equations: Equations, terms: Mapping[int, str]) -> tuple[Callable[[int], str], Callable[[int], str]]:
+    """Return functions that write nodes, and definitions of terms, with the names of terms in place of these."""
+    names = {key: name(text, whole=True) for key, text in input_names(equations).items()}
+    writer = Writer(equations.graph, names, exact=True, terms=terms)
+    return lambda node: python(writer.box(node)), lambda node: python(writer.definition(node))
 
 
 class Typesetter(Writer):

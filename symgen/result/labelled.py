@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Protocol
@@ -128,9 +128,20 @@ def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: 
 
 
 def unit_scales(table: Labelled) -> dict[str, float]:
-    """Return the scale of the numbers of each unit: the largest of all columns."""
+    """Return the scale of the numbers of each unit: the largest of all columns, of moments forces times lengths."""
     units = np.array(table.units)
-    return {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
+    scales = {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
+    return scales | {unit: max(x, least_scale(scales, unit)) for unit, x in scales.items()}
+
+
+#: Units of products: what is nothing beside the product of the scales of its factors is rounding.
+PRODUCTS = {"N m": ("N", "m"), "J": ("N", "m"), "W": ("N", "m/s")}
+
+
+def least_scale(scales: Mapping[str, float], unit: str) -> float:
+    """Return the scale of a unit from the scales of its factors; 0 where it is no product or a factor has none."""
+    a, b = PRODUCTS.get(unit, (unit, ""))
+    return scales.get(a, 0.0) * scales.get(b, 0.0)
 
 
 def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:

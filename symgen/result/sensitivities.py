@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.compiling.side import compile_side
-from symgen.describe.events import RESET, STOP
+from symgen.describe.events import STOP
 from symgen.describe.readings import TABLES as FORMULAS
 from symgen.describe.stops import refuse_bounds
 from symgen.integrators import INTEGRATORS
@@ -24,7 +24,9 @@ from symgen.result.labelled import Labelled
 from symgen.running.directions import named_directions
 from symgen.running.prepare import Prepared, preparation
 from symgen.running.start_directions import StartDirections
-from symgen.runs.directions import Course, DirectedModel, Observer, Part, run_with_directions
+from symgen.runs.directed_model import DirectedModel
+from symgen.runs.directed_observer import Observer
+from symgen.runs.directions import Course, Part, run_with_directions
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -78,13 +80,10 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
     run = ready.run()
     watched = run.spec.events
-    if watched is not None:
-        resets = [name for name, action in zip(watched.names, watched.actions, strict=True) if action == RESET]
-        if resets or watched.jumps or watched.rows is not None:
-            what = (
-                f"the event '{resets[0]}', which does" if resets else "formulas that jump where the state passes zero"
-            )
-            raise InputError("sensitivities", "a run whose events change no state", what)
+    if watched is not None and (watched.jumps or watched.rows is not None):
+        raise InputError(
+            "sensitivities", "a run without jumps of formulas", "formulas that jump where the state passes zero"
+        )
     return run, tuple(notes)
 
 
@@ -362,6 +361,8 @@ class Sensitivities:
             return f"the motion passes near a singular position at t = {first:.6g} s, where sensitivities may jump"
         if result.outcome.counters["dense_solves"]:
             return "accelerations were solved with another rank on the way, which sensitivities do not follow"
+        if self._evaluated.course.doubts:
+            return self._evaluated.course.doubts[0]
         if self.end is not None and not np.all(np.isfinite([*self.end.values()])):
             return "the event that ended the run is met without speed: its time has no derivative"
         if self.violation > CONSISTENT:

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, overload
@@ -218,6 +219,9 @@ class Tables(ABC):
             return labelled.values[:, i]
         return self.select([name]).values
 
+    def _repr_html_(self) -> str:
+        return f"<p>{escape(repr(self))}</p>\n{self.whole(self.drawn)._repr_html_()}"
+
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -307,7 +311,7 @@ class MotionTables(Tables):
     def run_facts(self) -> dict[str, Any]:
         """Return the settings that a page shows and begins its live part with, by the names of JSON."""
 
-    def view(self, beside: MotionTables | None = None, *, live: bool = True) -> Page:
+    def view(self, beside: MotionTables | None = None, *, live: bool | str = True) -> Page:
         """Return a page that plays the motion, which notebooks show and ``.save("x.html")`` writes.
 
         The page is one file that works offline. Where the equations are not too large it holds them as well, so that
@@ -317,19 +321,20 @@ class MotionTables(Tables):
         ----------
         beside : Result or Kinematics, optional
             Another motion of the same mechanism, drawn faintly behind.
-        live : bool
-            Whether the page shall hold the equations.
+        live : bool or str
+            Whether the page shall hold the equations; a method's name for those of this method, whose gains have
+            sliders as well.
 
         Raises
         ------
         InputError
-            If there are no outputs, or `beside` is of another mechanism.
+            If there are no outputs, `beside` is of another mechanism, or there is no such method.
         """
         from symgen.result.viewed import view
 
         if not (beside is None or isinstance(beside, MotionTables)):
             raise InputError("beside", "a result of a run, or a motion of kinematics", shown(beside))
-        return view(self, beside, switch("live", live))
+        return view(self, beside, live if isinstance(live, str) else switch("live", live))
 
     @property
     def signals(self) -> SignalTables:

@@ -10,19 +10,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.digits import cleaned
 from symgen.base.errors import AssemblyError, InputError
 from symgen.describe.evaluate import independent_values, parameter_values
-from symgen.describe.events import DOES, RESET
+from symgen.describe.events import DOES
 from symgen.describe.inputs import are_words_of_data
 from symgen.describe.mechanism import ACCELERATIONS
+from symgen.layout import abi
+from symgen.methods import METHODS
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.motion_page import Page, page
 from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
 from symgen.result.export import SAVED
-from symgen.result.labelled import Array, Labelled
+from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
+from symgen.result.live_columns import live_columns
 from symgen.result.plots import panels
 from symgen.result.saved import check_names, checked_file, dataset_of
 from symgen.result.signals import TABLES
+from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,7 +38,7 @@ if TYPE_CHECKING:
     from symgen.running.tree import TreeRun
 
 
-def view(result: MotionTables, beside: MotionTables | None = None, live: bool = True) -> Page:
+def view(result: MotionTables, beside: MotionTables | None = None, live: bool | str = True) -> Page:
     """Return the page of a motion.
 
     Parameters
@@ -42,18 +47,19 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool = 
         Of this process.
     beside : MotionTables, optional
         Another motion of the same mechanism, drawn faintly behind.
-    live : bool
-        Whether the page shall be able to work out other motions.
+    live : bool or str
+        Whether the page shall be able to work out other motions; the method of these, whose gains have sliders.
 
     Raises
     ------
     InputError
-        If the motions are of different mechanisms, or have no outputs.
+        If the motions are of different mechanisms, or have no outputs, or there is no such method.
     """
     first, second = playable_motion(result), None if beside is None else playable_motion(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
-    return page(first, *(_live(first.mechanism, result.run_facts()) if live else (None, "")), second)
+    method = METHODS.canonical(live, "live") if isinstance(live, str) else ""
+    return page(first, *(_live(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
 
 
 def playable_motion(result: MotionTables) -> Recording:
@@ -115,31 +121,67 @@ def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tup
     return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
 
 
-#: Tables that a page plots, each with what stands before the meaning of its units, and those that it has in any case.
+#: Tables that a page plots, each with the section of its groups and what stands before the meaning of their units.
 _PLOTTED = {
-    **{"outputs": "outputs", "elements": "element", "q": "", "energy": "", "violations": ""},
-    **{"magnitudes": "reaction", "reactions": "reaction component", "joint_coordinates": "joint", "points": "point"},
-    **{"v": "", "a": "", "lam": "multiplier", "body_reactions": "reaction in body axes"},
+    "outputs": ("outputs", "outputs"),
+    "elements": ("forces and drivers", "elements"),
+    "q": ("bodies", ""),
+    "magnitudes": ("joints", "joints"),
+    "reactions": ("joints", ""),
+    "joint_coordinates": ("joints", "joints"),
+    **{"points": ("bodies", "points"), "v": ("bodies", ""), "a": ("bodies", "")},
+    **{"energy": ("energy and errors", ""), "violations": ("energy and errors", "")},
+    "lam": ("multipliers", "multipliers"),
+    "body_reactions": ("joints, in axes of bodies", ""),
 }
+#: Those that a page has in any case, those with a group for each joint, and those without groups that are 0.
 _ALWAYS = ("outputs", "q", "energy", "violations")
+_BY_JOINT = {"reactions": "", "body_reactions": " in axes of its body"}
+_NONZERO = ("magnitudes", "reactions", "body_reactions")
+#: Digits that the equations of multipliers lose, as a factor of scales: what is less in a reaction is rounding.
+_LOST = 1e3
 
 
 def _groups(mechanism: Mechanism, q: Array, read: Callable[[str], Labelled]) -> Iterator[PlottedGroup]:
     """Yield the quantities that a page plots, the most important ones first."""
-    for table, head in _PLOTTED.items():
+    tables = {table: read(table) for table in _PLOTTED}
+    scales = dict[str, float]()
+    for part in tables.values():
+        scales |= {unit: max(x, scales.get(unit, 0.0)) for unit, x in unit_scales(part).items()}
+    grounded = {joint.name for joint in mechanism.joints if joint.bodies[0] == GROUND}
+    for table, (section, head) in _PLOTTED.items():
         if table == "q":
             yield from position_groups(mechanism, q)
             continue
-        for meaning, unit, logarithmic, part in panels(read(table)):
-            title = head if table == "outputs" else f"{head} {meaning}".strip()
-            for numbered, some in parts_of(title, len(part.names)):
-                further = table not in _ALWAYS
-                yield PlottedGroup(
-                    *(numbered, unit, part.names[some], part.values[:, some], logarithmic), further=further
-                )
+        for title, unit, logarithmic, part in _titled(table, head, tables[table]):
+            scale = 0.0 if logarithmic else max(scales[unit], least_scale(scales, unit)) if unit in scales else 0.0
+            if table in _NONZERO:
+                scale *= _LOST
+                if not cleaned(part.values, scale).any():
+                    continue
+            if table == "body_reactions" and title.partition(":")[0] in grounded:
+                continue  # they are those in ground axes
+            for whole, some in parts_of(title, part.names):
+                names, values, further = part.names[some], part.values[:, some], table not in _ALWAYS
+                options: dict[str, Any] = {"further": further, "section": section, "scale": scale}
+                yield PlottedGroup(whole, unit, names, values, logarithmic, **options)
 
 
-def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, str]:
+def _titled(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str, bool, Labelled]]:
+    """Yield the groups of a table: title, unit, whether sizes are drawn as logarithms, and columns."""
+    for meaning, unit, logarithmic, part in panels(columns):
+        owners = [name.partition(".")[0] for name in part.names]
+        if table in _BY_JOINT:
+            for joint in dict.fromkeys(owners):
+                places = [i for i, owner in enumerate(owners) if owner == joint]
+                yield f"{joint}: {meaning}{_BY_JOINT[table]}", unit, logarithmic, columns_at(part, places)
+        else:
+            one = len(set(owners)) == 1 and head and table != "outputs"
+            before = owners[0] if one else head
+            yield ": ".join(filter(None, (before, meaning))), unit, logarithmic, part
+
+
+def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tuple[Live | None, str]:
     """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
 
     Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
@@ -155,16 +197,17 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
         return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
-    own = {event.name for event in mechanism.events if event.action == RESET}
-    for name, action in (*((event.name, event.action) for event in mechanism.events), *run["watched"]):
+    own = {event.name for event in mechanism.events}
+    for name, action in run["watched"]:
         if action in DOES and name not in own:
-            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for resets of the file"
+            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
     if mechanism.bounded:
         return None, f"{NONE}: there is dry friction or a stop, and pages do not choose their modes"
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
+    settings = replace(settings, method=method) if method else settings
     prepared = prepare(mechanism, settings, Purpose.STATE)
     state = {**begun["q"], **begun["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
@@ -177,17 +220,20 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any]) -> tuple[Live | None, st
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
             return _live_on_tree(prepared, prepared.tree, step, begin)
-    return live, note
+    return _with_columns(live, mechanism, prepared), note
 
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
+    from symgen.running.start_lines import exported_start
     from symgen.running.tree import begin_on_tree, carried_of
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
-    values, moving = parameter_values(mechanism, run.plan.parameters), list[str]()
+    values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
+    turns = start.w[abi.WINDING :][: info.windings].tolist()
+    own_start = exported_start(run.mechanism, run.compiled, start.datum or (), turns)
     for name, x in values.items():
         parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
         try:
@@ -195,9 +241,10 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
         except (AssemblyError, InputError):
             moving.append(name)
             continue
-        y = start.y.copy()  # which pages correct
-        run.compiled.law_module.accept(other.t, y, other.p, other.w.copy(), np.zeros(16, dtype=np.int64))
-        if np.abs(y - other.y).max() > 1e-7 * np.abs(y).max(initial=1.0):
+        y, v = start.y.copy(), start.y[info.nq : info.nq + info.nv]
+        y[info.nq : info.nq + info.nv] = 0.0
+        own_start.close(y, v, other.p.copy())
+        if np.abs(y - other.y)[: info.work].max() > 1e-7 * np.abs(y).max(initial=1.0):
             moving.append(name)
     if begun is not None:
         y = np.concatenate([begun, tree.body_start.y[len(begun) :]])
@@ -207,7 +254,27 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
     live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
-    return live, note
+    return _with_columns(live, mechanism, run), note
+
+
+def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
+    """Return a live part that works out all columns that it can."""
+    if live is None:
+        return None
+    law = run.compiled.law
+    units = {parameter.name: parameter.unit for parameter in METHODS.get(law.method).parameters}
+    gains = [
+        {"name": f"method.{name}", "unit": units[name], "value": float(x), "follows": False, "place": place}
+        for place, ((name, _), x) in enumerate(
+            zip(law.parameters, run.start.p[law.parameter_offset :], strict=False), law.parameter_offset
+        )
+        if name in units and not name.endswith("tolerance")
+    ]
+    bodies = None if run.tree is None else run.tree.bodies
+    text, spec = live_columns(mechanism, run.compiled, run.start, bodies)
+    return replace(
+        live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
+    )
 
 
 def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from symgen.effects.accumulation import PAST, accumulation, add_resets, latest_events
@@ -13,6 +14,7 @@ from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called
 from symgen.loops import search_records as records
 from symgen.loops.event_loop import notes_at
+from symgen.loops.frame_parts import store_behind
 from symgen.native import types
 
 _K = types.int64[::1]
@@ -40,6 +42,18 @@ def forget_functions(model: Any, state: Any) -> None:
     for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
         hunt[i] = 0.0
     hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
+    if hunt[records.REACH] < math.inf:  # of adaptive steps
+        hunt[records.REACH] = 0.0
+
+
+def numbers_of_row(chunk: Any, state: Any) -> int:
+    """Return the count of numbers that a row leaves of events."""
+    return int(chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0]))
+
+
+def count_of_events(numbers: int) -> int:
+    """Return the count of events, from the numbers that a row leaves of them."""
+    return int(max(0, numbers - e.HEAD_OF_EVENTS) // e.OF_EVENT)
 
 
 @called
@@ -56,12 +70,15 @@ def take_notes_of_events(code: int, r: int, model: Any, chunk: Any, state: Any) 
     _, observers = model
     width = observers[0].width
     hunt, clock = state.hunt, state.clock
-    n, numbers = int(hunt[records.COUNT]), chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0])
+    n, numbers = int(hunt[records.COUNT]), numbers_of_row(chunk, state)
+    events = count_of_events(numbers)
     first, row = notes_at(n, width, state.w.shape[0]), part(chunk.events, r * numbers, numbers)
     ended = code
     for i in range(int(hunt[records.NOTED])):
         t, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
         at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
+        if k >= events:  # a change of a constraint
+            continue
         if row[at] == 0.0:
             row[at + 1] = t
         row[at] += 1.0
@@ -70,7 +87,7 @@ def take_notes_of_events(code: int, r: int, model: Any, chunk: Any, state: Any) 
             ended = abi.DONE
     hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
     if code == abi.UNDEFINED:
-        for k in range(n):
+        for k in range(events):
             g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
             if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
                 row[e.IMPOSSIBLE_EVENT] = float(k)
@@ -104,7 +121,7 @@ def take_effects(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
         at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
         if code == abi.MET and at == t and k < chosen.shape[0] and effects.resets[k] != 0:
             chosen[k], which = 1, k
-    numbers = chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0])
+    numbers = numbers_of_row(chunk, state)
     row, stops = part(chunk.events, r * numbers, numbers), False
     for i in range(int(hunt[records.NOTED])):
         at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
@@ -128,3 +145,43 @@ def take_effects(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
         row[e.ACCUMULATION], row[e.GATHERING] = end, latest_events(effects.past)
         return int(abi.GATHERED)
     return code
+
+
+def store_after_effects(code: int, span: Any, state: Any, outputs: Any) -> None:
+    """Have outputs at the present time hold the state behind the effects of events."""
+    if code == abi.MET:
+        now = state.clock[abi.TIME]
+        adaptive = state.hunt[records.REACH] < math.inf
+        near = abi.RESOLVED_TIME * abs(now) if adaptive else abi.SAME_TIME * span.step
+        store_behind(outputs, state.control[abi.OUTPUTS], now, near, state.y, state.w)
+
+
+# -- constraints that may jump -----------------------------------------------------------------------------------------
+
+
+def resumed_after_examination(state: Any) -> int:
+    """Return the end code with which an examined run goes on, `DONE` for a new run."""
+    if state.control[e.EXAMINATION] == e.HOLDS:
+        return int(abi.MET)
+    if state.control[e.EXAMINATION] == e.JUMPS:
+        state.control[e.EXAMINATION] = e.NOT_EXAMINED
+        return int(abi.JUMPED)
+    return int(abi.DONE)
+
+
+@called
+def waits_for_examination(code: int, model: Any, chunk: Any, state: Any) -> bool:
+    """Return whether a run has passed a place at which a constraint may jump, which was not yet examined."""
+    control, hunt = state.control, state.hunt
+    if code != abi.MET:
+        return False
+    if control[e.EXAMINATION] == e.HOLDS:
+        control[e.EXAMINATION] = e.NOT_EXAMINED
+        return False
+    events, width = count_of_events(numbers_of_row(chunk, state)), state.y.shape[0]
+    first = notes_at(int(hunt[records.COUNT]), width, state.w.shape[0])
+    for i in range(int(hunt[records.NOTED])):
+        if int(hunt[first + i * (2 + width) + 1]) >= events:
+            control[e.EXAMINATION] = e.WAITS
+            return True
+    return False

@@ -17,10 +17,19 @@ from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import called, compiled_loop, signature_of
 from symgen.loops.event_loop import with_events
 from symgen.loops.frame_parts import store
-from symgen.loops.stopping import ROW, change, due, same, with_stops
+from symgen.loops.stopping import parameters_at, select_row, with_stops
 from symgen.loops.watch import iterations_in
 from symgen.native import types
-from symgen.rows.row_events import OF_EFFECTS, forget_functions, forget_past, take_effects, take_notes_of_events
+from symgen.rows.row_events import (
+    OF_EFFECTS,
+    forget_functions,
+    forget_past,
+    resumed_after_examination,
+    store_after_effects,
+    take_effects,
+    take_notes_of_events,
+    waits_for_examination,
+)
 from symgen.runs.observe import observe_rates, observe_rows
 from symgen.store.jit import jit
 
@@ -59,6 +68,20 @@ def forget(model: Any, state: Any) -> None:
 def take_notes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     """Return the end code of a run without events."""
     return code
+
+
+def resumed(state: Any) -> int:
+    """Return the end code with which a run that was left for an examination goes on, `DONE` for a new run."""
+    return int(abi.DONE)
+
+
+def waits(code: int, model: Any, chunk: Any, state: Any) -> bool:
+    """Return whether a run has to be left for an examination: none without rows that may jump."""
+    return False
+
+
+def store_after(code: int, span: Any, state: Any, outputs: Any) -> None:
+    """Do nothing: outputs of a run without events hold its state."""
 
 
 def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
@@ -225,7 +248,8 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     Returns
     -------
     int
-        Number of selected rows that are done: all, unless the run was stopped.
+        Number of selected rows that are done: all, unless the run was stopped, or the next one waits for an
+        examination.
     """
     chunk, state, series = bare(chunk), bare(state), bare(series)
     system, observers = model[0], model[1]
@@ -234,18 +258,23 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
         if state.control[abi.STOP] != 0:
             return int(s)
         r = chunk.selected[s]
-        begin_run(state, chunk.limits)
-        take_row(system, r)
-        take(chunk.ys, r * ny, ny, state.y)
-        take(chunk.ps, r * n_p, n_p, state.p)
-        take(chunk.ws, r * nw, nw, state.w)
-        forget(model, state)
-        code = integrate(system, scheme, span, state, series.outputs)
+        code = resumed(state)
+        if code == abi.DONE:
+            begin_run(state, chunk.limits)
+            take_row(system, r)
+            take(chunk.ys, r * ny, ny, state.y)
+            take(chunk.ps, r * n_p, n_p, state.p)
+            take(chunk.ws, r * nw, nw, state.w)
+            forget(model, state)
+            code = integrate(system, scheme, span, state, series.outputs)
         while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
             if code == abi.CHOOSE:
                 follow_rows(chunk, state, state.w)
+            elif waits(code, model, chunk, state):
+                return int(s)
             else:
                 ended = take_notes(code, r, model, chunk, state)
+                store_after(code, span, state, series.outputs)
                 if ended != code:
                     code = abi.MET if ended == abi.DONE else ended
                     break
@@ -267,23 +296,18 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
 
 def take_stops(system: Any, r: int) -> None:
     """Select the stops of a row."""
-    stops = system[1]
-    stops.head[ROW] = r if stops.rows.shape[0] > 2 else 0  # or one table for all
+    select_row(system[1], r)
 
 
 def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
     """Set the parameters to their values at output `k`, from the output before; at a stop, to the values before it."""
     _, stops, _, prepare, prepare_law = system
-    control, n_p, changed = state.control, state.p.shape[0], False
+    control, n_p = state.control, state.p.shape[0]
     if k == 0:
         control[abi.PASSED] = 0
         take(chunk.ps, r * n_p, n_p, state.p)
-    while times[k] > due(stops, control[abi.PASSED]) + same(stops, span, times[k]):
-        changed = change(stops, control[abi.PASSED], state.p) or changed
-        control[abi.PASSED] += 1
-    if changed:
-        prepare(state.p)
-        prepare_law(state.p)
+    passed = parameters_at(stops, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
+    control[abi.PASSED] = passed
 
 
 # -- loops -------------------------------------------------------------------------------------------------------------
@@ -301,24 +325,28 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 
 
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
-_EFFECTS = {"forget": forget_past, "take_notes": take_effects}
+_EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
+_EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
 _STOPS = {"take_row": take_stops, "hold": hold_between_stops}
 _loops: dict[Any, Any] = {}
 
 
-def over_rows(loop: Any, events: bool = False, stops: bool = False, effects: bool = False) -> Any:
+def over_rows(
+    loop: Any, events: bool = False, stops: bool = False, effects: bool = False, examined: bool = False
+) -> Any:
     """Return the loop over many runs around that over a single run, made at the first use.
 
     Parameters
     ----------
     loop : compiled loop
         From `symgen.loops.frame.loop`.
-    events, stops, effects : bool
-        Whether rows have switching functions, stops, and events that change a run.
+    events, stops, effects, examined : bool
+        Whether rows have switching functions, stops, events that change a run, and constraints that may jump.
     """
-    if (loop, events, stops, effects) not in _loops:
+    key = loop, events, stops, effects, examined
+    if key not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
-        name += "_with_effects" * effects
+        name += "_with_effects" * effects + "_examined" * examined
         inner = with_events(loop) if events else loop
         inner = with_stops(inner) if stops else inner
         args = signature_of(inner).arguments
@@ -326,7 +354,7 @@ def over_rows(loop: Any, events: bool = False, stops: bool = False, effects: boo
         model = types.RecordType((*args[:1], observers, *([OF_EFFECTS] if effects else [])))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
-        meanings |= _STOPS if stops else {}
+        meanings |= (_STOPS if stops else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
-        _loops[loop, events, stops, effects] = globals()[name] = compiled  # it is found by its name, as all loops are
-    return _loops[loop, events, stops, effects]
+        _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are
+    return _loops[key]

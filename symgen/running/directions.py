@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.holds import joint_names
-from symgen.runs.directions import MOST
+from symgen.runs.directed_model import MOST
 
 if TYPE_CHECKING:
     from symgen.running.prepare import Prepared

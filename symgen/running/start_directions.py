@@ -21,7 +21,7 @@ from symgen.describe.start import described_start
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.running.starts import held_of
-from symgen.runs.directions import DirectedModel, Seeds, lanes_of
+from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.vocabulary.rotations import composed_rotation
 
 if TYPE_CHECKING:

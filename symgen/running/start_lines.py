@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.describe.evaluate import derived, independent_values, parameter_values, scalars
-from symgen.describe.holds import holds_of
+from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.start import described_start
 from symgen.layout.model_arrays import velocity_of
 from symgen.native.formula_lines import Dialect, FormulaLines
 from symgen.running.starts import held_of
+from symgen.starts.assembler import Assembly
+from symgen.starts.held import Held
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import ModelInfo
+    from symgen.layout.compiled import CompiledModel
 
 
 def lines_for(mechanism: Mechanism, dialect: Dialect) -> FormulaLines:
@@ -58,7 +60,55 @@ def start_lines(mechanism: Mechanism, lines: FormulaLines) -> tuple[list[Any], l
     return q, v
 
 
-def fixed_velocities(mechanism: Mechanism, info: ModelInfo) -> list[int]:
-    """Return the velocities of bodies whose coordinates a start holds."""
+def is_described(mechanism: Mechanism) -> bool:
+    """Whether starts in coordinates of bodies are closed from the described one.
+
+    Those that hold coordinates of joints are closed from an exported start instead.
+    """
+    names = {f"{b.name}.{name}" for b in mechanism.bodies for name in (*b.coordinates, *b.speeds, ORIENTATION)}
+    return all(hold.name in names for hold in holds_of(mechanism))
+
+
+def exported_start(
+    mechanism: Mechanism, compiled: CompiledModel, datum: Sequence[float], turns: Sequence[float] | None
+) -> Assembly:
+    """Return the start of a mechanism in another language.
+
+    Parameters
+    ----------
+    mechanism, compiled : Mechanism, CompiledModel
+        The mechanism and its code.
+    datum : sequence of float
+        What coordinates are measured from.
+    turns : sequence of float, optional
+        Angles that count turns in the start that it is closed from, empty where their turns are chosen; None for the
+        described start, of which some coordinates and velocities stay.
+    """
+    info = compiled.info
+    if turns is not None:
+        return Assembly(compiled, branches=turns, datum=datum)
     held = held_of(info, holds_of(mechanism), scalars(parameter_values(mechanism)), [None] * info.nv)
-    return sorted({*held.fixed, *(velocity_of(i, info) for i in held.coordinates)})
+    fixed = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
+    return Assembly(compiled, Held(velocities=held.velocities, fixed=tuple(sorted(fixed))), datum=datum)
+
+
+def written_start(mechanism: Mechanism, dialect: Dialect, described: bool) -> list[str]:
+    """Return lines that set the arrays q, v and own to the described start, v to nan where nothing describes it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    dialect : Dialect
+        The language.
+    described : bool
+        Whether q and v are the described ones; else the lines set states of the file alone.
+    """
+    lines, written = lines_for(mechanism, dialect), list[str]()
+    if described:
+        q, v = start_lines(mechanism, lines)
+        written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
+        written += [f"v[{j}] = {dialect.undefined if x is None else lines.result(x)};" for j, x in enumerate(v)]
+    for i, state in enumerate(mechanism.states):
+        written.append(f"own[{i}] = {lines.result(lines.value(state.start, f'states.{state.name}.start'))};")
+    return [*lines.lines_of(written), *written]

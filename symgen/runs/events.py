@@ -55,6 +55,12 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     return event_loop.EventState(*state, hunt)
 
 
+def forget_steps(state: event_loop.EventState) -> None:
+    """Discard what schemes keep of past steps."""
+    state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
+    state.clock[abi.ALLOWED] = 0.0
+
+
 @dataclass(frozen=True)
 class Happening:
     """An event that happened.

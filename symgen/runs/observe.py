@@ -1,4 +1,4 @@
-"""Functions of the motion at outputs of one run or many: rates, multipliers, joint coordinates, formulas."""
+"""Functions of the motion at outputs of a run: rates, multipliers, joint coordinates, formulas."""
 
 from __future__ import annotations
 
@@ -6,15 +6,13 @@ import math
 from typing import Any
 
 from symgen.layout import abi
-from symgen.layout import ensemble_abi as e
 from symgen.layout.records import OBSERVED, OUTPUTS, SIZES
-from symgen.layout.start_records import record_type
 from symgen.loopcode.bare import part
 from symgen.native import types
 from symgen.store.jit import jit
 
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
-_M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
+_M = types.float64[:, ::1]
 
 
 @jit()
@@ -118,78 +116,4 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
             outputs.status[k, i] = w[i]
         for i in range(outputs.status.shape[1] - abi.N_STATUS):
             outputs.status[k, abi.N_STATUS + i] = w[abi.WINDING + i]
-    return 0
-
-
-# -- runs of an ensemble -----------------------------------------------------------------------------------------------
-
-
-#: Results of the runs of an ensemble, and working memory.
-#: - times: Output times [s].
-#: - selected: Runs.
-#: - seen (shape (runs, columns, times)): Results; nan at times that a run did not reach.
-#: - first: The first column that is copied.
-#: - places: Destination of each column from there on: (array, index), flat.
-#: - ps, ws (shapes (runs, np), (runs, nw)): Parameters and scratch, which is overwritten.
-#: - y, rates (shape (ny,)): Working memory.
-LEFT = record_type(
-    "Left",
-    __name__,
-    ("times", _A),
-    ("selected", _I),
-    ("seen", _C),
-    ("first", _I8),
-    ("places", _I),
-    ("ps ws", _M),
-    ("y rates", _A),
-)
-Left: Any = LEFT.constructor
-
-
-@jit()
-def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
-    """Copy results of a run at an output to the arguments of functions; return whether the run reached it."""
-    for c in range(places.shape[0] // 2):
-        value, at = columns[r, first + c, k], places[2 * c + 1]
-        if places[2 * c] == e.OF_Y:
-            y[at] = value
-        elif places[2 * c] == e.OF_RATES:
-            rates[at] = value
-        else:
-            w[at] = value
-    reached = True
-    for i in range(y.shape[0]):
-        reached = reached and not math.isnan(y[i])
-    return reached
-
-
-@jit(_I8(types.RecordType((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
-def measure_rows(model: Any, values: Any, at: int, entries: Any) -> int:
-    """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
-
-    Parameters
-    ----------
-    model : tuple
-        A `Left`, then a function of the formulas and ``geometry`` (`symgen.layout.abi`).
-    values : Array, shape (runs, times, numbers)
-        Written; nan at times that a run did not reach.
-    at : int
-        Where the entries begin in ``w``.
-    entries : Array, shape (runs, times, entries)
-        Written likewise; without runs where they are not requested.
-    """
-    (times, selected, columns, first, places, ps, ws, y, rates), observe, geometry = model
-    for s in range(selected.shape[0]):
-        r = selected[s]
-        for k in range(times.shape[0]):
-            reached = bring(columns, r, k, first, places, y, rates, ws[r])
-            if reached and values.shape[2] > 0:
-                observe(times[k], y, ps[r], ws[r], rates, values[r, k])
-            for i in range(0 if reached else values.shape[2]):
-                values[r, k, i] = math.nan
-            if entries.shape[0] > 0:
-                if reached:
-                    geometry(times[k], y, ps[r], ws[r])
-                for i in range(entries.shape[2]):
-                    entries[r, k, i] = ws[r, at + i] if reached else math.nan
     return 0

@@ -14,6 +14,7 @@ from symgen.base.errors import InputError
 from symgen.ir.numerics import WARN
 from symgen.layout import abi
 from symgen.layout.probe import rate_functions
+from symgen.loops.frame_parts import store_behind
 from symgen.loops.watch import iterations_in
 from symgen.runs.changes import Changes
 from symgen.runs.events import event_state
@@ -116,9 +117,11 @@ class Simulation:
         else:
             self.divide(spec)
         if spec.events is not None and spec.events.bounded is not None:
+            from symgen.runs.pressed import PressedTransitions
             from symgen.runs.transitions import Transitions
 
-            self.transitions = Transitions(self, spec.events.bounded)
+            rows = spec.events.bounded
+            self.transitions = PressedTransitions(self, rows) if rows.pressed else Transitions(self, rows)
         self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
 
     def set_limits(self) -> None:
@@ -216,13 +219,8 @@ class Simulation:
                 return ended
 
     def _store_behind(self, outputs: Outputs) -> None:
-        """Have outputs at the time of a reset hold the state behind it, from which the motion goes on."""
-        now, out = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
-        while out > 0 and abs(outputs.times[out - 1] - now) <= self.same(now):
-            out -= 1
-            outputs.states[out] = self.state.y[: outputs.states.shape[1]]
-            outputs.status[out, abi.KINETIC] = self.state.w[abi.KINETIC]
-            outputs.status[out, abi.N_STATUS :] = self.state.w[abi.WINDING :][: self.compiled.info.kept]
+        now, count = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
+        store_behind(outputs, count, now, self.same(now), self.state.y, self.state.w)
 
     def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
         """Run to the end as `enter` does; call `stop` after every `steps` steps, to end as `STOPPED`."""

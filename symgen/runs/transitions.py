@@ -45,7 +45,7 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 #: Gaps below this part of the mechanism's length are closed.
 TOUCHING = 1e-9
 #: A force above this part of its bound is at its bound, where the row has broken loose.
-_AT_BOUND = 1.0 - 1e-9
+AT_BOUND = 1.0 - 1e-9
 #: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
 DEPENDENT, _NO_FACTOR = 1e-11, 1e-9
 #: Assumed step until an adaptive run has chosen one, as a part of the run.
@@ -261,7 +261,7 @@ class Transitions:
                 break
             bounds, opening = np.where(over, sliding[rest], bounds), opening & ~back
         moves = np.where(stops, moves & (box.left > 0.0), moves)
-        moves |= ~stops & loose[rest] & (np.abs(box.forces) >= _AT_BOUND * bounds) & (bounds > 0.0)
+        moves |= ~stops & loose[rest] & (np.abs(box.forces) >= AT_BOUND * bounds) & (bounds > 0.0)
         forces[rest] = box.forces
         loose[rest] &= ~stops | opening
         direction = np.sign(np.where((box.forces == 0.0) | stops, box.left, box.forces))
@@ -375,14 +375,19 @@ class Transitions:
         result: Array = jacobian**2 @ inverse
         return result
 
-    def _accelerations(self, signs: Array) -> Array:
-        """Return the accelerations of coordinates with all rows off and efforts of some signs."""
+    def _accelerations(self, signs: Array, pushed: int | None = None) -> Array:
+        """Return the accelerations of coordinates with all rows off and efforts of some signs.
+
+        A coordinate whose bounds depend on a reaction may be `pushed` by a force of -1.
+        """
         state, now = self.simulation.state, float(self.simulation.state.clock[abi.TIME])
         w = self._scratch
         w[:] = state.w
         modes = self.simulation.compiled.modes(w)
         modes[self._places] = 0.0
         modes[self._places, SIGN] = signs
+        if pushed is not None:
+            modes[self._places[pushed], LIMIT] = 1.0
         if w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
             span = self.simulation.span
             w[abi.STEP_STATUS] = span.step if span.step > 0.0 else FIRST * span.duration

@@ -11,31 +11,32 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.compiling.checked import checked, checked_function
-from symgen.compiling.events import DIRECTIONS, effects_of
-from symgen.compiling.printed import Printed
-from symgen.compiling.side import Side, compile_side
-from symgen.describe.evaluate import parameter_values, scalars
+from symgen.compiling.events import DIRECTIONS
+from symgen.compiling.printed import Printed, PrintedEvents
+from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET, STOP
-from symgen.describe.holds import ORIENTATION, holds_of
+from symgen.effects.stepping import ENDED, FAILED
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
-from symgen.layout.model_arrays import lengths_of, velocity_of
+from symgen.layout.model_arrays import lengths_of
 from symgen.native.c99 import broken_line, c_functions, c_number
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.running.plan import Purpose
 from symgen.running.prepare import Prepared, prepare
-from symgen.running.start_lines import derived_lines, independent_places, lines_for, start_lines
-from symgen.running.starts import held_of
-from symgen.starts.assembler import Assembly
-from symgen.starts.held import Held
+from symgen.running.start_lines import (
+    derived_lines,
+    exported_start,
+    independent_places,
+    is_described,
+    written_start,
+)
 from symgen.targets._c_names import prefix_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.effects.effects import Effects
     from symgen.layout.compiled import CompiledModel
     from symgen.native.binding import BoundFunctions
     from symgen.native.language import Function
@@ -137,12 +138,7 @@ class CModel:
             scratch[first : first + size] = start.w[first : first + size]
         parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
         of_bodies = self.run.assembled.of_bodies[0].info
-        drivers = {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
-        entries = [
-            f"{{{row}, {column}, {-1 if slot is None else info.sections['jacobian'][0] + slot}, "
-            f"{c_number(constant or 0.0)}}}"
-            for row, column, constant, slot in info.jacobian
-        ]
+        drivers = self.drivers
         return {
             "name": mechanism.name,
             "title": mechanism.title or mechanism.name,
@@ -157,7 +153,8 @@ class CModel:
             "acting": acting,
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
-            "effects": self.effects is not None,
+            **{"ended": ENDED, "failed": FAILED},
+            "effects": self.events.effects is not None,
             "memory": [
                 {"name": name, "is_real": kind == "float", "size": size}
                 for name, (kind, size) in self.bound.memory.items()
@@ -175,8 +172,7 @@ class CModel:
             "p0": _list(map(c_number, start.p)),
             "y0": _list(map(c_number, start.y)),
             "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
-            "jacobian": _list(entries),
-            "driven": _list(int(row.joint in drivers) for row in info.rows),
+            "driven": any(row.joint in drivers for row in info.rows),
             "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
             "moving": _list(f'"{name}"' for name in moving_names(info)),
             **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
@@ -210,40 +206,34 @@ class CModel:
         functions["prepare_law"] = functions.pop("prepareLaw")
         if self.compiled.info.nq == self.compiled.info.nv:
             functions.pop("move", None)
-        sides, events = dict[str, Side](), self.mechanism.events
         if outputs := [(output.name, output.value) for output in self.mechanism.outputs]:
-            sides["formulas_of_outputs"] = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
-        if events:
-            sides["formulas_of_events"] = self._switching
-        functions |= {name: checked_function(side.function, abi.OBSERVE) for name, side in sides.items()}
-        return functions | (
-            {"formulas_of_effects": checked_function(self.effects.formulas, abi.OBSERVE)} if self.effects else {}
-        )
+            side = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
+            functions["formulas_of_outputs"] = checked_function(side.function, abi.OBSERVE)
+        return functions | self.events.functions
 
     @cached_property
-    def _switching(self) -> Side:
-        """Switching functions of events."""
-        conditions = [(event.name, event.when) for event in self.mechanism.events]
-        return compile_side(self.mechanism, self.compiled, "events", "Switching functions", conditions)
-
-    @cached_property
-    def effects(self) -> Effects | None:
-        """What events change."""
-        return effects_of(self.mechanism, self.compiled, self.mechanism.events)
+    def events(self) -> PrintedEvents:
+        """The events."""
+        return PrintedEvents.of(self.mechanism, self.compiled)
 
     @cached_property
     def bound(self) -> BoundFunctions:
         """Functions of the runtime."""
-        printed, start, described = Printed(self.functions), self.run.start, self._is_described
-        held = self._held if described else Held()
-        turns = [] if described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
-        printed.add_start(Assembly(self.compiled, held, branches=turns, datum=start.datum or ()))
-        if any(event.action in (STOP, RESET) for event in self.mechanism.events):
-            directions = [DIRECTIONS[e.direction] if e.action in (STOP, RESET) else 2 for e in self.mechanism.events]
-            printed.add_steps(self.compiled, self._switching.function, "formulas_of_events", directions)
-        if self.effects:
-            printed.add_effects(self.effects, "formulas_of_effects")
+        printed, start = Printed(self.functions), self.run.start
+        turns = None if self._is_described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
+        printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
+        further = ("apply_effects",) if self.events.effects else ()
+        printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
+        if self.drivers:
+            printed.add_lock(self.compiled, self.drivers)
+        if self.target == "fmu" and self.compiled.info.m:
+            printed.add_jacobian(self.compiled)
         return printed.bound()
+
+    @property
+    def drivers(self) -> set[str]:
+        """Joints that drive."""
+        return {joint.name for joint in self.mechanism.joints if joint.kind == DRIVER}
 
     @property
     def _is_described(self) -> bool:
@@ -251,37 +241,23 @@ class CModel:
 
         One that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
         """
-        columns = {*(q.name for q in self.columns), *(f"{b.name}.{ORIENTATION}" for b in self.mechanism.bodies)}
-        return not self.joint and all(hold.name in columns for hold in holds_of(self.mechanism))
-
-    @property
-    def _held(self) -> Held:
-        """The coordinates that a start does not change, and the velocities that no projection changes."""
-        info = self.compiled.info
-        held = held_of(info, holds_of(self.mechanism), scalars(parameter_values(self.mechanism)), [None] * info.nv)
-        fixed = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
-        return Held(velocities=held.velocities, fixed=tuple(sorted(fixed)))
+        return not self.joint and is_described(self.mechanism)
 
     def _start(self) -> dict[str, str]:
         """Return lines for the derived parameters and for the start."""
         mechanism = self.mechanism
-        following, written, lines = list[str](), list[str](), lines_for(mechanism, C)
+        following = list[str]()
         try:
             for place, texts in derived_lines(mechanism, C):
                 following += [f"    if (!model->set[{place}]) {{", *(f"        {text}" for text in texts), "    }"]
-            if self._is_described:
-                q, v = start_lines(mechanism, lines)
-                written += [f"q[{i}] = {lines.result(x)};" for i, x in enumerate(q)]
-                written += [f"v[{j}] = {'NAN' if x is None else lines.result(x)};" for j, x in enumerate(v)]
-            for i, state in enumerate(mechanism.states):
-                written.append(f"own[{i}] = {lines.result(lines.value(state.start, f'states.{state.name}.start'))};")
+            written = written_start(mechanism, C, self._is_described)
         except NotInLines as error:
             raise InputError(f"--target {self.target}", "a start by formulas that C has", str(error)) from None
         text = " ".join(written)
         unused = [f"(void){name};" for name in ("q", "v", "own") if f"{name}[" not in text]
         return {
             "derived": "\n".join(following),
-            "described": "\n".join(f"    {line}" for line in (*unused, *lines.lines_of(written), *written)),
+            "described": "\n".join(f"    {line}" for line in (*unused, *written)),
         }
 
 

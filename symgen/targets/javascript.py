@@ -15,7 +15,7 @@ _MODULE = """\
 // {name} by the method {method}. Written by symgen; the same mechanism gives the same bytes.
 // model.start() returns the state y at t = 0, model.rates(t, y) its rates, model.step(t, y, h) advances y.
 {script}
-const absent = {{ confirm: null, move: null, bodies: null, step_to_event: null }};
+const absent = {{ confirm: null, bodies: null, find_lock: null }};
 export const model = makeLive({spec}, Object.assign(absent, emitted));
 """
 

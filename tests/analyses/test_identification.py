@@ -7,7 +7,7 @@ import pytest
 from running.lengths import FOUR_BAR, ROD, model
 
 from symgen import InputError
-from symgen.analyses.identification import null_directions
+from symgen.analyses.null_directions import null_directions
 from symgen.cli import main
 
 TRUE = {"k": 300.0, "rest": 0.5, "damping": 8.0, "m2": 8.0, "m3": 5.0}

@@ -35,7 +35,7 @@ def opened(wiper: Path, chromium: Chromium) -> Iterator[Chromium]:
 
 
 def field(name: str, kind: str = "number") -> str:
-    return f"document.querySelector('input[type={kind}][data-name={name}]')"
+    return f"document.querySelector('input[type={kind}][data-name=\"{name}\"]')"
 
 
 def typed(chromium: Chromium, name: str, text: str) -> None:

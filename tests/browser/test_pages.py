@@ -56,7 +56,7 @@ def test_pages_of_the_catalogue(
     path = page_of(name, pages, tmp_path_factory.mktemp("pages"))
     spatial = load(name).mechanism.space == "spatial"
     size = len(path.read_bytes())
-    assert size <= (700_000 if spatial else 400_000)
+    assert size <= (1_600_000 if spatial else 900_000)
     for width, height in ((1280, 800), (390, 800)):
         chromium.open(path, width, height)
         for box in ("forces", "gaps", "labels"):

@@ -3,11 +3,18 @@
 Functions of the mechanism are recorded: their sines differ between languages.
 """
 
+import json
+from pathlib import Path
+
+import numpy as np
 import pytest
 from native import printed, printed_starts
 from native.printed_starts import FEW, MANY
 
+from symgen import Settings, load
 from symgen.layout import abi
+from symgen.running.plan import Purpose
+from symgen.running.prepare import prepare
 from symgen.starts.starting import close_rows
 from symgen.store.jit import RuntimeFunction
 from tests.browser.chromium import Chromium
@@ -50,3 +57,58 @@ def test_starts(case, functions, chromium: Chromium, monkeypatch: pytest.MonkeyP
         printed.assert_same_bits(found, after)
 
     printed_starts.starts(case, monkeypatch, compare)
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("driven-four-bar", {"crank_speed": 3.0, "crank_start": 1.2}),
+        ("engine", {"rod_length": 0.15}),
+        ("rolling-disc", {"radius": 0.25, "lean": 0.3}),
+        ("spatial-slider-crank", {}),
+        ("wiper", {"link_length": 0.31}),
+    ],
+)
+def test_pages_start_as_runs_do(name: str, values: dict[str, float], chromium: Chromium, tmp_path: Path) -> None:
+    model = load(name)
+    chromium.open(model.simulate(integrator="rk4", until=0.01).view().save(tmp_path / "page.html"))
+    found = np.array(chromium.run(f"window.symgen.run({json.dumps(values)}, 0)"))
+    run = prepare(model.mechanism, Settings(shape="straight", parameters=values), Purpose.STATE)
+    work = run.compiled.info.work
+    np.testing.assert_allclose(found[:work], run.start.y[:work], rtol=0, atol=1e-12)
+
+
+SPUN = """
+[mechanism]
+name = "spun"
+gravity = [0.0, 0.0]
+[parameters]
+charge = 2.0
+[bodies.disc]
+mass = 1.0
+inertia = 0.5
+[joints.pin]
+type = "revolute"
+between = ["ground", "disc"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+[joints.pin.start]
+angle = 0.4
+"angle.rate" = 3.0
+[states.stored]
+start = "3*charge"
+rate = "-stored"
+[run]
+until = 1.0
+step = 1e-3
+"""
+
+
+def test_states_of_a_file_start_by_their_formulas(chromium: Chromium, tmp_path: Path) -> None:
+    """Such a state decays: 3 charge exp(-t)."""
+    (tmp_path / "spun.toml").write_text(SPUN)
+    result = load(tmp_path / "spun.toml").simulate(integrator="rk4")
+    chromium.open(result.view().save(tmp_path / "page.html"))
+    for charge in (2.0, 5.0):
+        found = chromium.run(f"window.symgen.run({{charge: {charge}}}, 1.0)")
+        assert found[-1] == pytest.approx(3.0 * charge * np.exp(-1.0), rel=1e-11)
+        assert found[2] == pytest.approx(3.4, abs=1e-12)

@@ -180,3 +180,25 @@ def test_the_python_interface_is_lazy():
     assert set(symgen.__all__) <= set(dir(symgen))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         symgen.nothing  # noqa: B018  # looking it up is the test
+
+
+def test_long_lines_are_written_by_terms_that_mean_the_same(capsys):
+    """Forces of the governor by lengths and rates of its springs, against an interpreter of the graph."""
+    assert main(["inspect", "flyball-governor"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    terms = lines[lines.index("Shared terms of gamma and f") + 2 : lines.index("Energies") - 1]
+    assert {"spring1.length", "spring1.rate", "shaft.a00"} <= {line.partition(" = ")[0] for line in terms}
+    assert max(len(line) for line in lines if line.startswith(("gamma[", "f["))) < 600  # it was 2421
+    e = formulate(symgen.load("flyball-governor").mechanism)
+    rng = random.Random(5)
+    q, v = ([rng.uniform(-1.0, 1.0) for _ in range(n)] for n in (e.nq, e.nv))
+    inputs = state_inputs(0.7, q, v, [rng.uniform(0.5, 1.5) for _ in e.parameters])
+    values = {title: inputs[key] for key, title in input_names(e).items() if key in inputs}
+    for line in terms:
+        title, _, text = line.partition(" = ")
+        values[title] = worth(text, values)
+    titles = [f"gamma[{row.name}] = " for row in e.rows] + [f"f[{velocity.name}] = " for velocity in e.velocities]
+    nodes = [*(row.gamma for row in e.rows), *e.forces]
+    for title, expected in zip(titles, node_values(e.graph, nodes, inputs), strict=True):
+        (line,) = (line for line in lines if line.startswith(title))
+        assert worth(line.removeprefix(title), values) == pytest.approx(expected, rel=1e-9, abs=1e-9), title

@@ -91,3 +91,12 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
             refused()
     with pytest.raises(InputError, match="straight code where a file has stops"):
         model.simulate(until=0.1, shape="looped")
+
+
+def test_friction_by_a_reaction_beside_a_stop_is_refused() -> None:
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    raw["joints"]["A"]["stop"] = {"upper": 9.0}
+    raw["joints"]["B"]["friction"] = {"coefficient": 0.1, "radius": 0.02}
+    with pytest.raises(InputError, match="friction of constant bound, beside stops"):
+        validate(raw, source)

@@ -9,6 +9,7 @@ from support.checks import assert_same_motion
 from support.emitted import mechanism_of
 
 import symgen
+from ensemble.single_runs import assert_rows
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.catalogue import raw
@@ -87,6 +88,19 @@ def test_balls_bounce_each_with_its_own_restitution_until_their_impacts_accumula
         one = ball(**IMPACT).simulate(parameters={"bounce": float(e)}, times=(1.0,), until=5.0, **FALLING)
         assert (found.reason[i], n) == (one.reason, len(one.events))
         assert_same_motion(found["ball.y"][i, 0], one["ball.y"][0])
+
+
+@pytest.mark.parametrize("scheme", [{}, {"integrator": "dop853", "step": None}], ids=["constant", "adaptive"])
+def test_an_output_at_a_reset_holds_the_state_behind_it(scheme):
+    """Thrown up with 3 m/s at 0.25 s, where h - g t^2 / 2 is the height: in rows as in single runs."""
+    model = ball(throw={"when": "t > 0.25", "reset": {"ball.vy": "3.0"}})
+    settings = {**FALLING, **scheme, "until": 0.5}
+    at = model.simulate(**settings).events[0].t
+    settings["times"] = (0.1, at, 0.5)
+    found = symgen.sweep(model, {"height": [1.0, 2.0]}, quantities=("q", "v", "energy"), **settings)
+    np.testing.assert_allclose(found["ball.vy"], [[-0.1 * G, 3.0, 3.0 - 0.25 * G]] * 2, atol=1e-9)
+    np.testing.assert_allclose(found["ball.y"][:, 1], [1.0 - 0.5 * G / 16.0, 2.0 - 0.5 * G / 16.0], atol=1e-9)
+    assert_rows(found, model, **settings)
 
 
 def test_an_input_that_cannot_be_is_not_blamed_on_an_event():

@@ -327,6 +327,7 @@ def pushed(formula: str) -> Mechanism:
     text = raw("four-bar")
     text["inputs"] = {"push": 0.0}
     text["forces"] = {"pushing": {"type": "force", "body": "crank", "force": [formula, 0.0]}}
+    text["outputs"] = {"pulse": {"value": "push*t + crank.ax", "unit": "1"}}
     return mechanism_of(text)
 
 
@@ -339,7 +340,8 @@ def pushed(formula: str) -> Mechanism:
 def test_rows_whose_inputs_jump_stay_in_the_loop_and_are_single_runs(push, steps):
     model, settings = symgen.load(pushed("push")), {"until": 0.2, "times": (0.0, 0.02, 0.05, 0.1, 0.101, 0.2)}
     settings |= {"inputs": {"push": push}, **steps}
-    found = symgen.sweep(model, {"crank_mass": [1.0, 2.0, 3.0]}, quantities=EVERYTHING, **settings)
+    kept = (*EVERYTHING, "pulse", "reactions")
+    found = symgen.sweep(model, {"crank_mass": [1.0, 2.0, 3.0]}, quantities=kept, **settings)
     assert not (found.ensemble.recipe.watch and found.ensemble.recipe.watch.alone) and found.ensemble.recipe.stops
     assert_rows(found, model, **settings)
     jumped = symgen.sweep(
@@ -369,13 +371,15 @@ def test_rows_with_events_and_inputs_that_jump_stay_in_the_loop_and_are_single_r
     model, settings = symgen.load(pushed("push")), {"until": 0.3, action: "crank.theta < 1.03", **steps}
     settings["inputs"] = {"push": "40*crank_mass if t < 0.11 else -60"}
     masses = [1.0, 3.0, 6.0]
-    found = symgen.sweep(model, {"crank_mass": masses}, quantities=("crank.theta",), **settings)
+    found = symgen.sweep(model, {"crank_mass": masses}, quantities=("crank.theta", "pulse", "A.Fx"), **settings)
     watch = found.ensemble.recipe.watch
     assert watch is not None and not watch.alone and found.ensemble.recipe.stops
     times = []
     for r, mass in enumerate(masses):
         one = model.simulate(**settings, parameters={"crank_mass": mass})
         assert found["crank.theta"].ravel()[r] == pytest.approx(one["crank.theta"][-1], abs=1e-12)
+        for quantity in ("pulse", "A.Fx"):  # with the time and the inputs at the end of this run
+            assert_same_motion(found[quantity].ravel()[r], one[quantity][-1], quantity)
         name = "event.crank.theta < 1.03"
         assert found[f"{name}.count"][r] == len(one.events)
         times += [event.t for event in one.events[:1]]

@@ -21,7 +21,7 @@ def pendulum(count):
 
 def check(integrator, coordinates):
     method = {"generalized-alpha": "generalized-alpha", "trapezoidal": "index3-augmented-lagrangian"}
-    method |= {name: name for name in ("half-explicit", "rattle")}
+    method |= {"half-explicit": "half-explicit", "phem56": "half-explicit", "rattle": "rattle"}
     constant = {"options": {"integrator.adaptive": "false"}} if INTEGRATORS.get(integrator).adaptive else {}
     settings = {"method": method.get(integrator, "lagrange"), "integrator": integrator, "coordinates": coordinates}
     settings |= {"step": STEP, "until": STEP * STEPS, "max_energy_error": 1e9, "max_violation": 1.0, **constant}

@@ -1,6 +1,7 @@
 """Velocities that rows fix: the same motion as dense matrices have, masks, ranks, and what is never taken."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from symgen.compiling.choices import on_tree
 from symgen.describe.switching import with_switchable
 from symgen.formulate.formulate import formulate
 from symgen.ir.program import EliminationPlan, FixedVelocities
-from symgen.lower.blocks import fixed_velocities
+from symgen.lower.blocks import closed_loops, fixed_velocities
 from symgen.lower.plans import cheapest_plan
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._base import multiplier_law
@@ -123,6 +124,7 @@ def test_what_is_left_of_a_row_raises_the_flag_where_it_cancels(scale):
 
 
 ENTRIES = (
+    *("klann-leg", "engine", "cam-follower", "spherical-double-pendulum", "n-four-bar:2"),
     "four-bar",
     "slider-crank",
     "andrews",
@@ -148,6 +150,8 @@ def test_every_plan_gives_the_motion_of_the_dense_equations(name, coordinates):
     inputs |= {("mask", i): 0.0 for i in range(e.m)} | {("gauge", j): 1.0 for j in range(e.nv)}
     inputs |= {("winding", i): 0.0 for i in range(len(e.windings))}
     solved = [laid_out(e, motion, plan) for plan in plans]
+    if (plan := closing(e)).loops:
+        solved.append(laid_out(e, motion, plan, closed=True))
     plain, rng = ScalarNodes(e), np.random.default_rng(1)
     for _ in range(6):
         q = rng.uniform(-1.0, 1.0, e.nq)
@@ -168,6 +172,64 @@ def test_every_plan_gives_the_motion_of_the_dense_equations(name, coordinates):
         for scalars, (a, multipliers) in solved:
             found = np.array(node_values(scalars.graph, [*a, *multipliers], state, e.tables))
             assert np.abs(found - expected).max() <= 1e-15 * np.linalg.cond(matrix) * 100 * np.abs(expected).max()
+
+
+def closing(equations):
+    fixed = fixed_velocities(equations, False)
+    return EliminationPlan(fixed, schur=False, normal=True, loops=closed_loops(equations, fixed))
+
+
+@pytest.mark.parametrize(
+    ("name", "loops"), [("jansen-leg", 3), ("driven-four-bar", 1), ("four-bar", 0), ("bricard", 0)]
+)
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_loops_are_closed_where_a_driver_leaves_no_choice_of_velocities(name, loops, coordinates):
+    mechanism = symgen.load(name).mechanism
+    e = formulate(on_tree(mechanism) if coordinates == "joint" else mechanism)
+    plan = closing(e)
+    assert len(plan.loops) == loops
+    assert len({c for each in (*plan.fixed, *plan.loops) for c in each.columns}) == (e.nv if loops else len(plan.fixed))
+
+
+def dyad(turned: float, reach: float = 0.4):
+    """Return equations of a crank with a driver, and two links whose columns enclose an angle, and values of inputs.
+
+    The velocity of the crank is fixed by a row of its own; the two rows of the closing joint are of all three.
+    """
+    c, s = math.cos(0.3 + turned), math.sin(0.3 + turned)
+    d = np.array(
+        [[1.0, 0.0, 0.0, 0.0], [0.2, -0.7 * math.sin(0.3), -reach * s, 0.0], [0.1, 0.7 * math.cos(0.3), reach * c, 0.0]]
+    )
+    equations, values = equations_of(d, np.array([0.5, 1.5, 2.0, 3.0]))
+    rows = tuple(replace(row, joint="driver" if i == 0 else "closing") for i, row in enumerate(equations.rows))
+    return d, replace(equations, rows=rows), values
+
+
+@pytest.mark.parametrize("turned", [1.2, 0.01, -0.01, 3.0])
+def test_a_closed_loop_has_the_motion_of_the_dense_equations_up_to_its_flag(turned):
+    d, e, values = dyad(turned)
+    plan = closing(e)
+    assert [(each.columns, each.rows) for each in plan.loops] == [((1, 2), (1, 2))]
+    scalars, (a, multipliers, flag) = laid_out(e, lambda s: [*motion(s), s.flag()], plan, closed=True)
+    right = np.array([0.3, -1.0, 2.0, 0.7, 0.4, -0.2, 1.1])
+    values |= {("f", j): x for j, x in enumerate(right[:4])} | {("gamma", i): x for i, x in enumerate(right[4:])}
+    expected = np.linalg.solve(np.block([[np.diag([0.5, 1.5, 2.0, 3.0]), d.T], [d, np.zeros((3, 3))]]), right)
+    found = node_values(scalars.graph, [*a, *multipliers, flag], values)
+    close(found[:-1], expected, "v' and lambda", 1e-9)
+    assert found[-1] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("turned", "reach", "masked"),
+    [(0.0, 0.4, None), (math.pi, 0.4, None), (1e-4, 0.4, None), (1.2, 1e-7, None), (1.2, 0.4, 2)],
+)
+def test_a_loop_is_suspicious_where_its_columns_are_parallel_or_vanish_or_a_row_is_left_out(turned, reach, masked):
+    _, e, values = dyad(turned, reach)
+    scalars, (_, _, flag) = laid_out(e, lambda s: [*motion(s), s.flag()], closing(e), closed=True)
+    values |= {("f", j): 1.0 for j in range(4)} | {("gamma", i): 1.0 for i in range(3)}
+    if masked is not None:
+        values["mask", masked] = math.inf
+    assert node_values(scalars.graph, [flag], values)[0]
 
 
 @pytest.mark.parametrize("name", ["four-bar", "bricard", "chain:4", "rolling-disc"])

@@ -64,13 +64,14 @@ def random_rows(rng, m: int, n: int) -> np.ndarray:
     return d
 
 
-def laid_out(equations: Equations, formula, plan=SCHUR):
+def laid_out(equations: Equations, formula, plan=SCHUR, closed=False):
     """What a formula over a system gives, element by element."""
     system = System()
     ends = formula(system)
     part = Part("rhs", "", tuple(("", end.index) for end in ends))
     record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
     scalars = ScalarNodes(equations, record.operations, plan=plan)
+    scalars = scalars.with_closed_loops() if closed else scalars
     scalars.compute(record.ends)
     return scalars, [scalars.values[index] for index in record.ends]
 

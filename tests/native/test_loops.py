@@ -21,7 +21,7 @@ from .twofold import process
 
 SCHEMES = {
     "picard": ("constant", "adaptive"),
-    **dict.fromkeys(("explicit", "adams", "implicit"), ("constant", "adaptive")),
+    **dict.fromkeys(("explicit", "adams", "implicit", "partitioned"), ("constant", "adaptive")),
     **dict.fromkeys(("alpha", "lie", "projected", "half_explicit", "rattle", "symplectic", "screw"), ("constant",)),
 }
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
@@ -100,9 +100,10 @@ CASES = {
     "lie": ("heavy-top", "lagrange", "rkmk4", "free-rigid-body", "lagrange", "symplectic-euler"),
     "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
     "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
+    "partitioned": ("spatial-slider-crank", "half-explicit", "phem56"),
 }
 #: Integrators whose steps depend on rounding, as errors are estimated.
-ADAPTIVE = {"dop853", "picard", "abm", "radau5"}
+ADAPTIVE = {"dop853", "picard", "abm", "radau5", "phem56"}
 
 
 def compared(shape, *words):

@@ -11,6 +11,7 @@ import symgen
 from symgen import InputError
 from symgen.methods import METHODS
 
+from .differences import differences
 from .lengths import (
     BY_NAME,
     FOUR_BAR,
@@ -136,26 +137,6 @@ def test_events_that_are_only_recorded_change_nothing(rod):
         assert noted.gradient("rod.omega").row()[name] == pytest.approx(value, rel=1e-11)
 
 
-def test_resets_are_refused(tmp_path):
-    ball = """
-[mechanism]
-name = "ball"
-gravity = [0.0, -9.81]
-[parameters]
-e = 0.7
-[bodies.ball]
-type = "point"
-mass = 1.0
-position = [0.0, 1.0]
-[events.bounce]
-when = "ball.y"
-direction = "falling"
-reset = { "ball.vy" = "-e*ball.vy" }
-"""
-    with pytest.raises(InputError, match="events change no state, got the event 'bounce', which does"):
-        model(tmp_path, ball).simulate(until=1.0, sensitivities="e", integrator="dop853")
-
-
 @pytest.mark.parametrize(("integrator", "order", "step"), [("rk4", 4, 2e-2), ("dopri5", 5, 1e-2), ("dop853", 8, 0.1)])
 def test_errors_fall_with_the_order_of_the_scheme(rod, integrator, order, step):
     errors = []
@@ -171,16 +152,6 @@ def test_errors_fall_with_the_order_of_the_scheme(rod, integrator, order, step):
         )
         errors.append(abs(run.gradient("rod.theta").row()["length"] - ROD_BY["length"][0]))
     assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.7)
-
-
-def differences(model, name: str, value: float, width: float, quantity: str, **settings) -> float:
-    """Return a derivative at the end of a run by differences of fourth order of whole runs."""
-    ends = {}
-    for k in (-2, -1, 1, 2):
-        changed = {name: value + k * width}
-        kind = "start" if "." in name else "parameters"
-        ends[k] = model.simulate(**settings, **{kind: changed}, verify=False)[quantity][-1]
-    return (8.0 * (ends[1] - ends[-1]) - (ends[2] - ends[-2])) / (12.0 * width)
 
 
 CONSTANT = {"integrator": "rk4", "step": 1e-2, "until": 0.4, "times": [0.4]}

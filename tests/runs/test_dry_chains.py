@@ -1,7 +1,7 @@
-"""Random chains with dry pins against an event-driven reference in angles, with SciPy's least squares for modes."""
+"""Random chains with dry pins against event-driven references in angles, with SciPy's least squares for modes."""
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -40,6 +40,9 @@ class Chain:
             numbers.normal(size=n) * moving,
         )
 
+    def friction(self, i):
+        return {"sliding": float(self.sliding[i]), "static": float(self.static[i])}
+
     def described(self):
         raw = {"mechanism": {"name": "dry-chain", "gravity": [0.0, -GRAVITY]}, "bodies": {}, "joints": {}}
         place, velocity = np.zeros(2), np.zeros(2)
@@ -61,7 +64,7 @@ class Chain:
                 "type": "revolute",
                 "between": [f"b{i - 1}" if i else "ground", f"b{i}"],
                 "at": ["q" if i else [0.0, 0.0], "p"],
-                "friction": {"sliding": float(self.sliding[i]), "static": float(self.static[i])},
+                "friction": self.friction(i),
             }
             place, velocity = place + along, velocity + turned
         return validate(raw, "dry-chain")
@@ -139,11 +142,106 @@ class Chain:
             signs, count = self.chosen(y, still, hit & (signs == 0.0)), count + 1
 
 
+class Rubbing(Chain):
+    """The same with torques by the reactions of pins: `sliding` and `static` are mu r [m]."""
+
+    @classmethod
+    def random(cls, seed: int, moving: bool) -> "Rubbing":
+        chain = super().random(seed, moving)
+        chain.sliding, chain.static = 0.03 * chain.sliding, 0.03 * chain.static
+        return chain
+
+    def friction(self, i):
+        return {"coefficient": float(self.sliding[i]), "static_coefficient": float(self.static[i]), "radius": 1.0}
+
+    def pressed(self, y, accelerations):
+        """Return the forces of pins on the rods below: of gravity and inertia of all rods from each one on."""
+        n = len(self.lengths)
+        e, across = np.array([np.cos(y[:n]), np.sin(y[:n])]).T, np.array([-np.sin(y[:n]), np.cos(y[:n])]).T
+        ends = self.lengths[:, None] * (accelerations[:, None] * across - (y[n:] ** 2)[:, None] * e)
+        centres = np.cumsum(ends, axis=0) - ends / 2 + np.array([0.0, GRAVITY])
+        return np.cumsum((self.masses[:, None] * centres)[::-1], axis=0)[::-1]
+
+    def linear(self, y):
+        """Return accelerations and forces of pins without friction, and what unit torques take from both."""
+        mass, force = self.equations(y)
+        n = len(force)
+        rows = np.eye(n) - np.eye(n, k=-1)
+        x = np.linalg.solve(mass, np.column_stack([force, rows.T]))
+        none = self.pressed(y, np.zeros(n))
+        parts = np.array([self.pressed(y, x[:, 1 + j]) - none for j in range(n)])
+        return x[:, 0], x[:, 1:], self.pressed(y, x[:, 0]), parts
+
+    @staticmethod
+    def sizes(alone, parts, torques):
+        return np.sqrt(((alone - np.tensordot(torques, parts, 1)) ** 2).sum(axis=1))
+
+    def motion(self, y, signs):
+        return self.moved(y, signs)[:2]
+
+    def moved(self, y, signs):
+        n = len(signs)
+        free, spread, alone, parts = self.linear(y)
+        rows, rest, torques = np.eye(n) - np.eye(n, k=-1), np.flatnonzero(signs == 0.0), np.zeros(n)
+        relative, matrix = rows @ free, rows @ spread
+        among = np.linalg.inv(matrix[np.ix_(rest, rest)])
+        for _ in range(500):
+            before, size = torques, self.sizes(alone, parts, torques)
+            torques = signs * self.sliding * size
+            torques[rest] = among @ (relative - matrix @ torques)[rest]
+            if np.abs(torques - before).max() < 1e-14:
+                break
+        return free - spread @ torques, torques, size
+
+    def chosen(self, y, still, broken):
+        n = len(still)
+        rows = np.eye(n) - np.eye(n, k=-1)
+        mass, force = self.equations(y)
+        signs = np.where(still, 0.0, np.sign(rows @ y[n:]))
+        rest = np.flatnonzero(still)
+        if not len(rest):
+            return signs
+        lower = np.linalg.cholesky(mass)
+        columns = np.linalg.solve(lower, rows[rest].T)
+        torques, (_, _, alone, parts) = self.motion(y, signs)[1], self.linear(y)
+        coefficients = np.where(broken, self.sliding, self.static)[rest]
+        while True:
+            for _ in range(500):
+                before, size = torques.copy(), self.sizes(alone, parts, torques)
+                torques = signs * self.sliding * size
+                right, bounds = np.linalg.solve(lower, force - rows.T @ torques), coefficients * size[rest]
+                torques[rest] = lsq_linear(columns, right, (-bounds, bounds), method="bvls", tol=1e-15, max_iter=200).x
+                if np.abs(torques - before).max() < 1e-13:
+                    break
+            moves = np.abs(columns.T @ (right - columns @ torques[rest])) > 1e-9
+            if not (over := moves & (coefficients > self.sliding[rest])).any():
+                break
+            coefficients = np.where(over, self.sliding[rest], coefficients)
+        moves |= broken[rest] & (np.abs(torques[rest]) >= bounds * (1.0 - 1e-9))
+        signs[rest] = np.where(moves, np.sign(torques[rest]), 0.0)
+        return signs
+
+    def function(self, signs, i, t, y):
+        if signs[i] != 0.0:
+            return super().function(signs, i, t, y)
+        _, torques, size = self.moved(y, signs)
+        return self.static[i] * size[i] - abs(torques[i])
+
+
+@cache
+def reference(kind: type[Chain], seed: int, moving: bool) -> tuple[np.ndarray, int]:
+    """Return the state of a chain after 1 s, and the number of its transitions."""
+    return kind.random(seed, moving).run(1.0)
+
+
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize(("seed", "moving"), [(1, False), (2, True), (3, True), (4, True)])
-def test_random_chains(seed: int, moving: bool, coordinates: str) -> None:
-    chain = Chain.random(seed, moving)
-    end, count = chain.run(1.0)
+@pytest.mark.parametrize(
+    ("kind", "seed", "moving"),
+    [*((Chain, *x) for x in ((1, False), (2, True), (3, True), (4, True))), (Rubbing, 5, True)],
+)
+def test_random_chains(kind: type[Chain], seed: int, moving: bool, coordinates: str) -> None:
+    chain = kind.random(seed, moving)
+    end, count = reference(kind, seed, moving)
     settings = Settings(integrator="dop853", until=1.0, verify=False, rtol=1e-12, atol=1e-12, coordinates=coordinates)
     run = prepare(chain.described(), settings)
     outcome = run.of_bodies(run.integrate())

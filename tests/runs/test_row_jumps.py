@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from ensemble.single_runs import assert_rows
 from scipy.integrate import solve_ivp
 from support.emitted import mechanism_of
 
@@ -221,6 +222,22 @@ def test_sweeps_count_turns_and_examine_rows():
         assert "a row jumps or has a kink" in found.reason[1]
     with pytest.raises(InputError, match="expected no rows with jumps or kinks"):
         symgen.sweep(belt(CUT), vary, until=3.0, integrator="rk4", step=1e-2, target="lanes")
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}, {"integrator": "dop853", "coordinates": "joint"}],
+    ids=["adaptive", "constant", "joint"],
+)
+def test_rows_that_pass_a_place_go_on_in_their_loop_as_single_runs(settings):
+    """The second derivative of the wire jumps at y = 1, which the rows reach at 5, 1 and 5/7 s."""
+    model, speeds = symgen.load(bead("max(a.y - 1, 0)**2")), [0.1, 0.5, 0.7]
+    settings |= {"until": 3.0, "times": (1.0, 3.0), "record_when": "a.y > 0.9"}
+    found = symgen.sweep(model, {"a.vy": speeds}, quantities=("q", "v", "event"), **settings)
+    assert not found.ensemble.recipe.watch.alone
+    assert_rows(found, model, "start", **settings)
+    np.testing.assert_array_equal(found["event.a.y > 0.9.count"], [0.0, 1.0, 1.0])
+    np.testing.assert_allclose(found["event.a.y > 0.9.first"][1:], [0.8, 0.4 / 0.7], atol=1e-8)
 
 
 def test_an_angle_in_space_is_about_an_axis():

@@ -11,6 +11,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import InputError
 from symgen.catalogue import raw
+from symgen.compiling.choices import on_tree
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 
@@ -218,3 +219,10 @@ def test_parallel_cranks_stay_parallel_through_flat_positions_at_all_tolerances(
         assert found.status == "ok", (rtol, found.reason)
         for crank in ("c1.theta", "c2.theta"):
             assert found[crank][-1] == pytest.approx(law.y[0, -1], abs=1e-2), (rtol, crank)
+
+
+def test_every_run_of_a_description_takes_the_same_tree():
+    """Its digest and numbers are computed once then, which a warm call would otherwise pay for."""
+    mechanism = symgen.load("four-bar").mechanism
+    tree = on_tree(mechanism)
+    assert on_tree(mechanism) is tree and tree.topology is not None

@@ -9,7 +9,8 @@ PAIRS = [
     *(("direct-correction", name) for name in ("sdirk", "radau5", "trapezoidal", "newmark")),
     *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
     *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm", "dop853", "picard")),
-    *(("half-explicit", "half-explicit"), ("rattle", "rattle"), ("implicit-constraint", "symplectic-euler")),
+    *(("half-explicit", "half-explicit"), ("half-explicit", "phem56"), ("rattle", "rattle")),
+    ("implicit-constraint", "symplectic-euler"),
     *(("augmented-hamiltonian", "dopri5"), ("augmented-lagrangian", "rk4")),
 ]
 CONSTANT = {"options": {"integrator.adaptive": "false"}}

@@ -46,4 +46,15 @@ reset = { "crank.omega" = "0.8*crank.omega + 0.5", last = "t" }
 hit = "last"
 """
 )
+#: The ball's run ends where it is far, at t = 1.2; the state `clock` is the time.
+STOPPED = BALL.replace(
+    "[events.floor]",
+    """[states.clock]
+start = 0.0
+rate = 1.0
+[events.far]
+when = "ball.x > 1.2"
+action = "stop"
+[events.floor]""",
+)
 STRUCK = {"ball": BALL, "four-bar": FOUR_BAR}

@@ -53,7 +53,7 @@ def described(name: str, folder: Path) -> Path:
 def model(tmp_path_factory):
     folder = tmp_path_factory.mktemp("names")
     mechanism = load(described("swing", folder)).mechanism
-    return CModel.of(Request(mechanism, folder), "c")
+    return CModel.of(Request(mechanism, folder), "fmu")
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

@@ -16,13 +16,13 @@ MAIN = """
 #include "{prefix}.h"
 #include <stdio.h>
 int main(void) {{
-    static {prefix} model, before;
+    static {prefix} model;
     {prefix}_real columns[{upper}_COLUMNS], outputs[{upper}_OUTPUTS];
     int event;
     {prefix}_init(&model);
     if ({prefix}_start(&model)) return 1;
     for (int k = 1; k <= {until} * 100; k++) {{
-        if ({prefix}_advance(&model, &before, k * 0.01, 1e-3, &event)) return 1;
+        if ({prefix}_advance(&model, k * 0.01, 1e-3, &event)) return 1;
         {prefix}_outputs(&model, model.t, model.y, outputs);
         {prefix}_bodies(&model, model.t, model.y, columns);
         for (int i = 0; i < {upper}_OUTPUTS; i++) printf("%.17g ", outputs[i]);

@@ -52,7 +52,7 @@ def attempt(
         for i in range(nv):
             right[i] = -rest[nq + i]
         copied(width, run.trial, held)
-        exponential_rate(held, nq, moved, scheme.spins, nv, part(turning, s * nv, nv))
+        exponential_rate(held, nq, moved, scheme.spins, nv, 0.0, part(turning, s * nv, nv))
         for i in range(nv):
             moved[i] = 0.0
             run.trial[nq + i] = run.y[nq + i]

@@ -19,9 +19,12 @@ from symgen.loopcode.vectors import total
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import evaluate
 
+#: Coefficient of the term of u' with four products, which order 5 needs.
+FOURTH = 1.0 / 720.0
 
-def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, rate: Any) -> None:
-    """Write u' for velocities that begin at index `at` of `v` to `rate`."""
+
+def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, fourth: float, rate: Any) -> None:
+    """Write u' for velocities that begin at index `at` of `v` to `rate`, with `fourth` of four products or 0."""
     for i in range(nv):
         rate[i] = v[at + i]
     for s in range(spins.shape[0]):
@@ -29,9 +32,10 @@ def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, rate: Any) ->
         x, y, z = u[j], u[j + 1], u[j + 2]
         a, b, c = v[at + j], v[at + j + 1], v[at + j + 2]
         p, q, r = y * c - z * b, z * a - x * c, x * b - y * a
-        rate[j] += 0.5 * p + (y * r - z * q) / 12.0
-        rate[j + 1] += 0.5 * q + (z * p - x * r) / 12.0
-        rate[j + 2] += 0.5 * r + (x * q - y * p) / 12.0
+        share = 1.0 / 12.0 + fourth * (x * x + y * y + z * z)  # four products with u are two, times -|u|^2
+        rate[j] += 0.5 * p + share * (y * r - z * q)
+        rate[j + 1] += 0.5 * q + share * (z * p - x * r)
+        rate[j + 2] += 0.5 * r + share * (x * q - y * p)
 
 
 def attempt(
@@ -51,7 +55,7 @@ def attempt(
         if s < tableau.stages:
             evaluate(system, run, t + tableau.nodes[s] * h, trial, rate)
             stage = part(stages, s * width, width)
-            exponential_rate(trial, nq, moved, scheme.spins, nv, stage)
+            exponential_rate(trial, nq, moved, scheme.spins, nv, 0.0, stage)
             for i in range(nq, ny):
                 stage[nv + i - nq] = rate[i]
     run.control[abi.EVALUATIONS] += tableau.stages

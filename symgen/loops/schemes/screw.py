@@ -101,7 +101,7 @@ def attempt(
         if s < tableau.stages:
             evaluate(system, run, t + tableau.nodes[s] * h, trial, rate)
             stage = part(stages, s * width, width)
-            exponential_rate(trial, nq, moved, scheme.spins, nv, stage)
+            exponential_rate(trial, nq, moved, scheme.spins, nv, 0.0, stage)
             for i in range(nq, ny):
                 stage[nv + i - nq] = rate[i]
             for b in range(0, bodies.shape[0], 2):

@@ -2,129 +2,35 @@
 
 function makeLive(spec, code) {
   const { nq, nv, ny, m, at } = spec;
-  const { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
-  const stages = [0, 1, 2, 3].map(() => new Float64Array(ny));
-  const middle = new Float64Array(ny), dual = new Float64Array(m);
-  const kept = [new Float64Array(ny), w.slice(), iw.slice()];
+  const { p, w, iw, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
+
+  // What functions of the runtime take: parameters, scratch, counters and working memory.
+  const memory = { p, w, iw };
+  for (const [name, size] of spec.memory) memory[name] = new Float64Array(size);
 
   // -- the start ------------------------------------------------------------------------------------------------------
 
-  function jacobian() {
-    const d = Array.from({ length: m }, () => new Float64Array(nv));
-    for (const [row, column, constant, slot] of spec.jacobian) d[row][column] = slot === null ? constant : w[at.jacobian + slot];
-    return d;
-  }
-
-  // The change x of least length in the metric of `scale` with D x = right; rows that depend on others are left out.
-  function leastNorm(d, right, scale) {
-    const g = Array.from({ length: m }, (_, i) => Float64Array.from({ length: m }, (_, j) => {
-      let sum = 0;
-      for (let k = 0; k < nv; k++) sum += d[i][k] * d[j][k] * scale[k] * scale[k];
-      return sum;
-    }));
-    const weight = g.map((row, i) => (row[i] > 0 ? 1 / Math.sqrt(row[i]) : 0));
-    const a = g.map((row, i) => row.map((x, j) => x * weight[i] * weight[j]));
-    const b = Float64Array.from(right, (x, i) => x * weight[i]);
-    const order = [], left = new Set(a.keys());
-    while (left.size) {
-      let best = -1;
-      for (const i of left) if (best < 0 || a[i][i] > a[best][best]) best = i;
-      if (!(a[best][best] > 1e-12)) break;
-      left.delete(best);
-      order.push(best);
-      for (const i of left) {
-        const f = a[i][best] / a[best][best];
-        if (f === 0) continue;
-        for (const j of left) a[i][j] -= f * a[best][j];
-        b[i] -= f * b[best];
-      }
-    }
-    const z = new Float64Array(m);
-    for (let k = order.length - 1; k >= 0; k--) {
-      const i = order[k];
-      let sum = b[i];
-      for (let l = k + 1; l < order.length; l++) sum -= a[i][order[l]] * z[order[l]];
-      z[i] = sum / a[i][i];
-    }
-    const x = new Float64Array(nv);
-    for (let i = 0; i < m; i++) dual[i] = weight[i] * z[i];
-    for (let k = 0; k < nv; k++) {
-      for (let i = 0; i < m; i++) x[k] += d[i][k] * dual[i];
-      x[k] *= scale[k] * scale[k];
-    }
-    return x;
-  }
-
-  function shift(y, change, factor) {
-    if (nq === nv) for (let j = 0; j < nv; j++) y[j] += factor * change[j];
-    else {
-      for (let j = 0; j < nv; j++) w[at.change + j] = factor * change[j];
-      code.move(y, w);
-    }
-  }
-
-  // The largest coordinate that is a length, measured from a place; from the origin, its rounding is that of positions.
-  function largest(y, from) {
+  // The largest coordinate that is a length, measured from the datum.
+  function extent(y) {
     let size = 0;
-    for (let i = 0; i < nq; i++) if (spec.lengths[i]) size = Math.max(size, Math.abs(y[i] - (from ? from[i] : 0)));
+    for (let i = 0; i < nq; i++) if (spec.lengths[i]) size = Math.max(size, Math.abs(y[i] - spec.datum[i]));
     return size;
   }
-  const extent = (y) => largest(y, spec.datum);
 
-  // Positions closed by shortest changes from the described ones, then velocities: those given are kept.
+  // The start of a run, closed from the described one, or from the one of the page; null where it does not close.
   function start() {
-    scratch();
+    w.fill(0);
+    for (const [i, x] of spec.scratch) w[i] = x;
+    iw.fill(0);
     prepare();
-    const y = Float64Array.from(spec.y0);
-    if (!code.describe) {
-      code.accept(0, y, p, w, iw);
-      return y;
-    }
-    const described = code.describe(p);
-    y.set(described.q);
-    y.fill(0, nq);
-    const length = w[spec.status.length];
-    const free = Float64Array.from({ length: nv }, (_, j) => length * Math.sqrt(w[at.gauge + j]));
-    const scale = free.slice();
-    for (const j of spec.fixed) scale[j] = 0;
-    let best = Infinity, stalled = 0;
-    for (let round = 0; round < 60 && m; round++) {
-      code.geometry(0, y, p, w);
-      const right = new Float64Array(m);
-      let square = 0;
-      for (let i = 0; i < m; i++) {
-        right[i] = -w[at.residual + i];
-        square += ((spec.rows[i] ? 1 : length) * right[i]) ** 2;
-      }
-      const size = Math.sqrt(square), whole = Math.max(length, extent(y));
-      stalled = size > 0.5 * best ? stalled + 1 : 0;
-      best = Math.min(best, size);
-      if (!Number.isFinite(size) || stalled >= 15) return null;
-      if (size <= 1e-15 * Math.max(length, largest(y)) * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
-      if (round === 59) return null;
-      const change = leastNorm(jacobian(), right, scale);
-      let longest = 0;
-      for (let j = 0; j < nv; j++) longest = Math.max(longest, Math.abs(change[j]) / (spec.angular[j] ? 1 : length));
-      shift(y, change, 1 / Math.max(longest, 1));
-    }
-    described.v.forEach((x, j) => {
-      y[nq + j] = x === null ? 0 : x;
-      scale[j] = x === null ? free[j] : 0;
-    });
-    if (m) {
-      code.geometry(0, y, p, w);
-      const d = jacobian();
-      for (let pass = 0; pass < 2; pass++) {
-        const right = Float64Array.from({ length: m }, (_, i) => {
-          let sum = w[at.nu + i];
-          for (let j = 0; j < nv; j++) sum -= d[i][j] * y[nq + j];
-          return sum;
-        });
-        const change = leastNorm(d, right, pass ? free : scale);
-        for (let j = 0; j < nv; j++) y[nq + j] += change[j];
-      }
-    }
-    return y;
+    const { y, start_velocities } = memory;
+    y.set(spec.y0);
+    start_velocities.set(y.subarray(nq, nq + nv));
+    y.fill(0, nq, nq + nv);
+    code.describe(p, y, start_velocities, y.subarray(nq + nv + 1));
+    if (code.close_row(memory) !== 0) return null;
+    w[spec.status.step] = spec.step;
+    return code.accept(0, y, p, w, iw) & 1 ? null : y.slice();
   }
 
   // Whether it closes with another value of one parameter; the parameters stay as they are.
@@ -148,69 +54,27 @@ function makeLive(spec, code) {
 
   // -- steps ----------------------------------------------------------------------------------------------------------
 
-  // What functions of the runtime take: parameters, scratch, counters and working memory.
-  const memory = { p, w, iw };
-  for (const [name, size] of spec.memory) memory[name] = new Float64Array(size);
-
-  // A step; whether it succeeds. `end` undoes it. Events in it happen at their times, and further steps follow.
+  // A step; whether the motion goes on behind it. Events happen at their times.
+  let result = 0;
   function step(t, y, h) {
-    [y, w, iw].forEach((now, i) => kept[i].set(now));
-    return code.step_to_event ? stepWithEvents(t, y, h) : plainStep(t, y, h);
+    memory.step_clock[0] = t;
+    result = code.take_steps(memory, t + h, 2 * h, y);
+    return result === 0;
   }
 
-  function stepWithEvents(t, y, h) {
-    for (const until = t + h; t < until;) {
-      const left = until - t, made = code.step_to_event(memory, t, left, y);
-      if (!(made > 0)) return false;
-      t = made === left ? until : t + made;
-      if (memory.chosen.some(Boolean) && code.apply_effects(memory, t, y) !== 0) return false;
-    }
-    return true;
-  }
-
-  function plainStep(t, y, h) {
-    const [a, b, c, d] = stages;
-    rhs(t, y, a);
-    for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * a[i];
-    rhs(t + 0.5 * h, middle, b);
-    for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * b[i];
-    rhs(t + 0.5 * h, middle, c);
-    for (let i = 0; i < ny; i++) middle[i] = y[i] + h * c[i];
-    rhs(t + h, middle, d);
-    for (let i = 0; i < ny; i++) y[i] += (h / 6) * (a[i] + 2 * (b[i] + c[i]) + d[i]);
-    const bits = code.accept(t + h, y, p, w, iw);
-    return Number.isFinite(y[0]) && !(bits & 1);
-  }
-
-  // Go on by steps that halve from the state before a step that has failed; the time where the motion ends, and why.
-  function end(t, y, h) {
-    const undo = () => [y, w, iw].forEach((now, i) => now.set(kept[i]));
-    undo();
-    for (h /= 2; h > 1e-9 * (1 + Math.abs(t)); h /= 2) {
-      if (step(t, y, h)) t += h;
-      else undo();
-    }
-    return { t, sentence: sentence(t, y) };
+  // The time where the motion has ended in the last step, and why; whether it has failed there.
+  function end(y) {
+    const t = memory.step_clock[0], at_t = `at t = ${Number(t.toPrecision(6))} s`;
+    const event = result === spec.ended && spec.ends.find((name, i) => name && memory.chosen[i]);
+    if (event) return { t, failed: false, sentence: `the event '${event}' ends the motion ${at_t}` };
+    return { t, failed: true, sentence: sentence(t, y, at_t) };
   }
 
   // The sentence on the end of a motion: where drivers lock, what would have to jump.
-  function sentence(t, y) {
-    const at_t = `at t = ${Number(t.toPrecision(6))} s`, length = w[spec.status.length];
-    if (!spec.drivers.some(Boolean)) return `the motion cannot be continued ${at_t}`;
-    code.geometry(t, y, p, w);
-    const scale = Float64Array.from({ length: nv }, (_, j) => Math.sqrt(w[at.gauge + j]));
-    const d = jacobian().map((row, i) => (spec.rows[i] ? row : row.map((x) => x * length)));
-    const shortest = Math.min(...d.map((row) => row.reduce((sum, x, j) => sum + (x * scale[j]) ** 2, 0)).filter((x) => x > 0));
-    let holding = Float64Array.from({ length: m }, (_, i) => 1 + i / m), change, size;
-    for (let round = 0; round < 8; round++) { // inverse iteration: the combination of rows that vanishes first
-      change = leastNorm(d, holding, scale);
-      size = Math.hypot(...dual);
-      holding = dual.map((x) => Math.abs(x) > 0 ? x / size : 0);
-    }
-    const most_held = Math.max(...holding.map(Math.abs));
-    const drivers = [...new Set(spec.drivers.filter((name, i) => name && Math.abs(holding[i]) > 3e-5 * most_held))];
-    if (!drivers.length || !(size * 1e-4 * shortest > 1)) return `the motion cannot be continued ${at_t}`;
-    const jumps = Array.from(change, (x, j) => Math.abs(x) / scale[j]), most = Math.max(...jumps);
+  function sentence(t, y, at_t) {
+    if (!code.find_lock || !code.find_lock(memory, t, y)) return `the motion cannot be continued ${at_t}`;
+    const drivers = [...new Set(spec.drivers.filter((name, i) => memory.lock_drivers[i]))];
+    const jumps = memory.lock_jumps, most = Math.max(...jumps);
     const order = Array.from(jumps.keys()).sort((i, j) => jumps[j] - jumps[i]).filter((j) => jumps[j] > spec.counts * most);
     const names = order.slice(0, spec.most_named).map((j) => spec.moving[j]).join(", ");
     return `dead centre ${at_t}: ${drivers.map((name) => `'${name}'`).join(" and ")} can go no further; ${names} would have to jump`;
@@ -224,5 +88,5 @@ function makeLive(spec, code) {
     return Array.from(seen.subarray(0, spec.nb));
   }
 
-  return { spec, p, rates, start, closes, open, step, end, bodies, setParameters, reset };
+  return { spec, p, w, iw, rhs, rates, start, closes, open, step, end, bodies, setParameters, reset };
 }

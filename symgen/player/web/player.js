@@ -24,12 +24,16 @@ $("solid").addEventListener("webglcontextlost", () => {
   view = makeScene($("view"), data.scene);
   refit();
 });
-const plot = makePlot($("plot"), $("key"));
+let single = null; // the one curve of the group that is shown
+const plot = makePlot($("plot"), $("key"), (i) => {
+  single = single === i ? null : i;
+  choose();
+});
 
 function recorded(part) {
   const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
-  const groups = part.groups.map((g) => ({ ...g, columns: g.places ? g.places.map((i) => columns[i]) : filled(g, n) }));
+  const groups = part.groups.map((g) => ({ ...g, columns: g.places ? cleaned(g.places.map((i) => columns[i]), g) : filled(g, n) }));
   for (const name of ["reactions", "pulls", "gaps"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
   return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
 }
@@ -94,10 +98,10 @@ function render() {
   if ($("gaps").checked) gaps(q);
   if ($("labels").checked) view.names();
   timeline();
-  if (group) plot.cursor(time, group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
+  if (group) plot.cursor(columnAt(over().along, motion.t, time), group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
   const doubt = motion.moments.filter((m) => m[0] <= time && time <= m[1]);
   $("clock").textContent = `${time.toFixed(3)} s of ${motion.end.toFixed(2)}`;
-  const bare = $("forces").checked && motion !== motions[0] ? ["forces are those of the recorded motion"] : [];
+  const bare = $("forces").checked && motion !== motions[0] && !motion.reactions && !motion.pulls ? ["forces are those of the recorded motion"] : [];
   $("hint").textContent = [...doubt.map((m) => m[3]), ...bare].join("; ");
   wanted = false;
 }
@@ -226,8 +230,34 @@ function choose() {
   group = motion.groups[$("group").value] || null;
   $("plots").hidden = !group && motion.whole;
   $("plots").classList.toggle("waiting", !group);
-  if (group) plot.lines(group, motion.t, motion.end);
+  if (group) {
+    if (single >= group.columns.length) single = null;
+    plot.lines(group, over(), single);
+  }
   wanted = true;
+}
+
+// What curves are drawn over: time, or a column of the motion by its name.
+function over() {
+  const name = $("over").value, part = name && motion.groups.find((g) => g.names.includes(name));
+  if (!part) return { t: motion.t, along: motion.t, label: "t [s]", ends: [motion.t[0], motion.end] };
+  const along = part.columns[part.names.indexOf(name)], sound = Array.from(along).filter(Number.isFinite);
+  return { t: motion.t, along, label: `${name}${part.unit ? ` [${part.unit}]` : ""}`, ends: [Math.min(...sound), Math.max(...sound)] };
+}
+
+// Options of a list below headings; the one that was chosen before stays chosen.
+function fill(select, options) {
+  const before = select.value;
+  select.textContent = "";
+  for (const [section, text, value] of options) {
+    let box = select;
+    if (section) {
+      box = [...select.children].find((each) => each.label === section) || element("optgroup");
+      if (!box.label) select.append(Object.assign(box, { label: section }));
+    }
+    box.append(new Option(text, value));
+  }
+  if (options.some((option) => option[2] === before)) select.value = before;
 }
 
 const titled = (g) => `${g.title}${g.unit ? ` [${g.unit}]` : ""}`;
@@ -235,12 +265,13 @@ const titled = (g) => `${g.title}${g.unit ? ` [${g.unit}]` : ""}`;
 // A motion that is not whole yet has no groups: those of the one before keep their places.
 function show(next) {
   motion = next;
-  const select = $("group"), before = select.selectedOptions[0]?.textContent;
   if (motion.whole) {
-    select.textContent = "";
-    motion.groups.forEach((g, i) => select.append(new Option(titled(g), i)));
+    const select = $("group"), before = select.selectedOptions[0]?.textContent;
+    fill(select, motion.groups.map((g, i) => [g.section, titled(g), String(i)]));
     const same = motion.groups.findIndex((g) => titled(g) === before);
-    if (same > 0) select.value = same;
+    if (same >= 0) select.value = same;
+    const columns = motion.groups.filter((g) => !g.log).flatMap((g) => g.names.map((name) => [titled(g), name, name]));
+    fill($("over"), [["", "t", ""], ...columns]);
   }
   go(time);
   choose();
@@ -249,8 +280,16 @@ function show(next) {
 
 // -- live -----------------------------------------------------------------------------------------------------------------
 
-let live = null, state = null, clock = 0, follow = null;
-if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, move: null, bodies: null, step_to_event: null }, emitted));
+let live = null, state = null, clock = 0, follow = null, columns = null;
+if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, bodies: null, find_lock: null }, emitted));
+if (observed) columns = makeColumns(live, emitted, data.live.columns, observed);
+
+// A frame of the motion that is worked out: positions, and what else pages plot.
+function record(t, begin = false) {
+  follow.t.push(t);
+  follow.rows.push(live.bodies(t, state));
+  if (columns) follow.values.push(columns.values(t, state, begin));
+}
 
 // Begin again with the sliders' parameters; steps are taken while the page is drawn.
 function restart(row) {
@@ -267,9 +306,9 @@ function restart(row) {
   state = begun;
   clock = 0;
   const end = motions[0].end, spacing = end / Math.max(60, Math.min(600, Math.round(end * 60)));
-  const next = { t: [0], rows: [live.bodies(0, state)], groups: [], moments: [], facts: [], status: "ok", end, spacing, whole: false };
-  follow = next;
-  show(next);
+  follow = { t: [], rows: [], values: [], groups: [], moments: [], facts: [], status: "ok", end, spacing, whole: false };
+  record(0, true);
+  show(follow);
   return true;
 }
 
@@ -284,8 +323,7 @@ function compute(budget) {
     }
     if (clock < due - 1e-12) break;
     if (live.open(clock, state)) return stopped(0);
-    follow.t.push(clock);
-    follow.rows.push(live.bodies(clock, state));
+    record(clock);
     if (clock >= follow.end - 1e-9) {
       finish();
       return;
@@ -296,35 +334,38 @@ function compute(budget) {
 
 // The motion ends in the last step of some length; or, of length 0, somewhere behind the last frame.
 function stopped(step) {
-  const last = follow.t[follow.t.length - 1], end = step ? live.end(clock, state, step) : null;
-  if (end && end.t > last) {
-    follow.t.push(end.t);
-    follow.rows.push(live.bodies(end.t, state));
-  }
+  const last = follow.t[follow.t.length - 1], end = step ? live.end(state) : null;
+  if (end && end.t > last) record(end.t);
   clock = follow.end = end ? end.t : last;
-  follow.status = "failed";
+  follow.status = end && !end.failed ? "ok" : "failed";
   $("closes").textContent = end ? end.sentence : `The mechanism closes with these parameters up to t = ${short(last)} s.`;
   finish();
 }
 
 function finish() {
   follow.whole = true;
-  const chosen = follow.rows.map((row) => row);
-  const columns = data.names.map((_, i) => Float64Array.from(chosen, (row) => row[i]));
-  follow.groups = positions(columns);
+  const names = columns ? columns.names : data.names, frames = columns ? follow.values : follow.rows;
+  const table = new Map(names.map((name, i) => [name, Float64Array.from(frames, (row) => row[i])]));
+  const has = (g) => g.names.every((name) => table.has(name));
+  const levels = (column) => column.map((x) => Math.log10(Math.max(Math.abs(x), 1e-17)));
+  follow.groups = motions[0].groups.filter(has).map((g) => {
+    const own = g.names.map((name) => table.get(name));
+    return { ...g, places: null, columns: g.log ? own.map(levels) : cleaned(own, g) };
+  });
+  const { reactions, pulls } = motions[0], axes = ["Fx", "Fy", "Fz"].slice(0, view.spatial ? 3 : 2);
+  const arrowed = (part, ends) => {
+    const wantedNames = part ? part.names.flatMap((name) => ends.map((end) => `${name}.${end}`)) : [];
+    return wantedNames.length && wantedNames.every((name) => table.has(name)) ? { names: part.names, columns: wantedNames.map((name) => table.get(name)) } : null;
+  };
+  follow.reactions = arrowed(reactions, axes);
+  follow.pulls = arrowed(pulls, ["force"]);
   show(follow);
 }
 
-// What rounding leaves is 0 in a plot, as in those of the recorded motion.
-function cleaned(columns, unit) {
-  const size = columns.reduce((most, column) => column.reduce((a, x) => Math.max(a, Math.abs(x) || 0), most), unit === "rad" ? 1 : 0);
-  return columns.map((column) => column.map((x) => (Math.abs(x) < 1e-12 * size ? 0 : x)));
-}
-
-function positions(columns) {
-  const of = (angle) => data.names.map((name, i) => [name, i]).filter(([name]) => name.endsWith(".theta") === angle && !/\.e[0-3]$/.test(name));
-  return [[of(false), "position", "m"], [of(true), "angle", "rad"]].filter(([list]) => list.length)
-    .map(([list, title, unit]) => ({ title, unit, names: list.map((n) => n[0]), columns: cleaned(list.map((n) => columns[n[1]]), unit), log: false }));
+// What rounding leaves is 0 in a plot, beside the scale of a group's numbers.
+function cleaned(list, { unit, scale }) {
+  const size = list.reduce((most, column) => column.reduce((a, x) => Math.max(a, Math.abs(x) || 0), most), Math.max(scale, unit === "rad" ? 1 : 0));
+  return list.map((column) => column.map((x) => (Math.abs(x) < 1e-12 * size ? 0 : x)));
 }
 
 // -- sliders --------------------------------------------------------------------------------------------------------------
@@ -407,7 +448,7 @@ function sliders() {
   closes.setAttribute("role", "status");
   head.append(element("span", `${data.live.method}, rk4 with steps of ${short(data.live.step)} s`, "small"), back);
   box.append(head, list, closes);
-  rows = data.live.parameters.map((parameter, i) => (parameter.still ? null : makeRow(parameter, i))).filter(Boolean);
+  rows = data.live.parameters.map((parameter, i) => (parameter.still ? null : makeRow(parameter, parameter.place ?? i))).filter(Boolean);
   box.hidden = !rows.length;
   const heading = (row) => (row.follows ? "from others" : row.unit ? `in ${row.unit}` : "without unit");
   const alike = (row) => rows.filter((other) => heading(other) === heading(row));
@@ -458,7 +499,11 @@ $("trace").append(new Option("none", ""), ...(free ? [new Option("free points", 
 $("trace").value = free ? "free" : data.points.length <= 12 ? "all" : "";
 $("speed").addEventListener("change", () => (speed = Number($("speed").value)));
 $("trace").addEventListener("change", traces);
-$("group").addEventListener("change", choose);
+$("group").addEventListener("change", () => {
+  single = null;
+  choose();
+});
+$("over").addEventListener("change", choose);
 $("play").addEventListener("click", () => play(!playing));
 $("fit").addEventListener("click", refit);
 for (const id of ["labels", "forces", "gaps"]) $(id).addEventListener("change", () => (wanted = true));
@@ -506,7 +551,7 @@ drag($("timeline"), (e) => {
   const box = $("timeline").getBoundingClientRect();
   go(motion.t[0] + ((e.clientX - box.left - 6) / (box.width - 12)) * (motion.end - motion.t[0]));
 });
-drag($("plot"), (e) => go(plot.timeAt(e.clientX - $("plot").getBoundingClientRect().left)));
+drag($("plot"), (e) => go(plot.timeAt(e.clientX - $("plot").getBoundingClientRect().left, time)));
 drag($("view"), (e, dx, dy, pinch) => {
   const { camera } = view;
   if (pinch) {
@@ -565,13 +610,26 @@ window.symgen = {
   // The state at the end of a run with parameters by name, by steps of the classical Runge-Kutta method.
   run(values = {}, until = motions[0].end, step = data.live.step) {
     for (const x of data.live.parameters) if (x.still && x.name in values) throw new Error(`${x.name} keeps its value in this page`);
-    live.setParameters(Object.entries(values).map(([name, x]) => [this.parameters.indexOf(name), x]));
+    const places = new Map(data.live.parameters.map((x, i) => [x.name, x.place ?? i]));
+    live.setParameters(Object.entries(values).map(([name, x]) => [places.get(name), x]));
     const y = live.start(), count = Math.round(until / step);
-    const at = y ? Array.from({ length: count }, (_, k) => k * step).find((t) => !live.step(t, y, step)) : undefined;
-    const ended = at === undefined ? null : live.end(at, y, step);
+    let why = y && y.every(Number.isFinite) ? "" : "the mechanism does not close with these parameters";
+    for (let k = 0; k < count && !why; k++) {
+      if (!live.step(k * step, y, step)) {
+        const end = live.end(y);
+        if (end.failed) why = end.sentence;
+        break;
+      } else if ((k % 20 === 19 || k === count - 1) && live.open((k + 1) * step, y)) why = `the joints are open at t = ${short((k + 1) * step)} s: steps of ${short(step)} s are too long, or no motion goes on from there`;
+    }
     live.reset();
-    if (ended) throw new Error(ended.sentence);
-    return y && Array.from(y);
+    if (why) throw new Error(why);
+    return Array.from(y);
+  },
+  // The groups of curves of the motion that is shown, and one of their columns by its name.
+  groups: () => motion.groups.map((g) => ({ section: g.section, title: g.title, unit: g.unit, names: g.names, log: g.log })),
+  column(name) {
+    const part = motion.groups.find((g) => g.names.includes(name));
+    return part ? { t: Array.from(motion.t), values: Array.from(part.columns[part.names.indexOf(name)]) } : null;
   },
   // Look from elsewhere: turned and tilted [rad], with a point in the middle [m].
   look(turn, tilt, at) {

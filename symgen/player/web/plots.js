@@ -1,4 +1,4 @@
-// Columns over time on a canvas, with a cursor that is the player's.
+// Columns over time or another column on a canvas, with a cursor that is the player's.
 
 const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
 
@@ -37,14 +37,17 @@ function sized(canvas) {
   return [context, box.width, box.height];
 }
 
-function makePlot(canvas, key) {
+// `chosen(i)` is called where a curve is clicked in the key.
+function makePlot(canvas, key, chosen) {
   let picture = null, frame = null;
 
-  function lines(group, t, end) {
+  // The columns of a group, or the single one with a number, over a column that has a label; its time goes with it.
+  function lines(group, over, single) {
+    const { t, along, label } = over, shown = (i) => single === null || i === single;
     const [context, width, height] = sized(canvas);
     context.clearRect(0, 0, width, height);
     let low = Infinity, high = -Infinity;
-    for (const column of group.columns) for (const x of column) {
+    for (const column of group.columns.filter((_, i) => shown(i))) for (const x of column) {
       if (Number.isFinite(x)) {
         low = Math.min(low, x);
         high = Math.max(high, x);
@@ -53,7 +56,9 @@ function makePlot(canvas, key) {
     if (!(high >= low)) [low, high] = [0, 1];
     if (high - low < 1e-12 * Math.max(Math.abs(high), 1e-300)) [low, high] = [low - 0.5 * (Math.abs(low) || 1), high + 0.5 * (Math.abs(high) || 1)];
     const left = 58, right = 8, top = 10, bottom = 30;
-    const x = (time) => left + ((time - t[0]) / (end - t[0] || 1)) * (width - left - right);
+    let [begin, end] = over.ends;
+    if (!(end > begin)) [begin, end] = [begin - 0.5, begin + 0.5];
+    const x = (value) => left + ((value - begin) / (end - begin)) * (width - left - right);
     const y = (value) => height - bottom - ((value - low) / (high - low)) * (height - top - bottom);
     context.font = "11px system-ui, sans-serif";
     context.fillStyle = palette.soft;
@@ -68,14 +73,15 @@ function makePlot(canvas, key) {
       context.fillText(group.log ? `1e${short(v)}` : short(v), left - 5, y(v) + 4);
     }
     context.textAlign = "center";
-    for (const v of ticks(t[0], end, 6)) context.fillText(short(v), x(v), height - bottom + 14);
-    context.fillText("t [s]", (left + width) / 2, height - 3);
+    for (const v of ticks(begin, end, width < 320 ? 4 : 6)) context.fillText(short(v), x(v), height - bottom + 14);
+    context.fillText(label, (left + width) / 2, height - 3);
     context.save();
     context.translate(11, (height - bottom + top) / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(`${group.title}${group.unit ? ` [${group.unit}]` : ""}`, 0, 0);
     context.restore();
     group.columns.forEach((column, i) => {
+      if (!shown(i)) return;
       context.beginPath();
       context.strokeStyle = shade(COLOURS[i % COLOURS.length]);
       context.setLineDash([[], [5, 3], [2, 2]][Math.floor(i / COLOURS.length) % 3]);
@@ -83,9 +89,9 @@ function makePlot(canvas, key) {
       let pen = false;
       for (let k = 0; k < t.length; k++) {
         if (!Number.isFinite(column[k])) pen = false;
-        else if (pen) context.lineTo(x(t[k]), y(column[k]));
+        else if (pen) context.lineTo(x(along[k]), y(column[k]));
         else {
-          context.moveTo(x(t[k]), y(column[k]));
+          context.moveTo(x(along[k]), y(column[k]));
           pen = true;
         }
       }
@@ -95,17 +101,21 @@ function makePlot(canvas, key) {
     picture = document.createElement("canvas");
     Object.assign(picture, { width: canvas.width, height: canvas.height });
     picture.getContext("2d").drawImage(canvas, 0, 0);
-    frame = { context, x, top, bottom, height, left, right, width, begin: t[0], end };
+    frame = { context, x, top, bottom, height, left, right, width, begin, end, t, along };
     key.textContent = "";
+    key.classList.toggle("single", single !== null);
     group.names.forEach((name, i) => {
-      const entry = document.createElement("span"), line = document.createElement("i");
+      const entry = document.createElement("button"), line = document.createElement("i");
+      entry.setAttribute("aria-pressed", i === single);
+      entry.title = i === single ? "Show all curves" : "Show this curve alone";
+      entry.addEventListener("click", () => chosen(i));
       line.style.background = shade(COLOURS[i % COLOURS.length]);
       entry.append(line, name, document.createElement("b"));
       key.append(entry);
     });
   }
 
-  function cursor(time, values, log) {
+  function cursor(at, values, log) {
     if (!frame) return;
     const { context, x, top, bottom, height, width } = frame;
     context.clearRect(0, 0, width, height);
@@ -113,14 +123,23 @@ function makePlot(canvas, key) {
     context.strokeStyle = palette.ink;
     context.lineWidth = 1;
     context.beginPath();
-    context.moveTo(x(time), top);
-    context.lineTo(x(time), height - bottom);
+    context.moveTo(x(at), top);
+    context.lineTo(x(at), height - bottom);
     context.stroke();
     values.forEach((value, i) => {
       if (key.children[i]) key.children[i].lastChild.textContent = `${log ? (10 ** value).toExponential(1) : short(value)}`;
     });
   }
 
-  const timeAt = (px) => (frame ? frame.begin + ((px - frame.left) / (frame.width - frame.left - frame.right)) * (frame.end - frame.begin) : 0);
+  // The time at a place on the canvas: over another column the one nearest to a time at which the column has that value.
+  function timeAt(px, now) {
+    if (!frame) return 0;
+    const { t, along } = frame, value = frame.begin + ((px - frame.left) / (frame.width - frame.left - frame.right)) * (frame.end - frame.begin);
+    if (along === t) return value;
+    const room = 0.01 * (frame.end - frame.begin), nearest = Math.min(...along.map((x) => Math.abs(x - value)).filter(Number.isFinite));
+    return Array.from(t).filter((_, k) => Math.abs(along[k] - value) <= nearest + room)
+      .reduce((a, b) => (Math.abs(b - now) < Math.abs(a - now) ? b : a), Infinity);
+  }
+
   return { lines, cursor, timeAt };
 }

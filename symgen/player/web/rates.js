@@ -43,7 +43,7 @@ function makeRates(spec, code) {
     const ydot = new Float64Array(ny), kept = p.slice(), state = new Float64Array(ny);
     state.set(Array.from(y).slice(0, ny));
     if (values) {
-      for (let i = 0; i < spec.parameters.length; i++) if (values[i] !== undefined) p[i] = values[i];
+      for (let i = 0; i < spec.parameters.length; i++) if (values[i] !== undefined) p[spec.parameters[i].place ?? i] = values[i];
       code.prepareModel(p);
       code.prepareLaw(p);
       code.masses(p, w);
@@ -79,5 +79,5 @@ function makeRates(spec, code) {
   }
 
   reset();
-  return { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset, keep };
+  return { p, w, iw, prepare, setParameters, rhs, rates, reset, keep };
 }

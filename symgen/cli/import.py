@@ -1,0 +1,55 @@
+"""Translate a robot's file into a mechanism file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from symgen.cli import OK, write_json
+from symgen.cli._options import examples, json_option
+
+
+@click.command(
+    "import",
+    epilog=examples("symgen import arm.urdf", "symgen import quadruped.xml --floating -o quadruped.toml"),
+)
+@click.argument("file")
+@click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml by default, - for standard output.")
+@click.option("--floating", is_flag=True, help="Leave the base free where the file does not fix it to the ground.")
+@json_option
+def command(file: str, output: str | None, floating: bool, as_json: bool) -> int:
+    """Write FILE, a robot in URDF, MJCF or SDF, as a mechanism file. Never overwrites a file.
+
+    What the mechanism file leaves out is listed: as a comment in it, and on the screen.
+    """
+    from symgen.base.errors import InputError, quoted
+    from symgen.base.files import check_writable, write_whole
+    from symgen.describe.builder import to_toml
+    from symgen.describe.formats import FORMATS, format_of, read_robot
+    from symgen.describe.validate import validate
+
+    path = Path(file)
+    name = format_of(path)
+    if name is None:
+        ends = ", ".join(sorted({end for _, kind in FORMATS.items() for end in kind.SUFFIXES}))
+        raise InputError("FILE", f"a file of another program ({ends})", quoted(file))
+    read = read_robot(path, name, floating=floating)
+    mechanism = validate(read.raw, path.name)
+    lines = [f"left out, and the motion may depend on it: {item}" for item in read.left_out if item.moves]
+    lines += [f"left out: {item}" for item in read.left_out if not item.moves]
+    if output == "-":
+        click.echo("".join(f"# {line}\n" for line in lines) + to_toml(read.raw), nl=False)
+        return OK
+    target = Path(f"{read.raw['mechanism']['name']}.toml" if output is None else output)
+    check_writable("-o", target)
+    write_whole(target, "".join(f"# {line}\n" for line in lines) + to_toml(read.raw), replace=False)
+    if as_json:
+        left_out = [{"what": x.what, "where": x.where, "why": x.why, "moves": x.moves} for x in read.left_out]
+        counts = {"bodies": len(mechanism.bodies), "joints": len(mechanism.joints), "inputs": len(mechanism.inputs)}
+        write_json({"file": str(target), "format": read.format, **counts, "left_out": left_out})
+        return OK
+    click.echo(f"wrote {target}: {len(mechanism.bodies)} bodies, {len(mechanism.joints)} joints")
+    for line in lines:
+        click.echo(line)
+    return OK

@@ -1,0 +1,98 @@
+"""Formats of other programs: a robot's file in, the nested dictionary of a mechanism file out.
+
+A module is one format, found by its file: how a file is recognised and what reads it. Readers build a `Robot` of links
+and connections; `symgen.describe.formats._raw` makes bodies, joints and forces of it, the same for every format.
+
+In: the path of a URDF, MJCF or SDF file.
+Out: an `Import`: the description, not yet validated, and what it leaves out.
+Imports: the standard library; `mujoco` for MJCF, where it is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar, Protocol
+
+from symgen.base.registry import Registry
+from symgen.describe.formats._robot import LeftOut, Robot
+
+
+class Format(Protocol):
+    """Interface of a format."""
+
+    #: Ends of file names.
+    SUFFIXES: ClassVar[tuple[str, ...]]
+    #: The outermost element of a file.
+    ROOT: ClassVar[str]
+
+    @staticmethod
+    def read(path: Path, floating: bool) -> Robot:
+        """Return the robot of a file; `floating` leaves its base free where the file does not say."""
+        ...
+
+
+@dataclass(frozen=True)
+class Import:
+    """A file of another program in symgen's words.
+
+    Attributes
+    ----------
+    raw : dict
+        The description as nested tables, not yet validated.
+    left_out : tuple of LeftOut
+        What the file says and the description does not.
+    format : str
+        Name of the format.
+    """
+
+    raw: dict[str, Any]
+    left_out: tuple[LeftOut, ...]
+    format: str
+
+
+FORMATS: Registry[type[Format]] = Registry("symgen.describe.formats", "file format")
+
+
+def format_of(path: Path) -> str | None:
+    """Return the name of the format of a file by the end of its name; None for a file of symgen's own.
+
+    An end that several formats have, as ``.xml``, is settled by the outermost element.
+    """
+    from symgen.describe.formats._xml import outermost
+
+    suffix = path.suffix.lower()
+    names = [name for name, kind in FORMATS.items() if suffix in kind.SUFFIXES]
+    if len(names) < 2:
+        return names[0] if names else None
+    root = outermost(path)
+    return next((name for name in names if FORMATS.get(name).ROOT == root), names[0])
+
+
+def read_robot(path: Path, name: str, *, floating: bool = False) -> Import:
+    """Return the description of a file of the format `name`.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    name : str
+        Its format, from `format_of`.
+    floating : bool
+        Whether the base moves freely where the file does not say; it is fixed to the ground otherwise.
+
+    Raises
+    ------
+    InputError
+        If the file is not of the format, or says what no mechanism can.
+    """
+    from symgen.describe.formats._raw import describe
+
+    robot = FORMATS.get(name).read(path, floating)
+    raw: Mapping[str, Any]
+    raw, left_out = describe(robot, f"{path.name} ({name.upper()})")
+    return Import(dict(raw), left_out, name)
+
+
+__all__ = ["FORMATS", "Import", "LeftOut", "format_of", "read_robot"]

@@ -1,0 +1,379 @@
+"""From a robot to the nested tables of a mechanism file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from symgen.base.errors import InputError
+from symgen.base.escapes import printable
+from symgen.describe.formats._frames import (
+    ORIGIN,
+    Frame,
+    Matrix,
+    Vector,
+    about,
+    across,
+    dot,
+    plus,
+    quaternion,
+    scaled,
+    transposed,
+    turned,
+    unit,
+)
+from symgen.describe.formats._robot import (
+    GROUND,
+    Actuator,
+    Connection,
+    Follower,
+    LeftOut,
+    Link,
+    Robot,
+    turned_inertia,
+)
+from symgen.describe.names import LONGEST, RESERVED
+
+_ANGLE, _SLIDE = "angle", "displacement"
+#: Share of the largest number of a vector or tensor below which a number is rounding.
+_ROUNDING = 1e-14
+
+
+class _Names:
+    """Names of a file as names of a description: letters, digits and ``_``, each used once."""
+
+    def __init__(self) -> None:
+        self._used, self._names = {name.lower() for name in RESERVED}, dict[tuple[str, str], str]()
+
+    def of(self, sort: str, name: str) -> str:
+        """Return the name of a link, joint or input, always the same one."""
+        import keyword
+
+        if (sort, name) in self._names:
+            return self._names[sort, name]
+        stem = re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
+        stem = (stem if stem[:1].isalpha() and stem.isascii() else f"{sort}_{stem}").rstrip("_")[: LONGEST - 12]
+        cured, k = stem, 1
+        if cured.lower() in self._used or keyword.iskeyword(cured):
+            cured = f"{stem}_{sort}"
+        while cured.lower() in self._used:
+            k += 1
+            cured = f"{stem}_{sort}{k}"
+        self._used.add(cured.lower())
+        self._names[sort, name] = cured
+        return cured
+
+
+def describe(robot: Robot, source: str) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
+    """Return the tables of a mechanism file, and what they leave out.
+
+    Links that fixed joints hold together are one body, with points of the names of the others. A link without mass
+    at the end of a chain belongs to the body that carries it.
+
+    Parameters
+    ----------
+    robot : Robot
+        What a file describes.
+    source : str
+        The file, for the key ``source``.
+    """
+    return _Description(robot).tables(source)
+
+
+class _Description:
+    """Bodies, joints and forces of a robot."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot, self.names = robot, _Names()
+        self.left_out = list(robot.left_out)
+        self.carriers = self._carriers()
+        self.joints = {c.name: c for c in robot.connections if c.kind != "fixed"}
+        self._drop_massless_ends()
+
+    # -- bodies ------------------------------------------------------------------------------------------------------
+
+    def _carriers(self) -> dict[str, str]:
+        """Return link -> the link whose body it belongs to, by fixed joints."""
+        below = {c.child: c.parent for c in self.robot.connections if c.kind == "fixed"}
+        carriers = dict[str, str]()
+        for name in self.robot.links:
+            top, steps = name, 0
+            while top in below:
+                top, steps = below[top], steps + 1
+                if steps > len(below):
+                    raise InputError("joints", "fixed joints that form a tree", f"a ring of them through '{name}'")
+            carriers[name] = top
+        return {GROUND: GROUND} | carriers
+
+    def _drop_massless_ends(self) -> None:
+        """Join links without mass at ends of chains to what carries them, as nothing determines their motion."""
+        while True:
+            bodies = self._members()
+            ends = dict[str, list[Connection]]()
+            for c in self.joints.values():
+                for link in {self.carriers[c.parent], self.carriers[c.child]}:
+                    ends.setdefault(link, []).append(c)
+            empty = {
+                name
+                for name, members in bodies.items()
+                if name != GROUND and all(link.mass == 0.0 and not any(map(any, link.inertia)) for link in members)
+            }
+            loose = [(name, ends.get(name, [])) for name in empty if len(ends.get(name, [])) < 2]
+            if not loose:
+                return
+            for name, connections in loose:
+                carrier = name
+                for c in connections:
+                    other = {self.carriers[c.parent], self.carriers[c.child]} - {name}
+                    carrier = next(iter(other))
+                    del self.joints[c.name]
+                    self.left_out.append(LeftOut("a joint", c.name, "it moves a link without mass", False))
+                if carrier == name:
+                    carrier = GROUND
+                for link, top in self.carriers.items():
+                    if top == name:
+                        self.carriers[link] = carrier
+
+    def _members(self) -> dict[str, list[Link]]:
+        """Return body -> its links, itself first."""
+        members: dict[str, list[Link]] = {}
+        for name, link in self.robot.links.items():
+            top = self.carriers[name]
+            members.setdefault(top, [])
+            members[top].insert(0 if name == top else len(members[top]), link)
+        return members
+
+    def place(self, body: str) -> Frame:
+        """Return the frame of a body in the ground frame."""
+        return Frame() if body == GROUND else self.robot.links[body].place
+
+    def _body(self, name: str, members: list[Link]) -> dict[str, Any]:
+        place, back = self.place(name), self.place(name).inverse()
+        frames = [back @ link.place for link in members]
+        mass = sum(link.mass for link in members)
+        centres = [frame.point(link.centre) for frame, link in zip(frames, members, strict=True)]
+        centre = ORIGIN
+        if mass > 0.0:
+            for link, at in zip(members, centres, strict=True):
+                centre = plus(centre, scaled(link.mass / mass, at))
+        inertia = [[0.0] * 3 for _ in range(3)]
+        for link, frame, at in zip(members, frames, centres, strict=True):
+            tensor, arm = turned_inertia(link.inertia, frame.rotation), plus(at, scaled(-1.0, centre))
+            for i in range(3):
+                for j in range(3):
+                    inertia[i][j] += tensor[i][j] + link.mass * (dot(arm, arm) * (i == j) - arm[i] * arm[j])
+        table: dict[str, Any] = {"mass": float(f"{mass:.15g}"), "inertia": _tensor(inertia)}
+        if any(centre):
+            table["centre_of_mass"] = _tidy(centre)
+        points = dict[str, Any]()
+        for link, frame in zip(members, frames, strict=True):
+            if link.name != name:
+                points[self.names.of("point", link.name)] = _tidy(frame.origin)
+            for point, at in link.points.items():
+                points[self.names.of("point", point)] = _tidy(frame.point(at))
+        if points:
+            table["points"] = points
+        table["position"] = _tidy(place.origin)
+        if (e := quaternion(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
+            table["orientation"] = {"quaternion": _tidy(e)}
+        shapes = [shape for link, frame in zip(members, frames, strict=True) for shape in _shapes(link, frame)]
+        if shapes:
+            table["shape"] = shapes
+        return table
+
+    # -- joints ------------------------------------------------------------------------------------------------------
+
+    def body_name(self, link: str) -> str:
+        """Return the name of the body of a link."""
+        top = self.carriers[link]
+        return "ground" if top == GROUND else self.names.of("link", top)
+
+    def _joint(self, c: Connection) -> dict[str, Any]:
+        ends = [self.carriers[c.parent], self.carriers[c.child]]
+        if ends[0] == ends[1]:
+            raise InputError(f"joint '{c.name}'", "a joint between two bodies", "two links of one body")
+        frames = (c.at, c.at if c.other is None else c.other)
+        inner = [self.place(end).inverse() @ frame for end, frame in zip(ends, frames, strict=True)]
+        table: dict[str, Any] = {
+            "type": c.kind,
+            "between": [self.body_name(c.parent), self.body_name(c.child)],
+            "at": [_tidy(frame.origin) for frame in inner],
+        }
+        if c.kind in ("revolute", "translational", "cylindrical", "planar", "rigid"):
+            axis = unit(c.axis)
+            table["axis"] = [_tidy(turned(frame.rotation, axis)) for frame in inner]
+            first = across(axis)
+            second = first
+            if c.kind in ("revolute", "cylindrical") and c.value:  # the angle at the start is `value`
+                second = turned(about(axis, c.value), first)
+            pair = [turned(inner[0].rotation, first), turned(inner[1].rotation, second)]
+            table["reference"] = [_tidy(x) for x in pair]
+        if c.kind == "translational" and c.value:
+            table["at"][0] = _tidy(plus(inner[0].origin, turned(inner[0].rotation, scaled(-c.value, unit(c.axis)))))
+        if c.rotor and c.kind == "revolute":
+            table["rotor_inertia"] = c.rotor
+        elif c.rotor:
+            self.left_out.append(LeftOut("armature", c.name, f"a {c.kind} joint has no rotor", True))
+        if c.friction:
+            table["friction"] = {"sliding": c.friction}
+        return table
+
+    def _limits(self) -> None:
+        limited = [c.name for c in self.joints.values() if c.lower is not None or c.upper is not None]
+        if limited:
+            why = "joints turn and slide beyond their ranges"
+            self.left_out.append(LeftOut("limits", _listed(limited), why, True))
+
+    # -- forces ------------------------------------------------------------------------------------------------------
+
+    def _forces(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return the tables of forces and inputs."""
+        efforts, inputs = dict[str, list[str]](), dict[str, Any]()
+        for actuator in self.robot.actuators:
+            driven = {name: w for name, w in actuator.weights.items() if name in self.joints and w}
+            if not driven:
+                continue
+            name = self.names.of("input", actuator.name)
+            inputs[name] = {"default": 0.0} | ({"unit": actuator.unit} if actuator.unit else {})
+            for joint, text in self._formulas(actuator, driven, name).items():
+                efforts.setdefault(joint, []).append(text)
+        forces = dict[str, Any]()
+        for name, c in self.joints.items():
+            table: dict[str, Any] = {key: x for key, x in (("stiffness", c.stiffness), ("damping", c.damping)) if x}
+            if c.kind not in ("revolute", "translational", "spherical"):
+                if table:
+                    what = "a spring or damper"
+                    self.left_out.append(LeftOut(what, name, f"a {c.kind} joint has several coordinates", True))
+                continue
+            if name in efforts:
+                table["actuator"] = " + ".join(efforts[name])
+            if not table:
+                continue
+            straight = c.kind == "translational"
+            if c.rest and c.stiffness and c.kind != "spherical":
+                table["free_length" if straight else "free_angle"] = c.rest
+            sort = "spring-damper" if straight else "torsional-spring-damper"
+            forces[self.names.of("drive", name)] = {"type": sort, "joint": self.names.of("joint", name)} | table
+        return forces, inputs
+
+    def _formulas(self, actuator: Actuator, driven: dict[str, float], name: str) -> dict[str, str]:
+        """Return joint -> formula of the effort of an actuator."""
+        value = name
+        if actuator.bounds is not None:
+            value = f"min(max({name}, {_text(actuator.bounds[0])}), {_text(actuator.bounds[1])})"
+        terms = [value if actuator.gain == 1.0 else f"{_text(actuator.gain)}*{value}"]
+        if actuator.offset:
+            terms.append(_text(actuator.offset))
+        for factor, suffix in ((actuator.along, ""), (actuator.against, ".rate")):
+            if factor:
+                terms += [f"{_text(factor * w)}*{self.coordinate(joint)}{suffix}" for joint, w in driven.items()]
+        whole = " + ".join(terms)
+        if actuator.limits is not None:
+            whole = f"min(max({whole}, {_text(actuator.limits[0])}), {_text(actuator.limits[1])})"
+        elif len(terms) > 1:
+            whole = f"({whole})"
+        return {joint: whole if w == 1.0 else f"{_text(w)}*{whole}" for joint, w in driven.items()}
+
+    def coordinate(self, joint: str) -> str:
+        """Return the name of a joint's coordinate in formulas."""
+        label = _SLIDE if self.joints[joint].kind == "translational" else _ANGLE
+        return f"{self.names.of('joint', joint)}.{label}"
+
+    def _follower(self, f: Follower) -> dict[str, Any]:
+        terms, polynomial = {self.names.of("joint", f.joint): 1.0}, list(f.polynomial)
+        if f.of is None or not any(polynomial[1:]):
+            return {"type": "coupling", "terms": terms, "value": polynomial[0]}
+        if len(polynomial) == 2:
+            straight = terms | {self.names.of("joint", f.of): -polynomial[1]}
+            return {"type": "coupling", "terms": straight} | ({"value": polynomial[0]} if polynomial[0] else {})
+        return {"type": "coupling", "terms": terms, "of": self.names.of("joint", f.of), "polynomial": polynomial}
+
+    # -- everything --------------------------------------------------------------------------------------------------
+
+    def tables(self, source: str) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
+        robot = self.robot
+        name = re.sub(r"[^a-z0-9]+", "-", robot.name.lower()).strip("-")[:LONGEST].strip("-")
+        raw: dict[str, Any] = {
+            "mechanism": {
+                "name": name if name[:1].isalpha() else f"robot-{name}".strip("-"),
+                "source": printable(source),
+                "space": "spatial",
+                "gravity": list(robot.gravity),
+            }
+        }
+        raw["bodies"] = {
+            self.names.of("link", top): self._body(top, members)
+            for top, members in self._members().items()
+            if top != GROUND
+        }
+        if not raw["bodies"]:
+            raise InputError(source, "a robot with a link that moves", "none", "--floating leaves the base free")
+        joints = {self.names.of("joint", c.name): self._joint(c) for c in self.joints.values()}
+        for f in robot.followers:
+            if f.joint in self.joints and (f.of is None or f.of in self.joints):
+                joints[self.names.of("follower", f.name)] = self._follower(f)
+        self._limits()
+        forces, inputs = self._forces()
+        raw |= {key: x for key, x in (("inputs", inputs), ("joints", joints), ("forces", forces)) if x}
+        return raw, tuple(self.left_out)
+
+
+def _text(number: float) -> str:
+    """Return a number as a factor or term of a formula."""
+    return repr(number) if number >= 0.0 else f"({number!r})"
+
+
+def _tidy(vector: Iterable[float]) -> list[float]:
+    """Return numbers in 15 digits; what is rounding beside the largest is 0."""
+    numbers = [float(x) for x in vector]
+    least = _ROUNDING * max(map(abs, numbers))
+    return [0.0 if abs(x) <= least else float(f"{x:.15g}") for x in numbers]
+
+
+def _tensor(m: list[list[float]]) -> Any:
+    """Return the entries of a tensor: three where products are rounding, else six."""
+    entries = [m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]]
+    least = _ROUNDING * max(map(abs, entries))
+    return _tidy(entries if any(abs(x) > least for x in entries[3:]) else entries[:3])
+
+
+def _listed(names: list[str]) -> str:
+    """Return some names and how many there are."""
+    shown = ", ".join(names[:3])
+    return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
+
+
+def _shapes(link: Link, frame: Frame) -> list[dict[str, Any]]:
+    """Return looks of a link in the frame of its body."""
+    shapes = list[dict[str, Any]]()
+    for shape in link.shapes:
+        if (
+            min(shape.get("size", (1.0,)), default=0.0) <= 0.0
+            or min(shape.get(k, 1.0) for k in ("radius", "length")) <= 0
+        ):
+            continue
+        own: Frame = frame @ shape["frame"]
+        colour = {"colour": shape["colour"]} if "colour" in shape else {}
+        at = {"at": _tidy(own.origin)}
+        if shape["type"] == "sphere":
+            shapes.append({"type": "sphere", "radius": shape["radius"]} | at | colour)
+        elif shape["type"] == "cylinder":
+            axis = _tidy(transposed(own.rotation)[2])
+            sizes = {"radius": shape["radius"], "length": shape["length"], "axis": axis}
+            shapes.append({"type": "cylinder"} | sizes | at | colour)
+        else:
+            shapes.append(_box(shape["size"], own) | colour)
+    return shapes
+
+
+def _box(size: Vector, own: Frame) -> dict[str, Any]:
+    """Return a box: by its size where its edges are along the body's axes, else by its edges."""
+    rows: Matrix = own.rotation
+    if all(min(abs(abs(x) - 1.0), abs(x)) < 1e-6 for row in rows for x in row):
+        sizes = [sum(abs(x) * s for x, s in zip(row, size, strict=True)) for row in rows]
+        return {"type": "box", "size": _tidy(sizes), "at": _tidy(own.origin)}
+    x, y, z = (s / 2.0 for s in size)
+    path = "--- +-- ++- -+- --- --+ +-+ +-- +-+ +++ ++- +++ -++ -+- -++ --+"
+    corners = [tuple(s * (1.0 if c == "+" else -1.0) for s, c in zip((x, y, z), w, strict=True)) for w in path.split()]
+    return {"type": "polyline", "points": [_tidy(own.point((a, b, c))) for a, b, c in corners]}

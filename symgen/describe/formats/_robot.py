@@ -1,0 +1,171 @@
+"""A robot of another program: links with places in the ground frame, connections between them, actuators."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times, transposed
+
+#: The ground among links: a name that no link has.
+GROUND = ""
+
+Kind = Literal["fixed", "revolute", "translational", "spherical", "cylindrical", "planar", "rigid"]
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Something that a file says and the description does not.
+
+    Attributes
+    ----------
+    what : str
+        In a few words, such as ``"contacts"``.
+    where : str
+        The element, or how many there are.
+    why : str
+        Why it is left out.
+    moves : bool
+        Whether the motion depends on it.
+    """
+
+    what: str
+    where: str
+    why: str
+    moves: bool
+
+    def __str__(self) -> str:
+        return f"{self.what} ({self.where}): {self.why}"
+
+
+@dataclass
+class Link:
+    """A part of a robot.
+
+    Attributes
+    ----------
+    name : str
+        As in the file.
+    place : Frame
+        In the ground frame where the motion starts.
+    mass : float
+        [kg].
+    centre : Vector
+        Centre of mass in the frame of the link [m].
+    inertia : Matrix
+        About the centre of mass, along the axes of the link [kg m^2].
+    points, shapes
+        Named points of the link [m], and looks as a body has them.
+    """
+
+    name: str
+    place: Frame = field(default_factory=Frame)
+    mass: float = 0.0
+    centre: Vector = ORIGIN
+    inertia: Matrix = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    points: dict[str, Vector] = field(default_factory=dict)
+    shapes: list[dict[str, Any]] = field(default_factory=list)
+
+
+@dataclass
+class Connection:
+    """A joint between two links.
+
+    Attributes
+    ----------
+    name, kind
+        As in the file, and what it is in symgen.
+    parent, child : str
+        The links; `GROUND` is one.
+    at : Frame
+        The frame of the joint in the ground frame where the motion starts.
+    other : Frame or None
+        Where the child has it, if the loop that it closes is open there.
+    axis : Vector
+        In that frame.
+    value : float
+        Coordinate where the motion starts [rad or m].
+    damping, stiffness, rest : float
+        Of a damper and a spring along the coordinate, and its value where the spring is unloaded.
+    friction : float
+        Bound of dry friction [N or N m].
+    rotor : float
+        Moment of inertia of a rotor that turns with the joint, or mass that slides with it.
+    lower, upper : float or None
+        Limits of the coordinate.
+    """
+
+    name: str
+    kind: Kind
+    parent: str
+    child: str
+    at: Frame = field(default_factory=Frame)
+    other: Frame | None = None
+    axis: Vector = (0.0, 0.0, 1.0)
+    value: float = 0.0
+    damping: float = 0.0
+    stiffness: float = 0.0
+    rest: float = 0.0
+    friction: float = 0.0
+    rotor: float = 0.0
+    lower: float | None = None
+    upper: float | None = None
+
+
+@dataclass(frozen=True)
+class Follower:
+    """A coordinate that is a polynomial of another one, or the constant alone where there is none."""
+
+    name: str
+    joint: str
+    of: str | None
+    polynomial: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Actuator:
+    """An effort along joints: weights of joints, and a formula of ``INPUT`` and of coordinates of joints.
+
+    Attributes
+    ----------
+    name : str
+        Of the input.
+    weights : dict of str to float
+        Joint -> effort over the formula's value.
+    gain, offset : float
+        The formula is gain u + offset + along sum(weight coordinate) + against sum(weight rate).
+    along, against : float
+        Factors of the weighted coordinates and of their rates.
+    bounds, limits : (float, float) or None
+        Of the input u, and of the formula's value.
+    unit : str
+        Of the input; empty where a file does not say.
+    """
+
+    name: str
+    weights: dict[str, float]
+    gain: float = 1.0
+    offset: float = 0.0
+    along: float = 0.0
+    against: float = 0.0
+    bounds: tuple[float, float] | None = None
+    limits: tuple[float, float] | None = None
+    unit: str = ""
+
+
+@dataclass
+class Robot:
+    """What a file describes."""
+
+    name: str
+    links: dict[str, Link]
+    connections: list[Connection]
+    followers: list[Follower] = field(default_factory=list)
+    actuators: list[Actuator] = field(default_factory=list)
+    gravity: Vector = (0.0, 0.0, -9.81)
+    left_out: list[LeftOut] = field(default_factory=list)
+
+
+def turned_inertia(inertia: Matrix, rotation: Matrix) -> Matrix:
+    """Return a tensor along the outer axes of a rotation."""
+    return times(times(rotation, inertia), transposed(rotation))

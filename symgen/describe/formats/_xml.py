@@ -1,0 +1,117 @@
+"""Safe reading of XML: elements with their attributes, without document types, entities and files elsewhere."""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from pathlib import Path
+from xml.parsers import expat
+
+from symgen.base.errors import InputError, quoted
+from symgen.describe.formats._frames import Frame, Vector, of_rpy
+
+#: Bounds of a file: bytes, elements, and depth.
+LARGEST, MOST_ELEMENTS, DEEPEST = 50_000_000, 500_000, 200
+
+
+def read_tree(path: Path, root: str) -> ET.Element:
+    """Return the outermost element of an XML file, which must be `root`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is too large or deep, declares a document type, or has another root.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except OSError as error:
+        raise InputError(path.name, "a file that can be read", error.strerror or "an error") from None
+    if len(content) > LARGEST:
+        raise InputError(path.name, f"a file of at most {LARGEST} bytes", "a larger one")
+    tree = _Parser(path.name).parse(content)
+    if tree.tag != root:
+        raise InputError(path.name, f"an XML file whose outermost element is '{root}'", quoted(tree.tag))
+    return tree
+
+
+def outermost(path: Path) -> str:
+    """Return the tag of the outermost element of a file; empty where there is none."""
+    tags = list[str]()
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = lambda tag, _: tags.append(tag)
+    try:
+        with path.open("rb") as file:
+            while not tags and (block := file.read(65536)):
+                parser.Parse(block, False)
+    except (OSError, expat.ExpatError):
+        return tags[0] if tags else ""
+    return tags[0] if tags else ""
+
+
+class _Parser:
+    """Builds a tree of elements and refuses what needs more than the file itself."""
+
+    def __init__(self, source: str) -> None:
+        self._source, self._depth, self._count = source, 0, 0
+        self._builder = ET.TreeBuilder()
+
+    def parse(self, content: bytes) -> ET.Element:
+        parser = expat.ParserCreate()
+        parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
+        parser.CharacterDataHandler = self._builder.data
+        parser.StartDoctypeDeclHandler = self._refuse
+        try:
+            parser.Parse(content, True)
+        except expat.ExpatError as error:
+            slip = expat.ErrorString(error.code) or "an error"
+            raise InputError(f"{self._source}, line {error.lineno}", "XML", f"a syntax error: {slip}") from None
+        return self._builder.close()
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        self._depth, self._count = self._depth + 1, self._count + 1
+        if self._depth > DEEPEST or self._count > MOST_ELEMENTS:
+            bound = f"at most {MOST_ELEMENTS} elements, {DEEPEST} deep"
+            raise InputError(self._source, bound, "more")
+        if tag.startswith("xacro:"):
+            hint = "expand the macros first: xacro FILE > robot.urdf"
+            raise InputError(self._source, "an expanded file", f"the macro {quoted(tag)}", hint)
+        self._builder.start(tag, attributes)
+
+    def _end(self, tag: str) -> None:
+        self._depth -= 1
+        self._builder.end(tag)
+
+    def _refuse(self, name: str, *_: object) -> None:
+        raise InputError(self._source, "XML without a document type, which may define entities", f"DOCTYPE {name}")
+
+
+def numbers(where: str, text: str, count: int) -> tuple[float, ...]:
+    """Return `count` finite numbers of a text."""
+    try:
+        values = tuple(float(part) for part in text.split())
+    except ValueError:
+        values = ()
+    if len(values) != count or not all(map(math.isfinite, values)):
+        raise InputError(where, "a finite number" if count == 1 else f"{count} finite numbers", quoted(text))
+    return values
+
+
+def number(where: str, attributes: Mapping[str, str], key: str, default: float = 0.0) -> float:
+    """Return a number of an attribute, or `default` without it."""
+    return numbers(f"{where}, {key}", attributes[key], 1)[0] if key in attributes else default
+
+
+def triple(where: str, text: str) -> Vector:
+    """Return three numbers of a text."""
+    x, y, z = numbers(where, text, 3)
+    return x, y, z
+
+
+def origin_of(where: str, element: ET.Element | None) -> Frame:
+    """Return the frame of attributes ``xyz`` and ``rpy``; the outer frame itself without an element."""
+    if element is None:
+        return Frame()
+    xyz = triple(f"{where}, xyz", element.get("xyz", "0 0 0"))
+    return Frame(xyz, of_rpy(triple(f"{where}, rpy", element.get("rpy", "0 0 0"))))

@@ -1,0 +1,327 @@
+"""MJCF: MuJoCo's format, read by MuJoCo's compiler, so that defaults, frames, includes and inertias are its own."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any, ClassVar
+
+from symgen.base.errors import InputError, quoted
+from symgen.describe.formats._frames import Frame, Matrix, Vector, of_quaternion
+from symgen.describe.formats._robot import (
+    GROUND,
+    Actuator,
+    Connection,
+    Follower,
+    Kind,
+    LeftOut,
+    Link,
+    Robot,
+    turned_inertia,
+)
+from symgen.describe.formats._xml import read_tree
+
+#: Files that a file may include, one in another.
+_MOST_INCLUDES = 100
+
+
+class Mjcf:
+    """Reads the compiled model: bodies, joints, equalities, actuators on joints and fixed tendons, sites."""
+
+    SUFFIXES: ClassVar[tuple[str, ...]] = (".mjcf", ".xml")
+    ROOT: ClassVar[str] = "mujoco"
+
+    @staticmethod
+    def read(path: Path, floating: bool) -> Robot:
+        """Return the robot of a file; a body without joints at the top is part of the ground, as in MuJoCo."""
+        tree = read_tree(path, "mujoco")
+        _check_includes(path, tree)
+        try:
+            import mujoco
+        except ImportError:
+            hint = "pip install symgen[import]"
+            raise InputError(path.name, "MuJoCo's compiler, which reads MJCF", "no package 'mujoco'", hint) from None
+        try:
+            model = mujoco.MjSpec.from_file(str(path)).compile()
+        except (ValueError, RuntimeError) as error:
+            slip = " ".join(str(error).replace(str(path.resolve().parent), ".").split())
+            raise InputError(path.name, "a file that MuJoCo compiles", quoted(slip)) from None
+        return _Reader(mujoco, model, path.name, tree.get("model", path.stem)).robot()
+
+
+def _check_includes(path: Path, tree: ET.Element) -> None:
+    """Refuse files elsewhere, and files that include themselves, before MuJoCo opens any."""
+    folder, waiting, count = path.resolve().parent, [(path.resolve(), tree)], 0
+    while waiting:
+        file, element = waiting.pop()
+        for include in element.iter("include"):
+            count += 1
+            name = include.get("file", "")
+            inner = (folder / name).resolve()
+            if not inner.is_relative_to(folder):
+                raise InputError(f"{path.name}: include", f"a file in the folder of {path.name}", quoted(name))
+            if inner == file or count > _MOST_INCLUDES:
+                got = f"{quoted(name)} in itself" if inner == file else "more"
+                raise InputError(f"{path.name}: include", f"at most {_MOST_INCLUDES} files, none in itself", got)
+            waiting.append((inner, _included(inner)))
+        for part in ("compiler", "option"):
+            for setting in element.iter(part):
+                for key in ("meshdir", "texturedir", "assetdir"):
+                    if not (folder / setting.get(key, "")).resolve().is_relative_to(folder.parent):
+                        expected = f"a folder beside or in the folder of {path.name}"
+                        raise InputError(f"{path.name}: {part}, {key}", expected, quoted(setting.get(key, "")))
+
+
+def _included(path: Path) -> ET.Element:
+    from symgen.describe.formats._xml import outermost
+
+    return read_tree(path, outermost(path) or "mujoco")
+
+
+class _Reader:
+    """The robot of a compiled model."""
+
+    def __init__(self, mujoco: Any, model: Any, source: str, name: str) -> None:
+        self.mujoco, self.model, self.source, self.name = mujoco, model, source, name
+        self.data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, self.data)
+        self.left_out = list[LeftOut]()
+        self.connections, self.led = list[Connection](), dict[int, Connection]()
+
+    def _name(self, sort: str, number: int) -> str:
+        name = self.mujoco.mj_id2name(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{sort.upper()}"), number)
+        return name or f"{sort}{number}"
+
+    def robot(self) -> Robot:
+        model = self.model
+        links = {self._name("body", i): self._link(i) for i in range(1, model.nbody)}
+        for i in range(1, model.nbody):
+            self._joints(i, links)
+        followers = self._equalities()
+        actuators = [a for i in range(model.nu) if (a := self._actuator(i)) is not None]
+        self._leave_out()
+        gravity = (0.0, 0.0, 0.0) if self._disabled("GRAVITY") else _vector(model.opt.gravity)
+        return Robot(self.name, links, self.connections, followers, actuators, gravity, self.left_out)
+
+    def _disabled(self, flag: str) -> bool:
+        return bool(int(self.model.opt.disableflags) & int(getattr(self.mujoco.mjtDisableBit, f"mjDSBL_{flag}")))
+
+    # -- bodies ------------------------------------------------------------------------------------------------------
+
+    def _frame(self, body: int) -> Frame:
+        return Frame(_vector(self.data.xpos[body]), of_quaternion(self.data.xquat[body].tolist()))
+
+    def _link(self, i: int) -> Link:
+        model = self.model
+        x, y, z = _vector(model.body_inertia[i])
+        principal: Matrix = ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z))
+        link = Link(self._name("body", i), self._frame(i), float(model.body_mass[i]), _vector(model.body_ipos[i]))
+        link.inertia = turned_inertia(principal, of_quaternion(model.body_iquat[i].tolist()))
+        sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
+        link.points = {self._name("site", k): _vector(model.site_pos[k]) for k in sites}
+        link.shapes = [s for k in range(model.ngeom) if model.geom_bodyid[k] == i for s in self._shape(k)]
+        return link
+
+    def _shape(self, k: int) -> list[dict[str, Any]]:
+        model, sorts = self.model, self.mujoco.mjtGeom
+        frame = Frame(_vector(model.geom_pos[k]), of_quaternion(model.geom_quat[k].tolist()))
+        a, b, c = _vector(model.geom_size[k])
+        red, green, blue = (f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in model.geom_rgba[k].tolist()[:3])
+        look: dict[str, Any] = {"frame": frame, "colour": f"#{red}{green}{blue}"}
+        sort = int(model.geom_type[k])
+        if sort == int(sorts.mjGEOM_BOX):
+            return [look | {"type": "box", "size": (2.0 * a, 2.0 * b, 2.0 * c)}]
+        if sort == int(sorts.mjGEOM_SPHERE):
+            return [look | {"type": "sphere", "radius": a}]
+        if sort in (int(sorts.mjGEOM_CYLINDER), int(sorts.mjGEOM_CAPSULE)):
+            return [look | {"type": "cylinder", "radius": a, "length": 2.0 * b}]
+        return []
+
+    # -- joints ------------------------------------------------------------------------------------------------------
+
+    def _joints(self, i: int, links: dict[str, Link]) -> None:
+        """Add the joints of a body; between several of them stand links without mass."""
+        model = self.model
+        child, above = self._name("body", i), int(model.body_parentid[i])
+        parent = GROUND if above == 0 else self._name("body", above)
+        numbers = range(int(model.body_jntadr[i]), int(model.body_jntadr[i]) + int(model.body_jntnum[i]))
+        if not numbers:
+            if int(model.body_mocapid[i]) >= 0:
+                self.left_out.append(LeftOut("a mocap body", child, "nothing moves it", True))
+            self.connections.append(Connection(f"{child}_fixed", "fixed", parent, child))
+            return
+        for k in numbers:
+            last = k == numbers[-1]
+            below = child if last else f"{child}_{self._name('joint', k)}"
+            if not last:
+                links[below] = Link(below, links[child].place)
+            connection = self._joint(k, parent, below, links[child].place)
+            if connection is not None:
+                self.connections.append(connection)
+                self.led[k] = connection
+            parent = below
+
+    def _joint(self, k: int, parent: str, child: str, place: Frame) -> Connection | None:
+        model, sorts = self.model, self.mujoco.mjtJoint
+        sort, dof, at = int(model.jnt_type[k]), int(model.jnt_dofadr[k]), int(model.jnt_qposadr[k])
+        name = self._name("joint", k)
+        damping, friction = float(model.dof_damping[dof]), float(model.dof_frictionloss[dof])
+        if sort == int(sorts.mjJNT_FREE):
+            if damping or friction or float(model.dof_armature[dof]):
+                why = "a free body has no joint to act along"
+                self.left_out.append(LeftOut("damping, friction or armature of a free body", name, why, True))
+            return None
+        kind: Kind = "revolute" if sort == int(sorts.mjJNT_HINGE) else "translational"
+        if sort == int(sorts.mjJNT_BALL):
+            kind = "spherical"
+            for what, value in (("friction", friction), ("armature", float(model.dof_armature[dof]))):
+                if value:
+                    self.left_out.append(LeftOut(what, name, "a ball joint has three directions", True))
+        frame = Frame(_vector(self.data.xanchor[k]), place.rotation)
+        c = Connection(name, kind, parent, child, frame, axis=_vector(model.jnt_axis[k]))
+        c.damping, c.stiffness = damping, float(model.jnt_stiffness[k])
+        if self._disabled("DAMPER") or self._disabled("SPRING"):
+            c.damping = 0.0 if self._disabled("DAMPER") else c.damping
+            c.stiffness = 0.0 if self._disabled("SPRING") else c.stiffness
+        if kind != "spherical":
+            c.value, c.rest = float(model.qpos0[at]), float(model.qpos_spring[at])
+            c.friction, c.rotor = friction, float(model.dof_armature[dof])
+        if model.jnt_limited[k]:
+            c.lower, c.upper = (float(x) for x in model.jnt_range[k])
+        return c
+
+    # -- equalities --------------------------------------------------------------------------------------------------
+
+    def _equalities(self) -> list[Follower]:
+        followers, sorts = list[Follower](), self.mujoco.mjtEq
+        for k in range(self.model.neq):
+            sort, name = int(self.model.eq_type[k]), self._name("equality", k)
+            if not self.model.eq_active0[k]:
+                self.left_out.append(LeftOut("an equality", name, "it is not active", False))
+            elif sort in (int(sorts.mjEQ_CONNECT), int(sorts.mjEQ_WELD)):
+                self._tie(k, name, sort == int(sorts.mjEQ_WELD))
+            elif sort == int(sorts.mjEQ_JOINT):
+                followers.append(self._polynomial(k, name))
+            else:
+                self.left_out.append(LeftOut("an equality", name, "it is neither connect, weld nor joint", True))
+        return followers
+
+    def _tie(self, k: int, name: str, weld: bool) -> None:
+        """Add a ball joint or a weld between two bodies, or between the bodies of two sites."""
+        model, data = self.model, self.model.eq_data[k].tolist()
+        ends = [int(model.eq_obj1id[k]), int(model.eq_obj2id[k])]
+        if int(model.eq_objtype[k]) == int(self.mujoco.mjtObj.mjOBJ_SITE):
+            local = [Frame(_vector(model.site_pos[s]), of_quaternion(model.site_quat[s].tolist())) for s in ends]
+            ends = [int(model.site_bodyid[s]) for s in ends]
+        elif weld:
+            relative = Frame((data[3], data[4], data[5]), of_quaternion(data[6:10]))
+            anchor = Frame((data[0], data[1], data[2]))
+            local = [relative @ anchor, anchor]
+        else:
+            local = [Frame((data[0], data[1], data[2])), Frame((data[3], data[4], data[5]))]
+        frames = [self._frame(body) @ frame for body, frame in zip(ends, local, strict=True)]
+        names = [GROUND if body == 0 else self._name("body", body) for body in ends]
+        kind: Kind = "rigid" if weld else "spherical"
+        self.connections.append(Connection(name, kind, names[0], names[1], frames[0], frames[1]))
+
+    def _polynomial(self, k: int, name: str) -> Follower:
+        """Return y - y0 = p(x - x0) as a polynomial of x."""
+        model = self.model
+        joint, other = int(model.eq_obj1id[k]), int(model.eq_obj2id[k])
+        coefficients = model.eq_data[k].tolist()[:5]
+        if other < 0:
+            coefficients = coefficients[:1]
+        start = 0.0 if other < 0 else float(model.qpos0[int(model.jnt_qposadr[other])])
+        shifted: list[float] = []
+        for a in reversed(coefficients):  # p(x - x0), from the highest power down (Horner)
+            shifted = [a, *shifted] if not shifted else _shifted(shifted, start, a)
+        shifted[0] += float(model.qpos0[int(model.jnt_qposadr[joint])])
+        while len(shifted) > 1 and shifted[-1] == 0.0:
+            shifted.pop()
+        return Follower(
+            name, self._name("joint", joint), None if other < 0 else self._name("joint", other), tuple(shifted)
+        )
+
+    # -- actuators ---------------------------------------------------------------------------------------------------
+
+    def _actuator(self, i: int) -> Actuator | None:
+        model, m = self.model, self.mujoco
+        name = self._name("actuator", i)
+        gear, at = float(model.actuator_gear[i][0]), int(model.actuator_trnid[i][0])
+        sort = int(model.actuator_trntype[i])
+        weights = dict[str, float]()
+        if sort in (int(m.mjtTrn.mjTRN_JOINT), int(m.mjtTrn.mjTRN_JOINTINPARENT)):
+            weights = {self._name("joint", at): gear} if self._straight(at) else {}
+        elif sort == int(m.mjtTrn.mjTRN_TENDON):
+            wraps = range(int(model.tendon_adr[at]), int(model.tendon_adr[at]) + int(model.tendon_num[at]))
+            if all(int(model.wrap_type[w]) == int(m.mjtWrap.mjWRAP_JOINT) for w in wraps):
+                weights = {
+                    self._name("joint", int(model.wrap_objid[w])): gear * float(model.wrap_prm[w]) for w in wraps
+                }
+        plain = int(model.actuator_dyntype[i]) == int(m.mjtDyn.mjDYN_NONE)
+        fixed = int(model.actuator_gaintype[i]) == int(m.mjtGain.mjGAIN_FIXED)
+        bias = int(model.actuator_biastype[i])
+        affine = bias == int(m.mjtBias.mjBIAS_AFFINE)
+        if not weights or not plain or not fixed or not (affine or bias == int(m.mjtBias.mjBIAS_NONE)):
+            why = "it is no effort along joints that is affine in its input, coordinates and rates"
+            self.left_out.append(LeftOut("an actuator", name, why, False))
+            return None
+        offset, along, against = model.actuator_biasprm[i].tolist()[:3] if affine else (0.0, 0.0, 0.0)
+        bounds = _pair(model.actuator_ctrlrange[i]) if model.actuator_ctrllimited[i] else None
+        limits = _pair(model.actuator_forcerange[i]) if model.actuator_forcelimited[i] else None
+        gain = float(model.actuator_gainprm[i][0])
+        return Actuator(name, weights, gain, offset, along, against, bounds, limits)
+
+    def _straight(self, joint: int) -> bool:
+        sorts = self.mujoco.mjtJoint
+        return int(self.model.jnt_type[joint]) in (int(sorts.mjJNT_HINGE), int(sorts.mjJNT_SLIDE))
+
+    # -- the rest ----------------------------------------------------------------------------------------------------
+
+    def _leave_out(self) -> None:
+        model, option = self.model, self.model.opt
+        touching = sum(1 for k in range(model.ngeom) if model.geom_contype[k] or model.geom_conaffinity[k])
+        if touching > 1 and not self._disabled("CONTACT"):
+            self.left_out.append(LeftOut("contacts", f"{touching} geoms", "bodies pass through each other", True))
+        stiff = sum(1 for k in range(model.ntendon) if model.tendon_stiffness[k] or model.tendon_damping[k])
+        limited = sum(1 for k in range(model.ntendon) if model.tendon_limited[k])
+        for what, count in (("springs and dampers of tendons", stiff), ("limits of tendons", limited)):
+            if count:
+                self.left_out.append(LeftOut(what, f"{count} tendons", "symgen has no tendons", True))
+        if option.density or option.viscosity or any(option.wind):
+            self.left_out.append(LeftOut("a fluid", "option", "bodies move in a vacuum", True))
+        meshes = sum(1 for k in range(model.ngeom) if int(model.geom_type[k]) == int(self.mujoco.mjtGeom.mjGEOM_MESH))
+        if meshes:
+            self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
+        if model.nflex:
+            self.left_out.append(LeftOut("flexible parts", f"{model.nflex}", "symgen has beams", True))
+        if model.nplugin:
+            self.left_out.append(LeftOut("plugins", f"{model.nplugin}", "their code is unknown", True))
+        if any(model.body_gravcomp):
+            self.left_out.append(LeftOut("gravity compensation", "bodies", "weight acts on every body", True))
+        if model.nsensor:
+            self.left_out.append(LeftOut("sensors", f"{model.nsensor}", "outputs are written by the user", False))
+        if model.nkey:
+            self.left_out.append(LeftOut("key frames", f"{model.nkey}", "the motion starts from the model", False))
+
+
+def _shifted(higher: list[float], start: float, constant: float) -> list[float]:
+    """Return (x - start) higher(x) + constant."""
+    product = [0.0, *higher]
+    for i, a in enumerate(higher):
+        product[i] -= start * a
+    product[0] += constant
+    return product
+
+
+def _vector(numbers: Any) -> Vector:
+    x, y, z = (float(n) for n in numbers)
+    return x, y, z
+
+
+def _pair(numbers: Any) -> tuple[float, float]:
+    low, high = (float(n) for n in numbers)
+    return low, high
+
+
+KIND = Mjcf

@@ -1,0 +1,303 @@
+"""URDF: the Unified Robot Description Format of ROS, with two dialects of closed loops."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any, ClassVar
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.formats._frames import Frame, Matrix, about, scaled
+from symgen.describe.formats._robot import (
+    GROUND,
+    Actuator,
+    Connection,
+    Follower,
+    Kind,
+    LeftOut,
+    Link,
+    Robot,
+    turned_inertia,
+)
+from symgen.describe.formats._xml import number, numbers, origin_of, read_tree, triple
+
+_KINDS: dict[str, Kind] = {
+    "fixed": "fixed",
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "translational",
+    "planar": "planar",
+    "spherical": "spherical",
+    "ball": "spherical",
+}
+#: Elements beside links and joints, which say nothing about the motion of the mechanism.
+_SILENT = {
+    "material": "colours of links are read where they are",
+    "gazebo": "settings of another program",
+    "transmission": "every joint has an input of its own",
+    "sensor": "outputs are written by the user",
+    "ros2_control": "settings of another program",
+}
+
+
+class Urdf:
+    """Reads links, joints, limits, `mimic`, `dynamics`, and the elements ``loop_joint``, ``loop`` and ``coupling``."""
+
+    SUFFIXES: ClassVar[tuple[str, ...]] = (".urdf", ".xml")
+    ROOT: ClassVar[str] = "robot"
+
+    @staticmethod
+    def read(path: Path, floating: bool) -> Robot:
+        """Return the robot of a file; its root is the ground, or moves freely where `floating` says so."""
+        return _Reader(path, floating).robot()
+
+
+class _Reader:
+    def __init__(self, path: Path, floating: bool) -> None:
+        self.source, self.floating = path.name, floating
+        self.tree = read_tree(path, "robot")
+        self.colours = {
+            m.get("name", ""): _colour(f"{self.source}: material", m.find("color"))
+            for m in self.tree.findall("material")
+        }
+        self.left_out = list[LeftOut]()
+
+    def robot(self) -> Robot:
+        links = {}
+        for element in self.tree.findall("link"):
+            link = self._link(element)
+            if link.name in links:
+                raise InputError(f"{self.source}: link", "a name used once", f"{quoted(link.name)} twice")
+            links[link.name] = link
+        if not links:
+            raise InputError(self.source, "a robot with links", "none")
+        joints = [(e, self._joint(e, links)) for e in self.tree.findall("joint")]
+        names = [c.name for _, c in joints]
+        if twice := next((name for name in names if names.count(name) > 1), None):
+            raise InputError(f"{self.source}: joint", "a name used once", f"{quoted(twice)} twice")
+        roots = self._place(links, joints)
+        connections = [c for _, c in joints]
+        for root in roots:
+            if not self.floating:
+                connections.insert(0, Connection(f"base of {root}", "fixed", GROUND, root))
+        followers = [f for e, c in joints if (f := self._mimic(e, c, names)) is not None]
+        closing, coupled = self._loops(links)
+        led = {f.joint for f in followers}
+        actuators = [
+            Actuator(f"{c.name}_{'force' if c.kind == 'translational' else 'torque'}", {c.name: 1.0}, unit=unit)
+            for c in connections
+            if c.kind in ("revolute", "translational") and c.name not in led
+            for unit in ("N" if c.kind == "translational" else "N m",)
+        ]
+        self._leave_out(joints)
+        return Robot(
+            self.tree.get("name", "robot"),
+            links,
+            connections + closing,
+            followers + coupled,
+            actuators,
+            left_out=self.left_out,
+        )
+
+    # -- links -------------------------------------------------------------------------------------------------------
+
+    def _link(self, element: ET.Element) -> Link:
+        name = self._name(element)
+        where = f"{self.source}: link {quoted(name)}"
+        link = Link(name)
+        if (inertial := element.find("inertial")) is not None:
+            frame = origin_of(f"{where}, inertial origin", inertial.find("origin"))
+            mass, inertia = inertial.find("mass"), inertial.find("inertia")
+            link.mass = 0.0 if mass is None else number(f"{where}, mass", mass.attrib, "value")
+            if link.mass < 0.0:
+                raise InputError(f"{where}, mass", "a mass of 0 or above", repr(link.mass))
+            link.centre = frame.origin
+            if inertia is not None:
+                a = {
+                    k: number(f"{where}, inertia", inertia.attrib, f"i{k}")
+                    for k in ("xx", "yy", "zz", "xy", "xz", "yz")
+                }
+                tensor: Matrix = (
+                    (a["xx"], a["xy"], a["xz"]),
+                    (a["xy"], a["yy"], a["yz"]),
+                    (a["xz"], a["yz"], a["zz"]),
+                )
+                link.inertia = turned_inertia(tensor, frame.rotation)
+        for visual in element.findall("visual"):
+            link.shapes += self._shape(where, visual)
+        return link
+
+    def _shape(self, where: str, visual: ET.Element) -> list[dict[str, Any]]:
+        frame, geometry = origin_of(f"{where}, visual origin", visual.find("origin")), visual.find("geometry")
+        look: dict[str, Any] = {"frame": frame}
+        if (material := visual.find("material")) is not None:
+            own = _colour(f"{where}, material", material.find("color"))
+            if colour := own or self.colours.get(material.get("name", ""), ""):
+                look["colour"] = colour
+        for part in geometry if geometry is not None else ():
+            at = f"{where}, {part.tag}"
+            if part.tag == "box":
+                return [look | {"type": "box", "size": triple(at, part.get("size", ""))}]
+            if part.tag == "sphere":
+                return [look | {"type": "sphere", "radius": number(at, part.attrib, "radius")}]
+            if part.tag in ("cylinder", "capsule"):
+                sizes = {key: number(at, part.attrib, key) for key in ("radius", "length")}
+                return [look | {"type": "cylinder"} | sizes]
+        return []
+
+    # -- joints ------------------------------------------------------------------------------------------------------
+
+    def _joint(self, element: ET.Element, links: dict[str, Link]) -> Connection:
+        name = self._name(element)
+        where = f"{self.source}: joint {quoted(name)}"
+        sort = element.get("type", "")
+        if sort == "floating":
+            kind: Kind = "rigid"  # marks a free child until places are known
+        elif sort in _KINDS:
+            kind = _KINDS[sort]
+        else:
+            raise InputError(f"{where}, type", "a type of joint", quoted(sort), nearest(sort, [*_KINDS, "floating"]))
+        parent, child = (self._end(where, element.find(tag), tag, links) for tag in ("parent", "child"))
+        connection = Connection(name, kind, parent, child)
+        connection.at = origin_of(f"{where}, origin", element.find("origin"))  # in the parent until places are known
+        if (axis := element.find("axis")) is not None:
+            connection.axis = triple(f"{where}, axis", axis.get("xyz", "1 0 0"))
+        else:
+            connection.axis = (1.0, 0.0, 0.0)
+        if kind in ("revolute", "translational", "planar") and not any(connection.axis):
+            raise InputError(f"{where}, axis", "an axis other than 0 0 0", "0 0 0")
+        if (dynamics := element.find("dynamics")) is not None:
+            connection.damping = number(f"{where}, dynamics", dynamics.attrib, "damping")
+            connection.friction = number(f"{where}, dynamics", dynamics.attrib, "friction")
+        if (limit := element.find("limit")) is not None and sort in ("revolute", "prismatic"):
+            lower, upper = (number(f"{where}, limit", limit.attrib, key) for key in ("lower", "upper"))
+            if lower < upper:
+                connection.lower, connection.upper = lower, upper
+                connection.value = min(max(0.0, lower), upper)
+        return connection
+
+    def _end(self, where: str, element: ET.Element | None, tag: str, links: dict[str, Link]) -> str:
+        name = "" if element is None else element.get("link", "")
+        if name not in links:
+            raise InputError(f"{where}, {tag}", "the name of a link", quoted(name), nearest(name, links))
+        return name
+
+    def _place(self, links: dict[str, Link], joints: list[tuple[ET.Element, Connection]]) -> list[str]:
+        """Set the places of links and joints in the ground frame; return the roots."""
+        above = dict[str, Connection]()
+        for _, c in joints:
+            if c.child in above:
+                hint = "a loop is closed by <loop_joint> or <loop>"
+                raise InputError(f"{self.source}: joint {quoted(c.name)}", "a link with one parent", c.child, hint)
+            above[c.child] = c
+        by_parent = dict[str, list[Connection]]()
+        for c in above.values():
+            by_parent.setdefault(c.parent, []).append(c)
+        roots = [name for name in links if name not in above]
+        placed, waiting = set(roots), list(roots)
+        while waiting:
+            parent = waiting.pop()
+            for c in by_parent.get(parent, ()):
+                c.at = links[parent].place @ c.at
+                motion = Frame()
+                if c.kind == "revolute" and c.value:
+                    motion = Frame(rotation=about(c.axis, c.value))
+                elif c.kind == "translational" and c.value:
+                    size = sum(x * x for x in c.axis) ** 0.5
+                    motion = Frame(scaled(c.value / size, c.axis))
+                links[c.child].place = c.at @ motion
+                c.at = links[c.child].place  # the axis is the same before and after the motion
+                placed.add(c.child)
+                waiting.append(c.child)
+        if len(placed) < len(links):
+            lost = next(name for name in links if name not in placed)
+            raise InputError(f"{self.source}: link {quoted(lost)}", "links that form trees", "a ring of joints")
+        joints[:] = [(e, c) for e, c in joints if e.get("type") != "floating"]
+        return roots
+
+    def _mimic(self, element: ET.Element, c: Connection, names: list[str]) -> Follower | None:
+        mimic = element.find("mimic")
+        if mimic is None or c.kind not in ("revolute", "translational"):
+            return None
+        where = f"{self.source}: joint {quoted(c.name)}, mimic"
+        leader = mimic.get("joint", "")
+        if leader not in names:
+            raise InputError(where, "the name of a joint", quoted(leader), nearest(leader, names))
+        polynomial = number(where, mimic.attrib, "offset"), number(where, mimic.attrib, "multiplier", 1.0)
+        return Follower(f"{c.name}_mimic", c.name, leader, polynomial)
+
+    # -- loops -------------------------------------------------------------------------------------------------------
+
+    def _loops(self, links: dict[str, Link]) -> tuple[list[Connection], list[Follower]]:
+        """Return the joints of ``loop_joint`` (two links with places) and ``loop`` (predecessor and successor)."""
+        closing = list[Connection]()
+        for tag, first, second in (("loop_joint", "link1", "link2"), ("loop", "predecessor", "successor")):
+            for element in self.tree.findall(tag):
+                name = self._name(element)
+                where = f"{self.source}: {tag} {quoted(name)}"
+                sort = element.get("type", "")
+                kind = "rigid" if sort == "fixed" else _KINDS.get(sort)
+                if kind is None:
+                    raise InputError(f"{where}, type", "a type of joint", quoted(sort), nearest(sort, _KINDS))
+                ends = [element.find(key) for key in (first, second)]
+                a, b = (self._end(where, end, key, links) for end, key in zip(ends, (first, second), strict=True))
+                frames = [links[x].place @ self._loop_frame(where, e) for x, e in zip((a, b), ends, strict=True)]
+                connection = Connection(name, kind, a, b, frames[0], frames[1])
+                if (axis := element.find("axis")) is not None:
+                    connection.axis = triple(f"{where}, axis", axis.get("xyz", "0 0 1"))
+                closing.append(connection)
+        coupled = [self._coupling(e) for e in self.tree.findall("coupling")]
+        return closing, coupled
+
+    @staticmethod
+    def _loop_frame(where: str, end: ET.Element | None) -> Frame:
+        origin = None if end is None else end.find("origin")
+        return origin_of(where, end if origin is None else origin)
+
+    def _coupling(self, element: ET.Element) -> Follower:
+        where = f"{self.source}: coupling {quoted(self._name(element))}"
+        raise InputError(where, "joints that follow others by <mimic>", "<coupling>", "write the ratio as a mimic")
+
+    # -- the rest ----------------------------------------------------------------------------------------------------
+
+    def _name(self, element: ET.Element) -> str:
+        name = element.get("name", "")
+        if not name.strip():
+            raise InputError(f"{self.source}: {element.tag}", "an element with a name", "none")
+        return name
+
+    def _leave_out(self, joints: list[tuple[ET.Element, Connection]]) -> None:
+        counts = dict[str, int]()
+        for element in self.tree:
+            counts[element.tag] = counts.get(element.tag, 0) + 1
+        links = self.tree.findall("link")
+        meshes = sum(1 for link in links for _ in link.iterfind("visual/geometry/mesh"))
+        touching = sum(1 for link in links if link.find("collision") is not None)
+        if touching:
+            self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
+        if meshes:
+            self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
+        for tag, why in _SILENT.items():
+            if counts.pop(tag, 0) and tag != "material":
+                self.left_out.append(LeftOut(f"<{tag}>", "the file", why, False))
+        for tag in ("link", "joint", "loop_joint", "loop", "coupling"):
+            counts.pop(tag, None)
+        for tag, count in counts.items():
+            self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", "it is no element of URDF", False))
+        limited = [
+            e for e, _ in joints if (x := e.find("limit")) is not None and (x.get("effort") or x.get("velocity"))
+        ]
+        if limited:
+            what = "limits of effort and speed"
+            self.left_out.append(LeftOut(what, f"{len(limited)} joints", "inputs take any value", False))
+
+
+def _colour(where: str, element: ET.Element | None) -> str:
+    """Return a colour as ``#rrggbb``; empty without one."""
+    if element is None:
+        return ""
+    shares = numbers(where, element.get("rgba", ""), 4)[:3]
+    return "#" + "".join(f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in shares)
+
+
+KIND = Urdf

@@ -1,0 +1,159 @@
+"""Columns that a page works out at each frame of its own motion: code, and where each column comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from symgen.compiling.checked import checked_function
+from symgen.compiling.side import READ, compile_side
+from symgen.describe.events import RESET
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.readings import TABLES as FORMULAS
+from symgen.describe.readings import integrals
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.native.javascript import HELPERS, javascript
+from symgen.native.read import Foreign
+from symgen.result.signals import Signal, of_run
+from symgen.vocabulary.expressions import Expr, readings
+from symgen.vocabulary.measures import GROUND, Integral
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+    from symgen.native.language import Function
+    from symgen.starts.assembly import Start
+
+#: Tables that need a state of bodies.
+_OF_BODIES = ("lam", "reactions", "body_reactions", "magnitudes", "joint_coordinates", "violations")
+
+
+def live_columns(
+    mechanism: Mechanism, compiled: CompiledModel, start: Start, bodies: CompiledModel | None = None
+) -> tuple[str, dict[str, Any]]:
+    """Return an expression for the functions of columns, ``null`` where JavaScript has no form of one, and their data.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Of bodies.
+    compiled : CompiledModel
+        Code of the live part.
+    start : Start
+        Of the live part.
+    bodies : CompiledModel, optional
+        Code in coordinates of bodies, if the live part has those of joints: reactions are left out then.
+    """
+    own = bodies or compiled
+    tables = dict(of_run(mechanism, own.info))
+    if bodies is not None:
+        tables = {table: signals for table, signals in tables.items() if table not in _OF_BODIES}
+    if any(
+        event.action == RESET for event in mechanism.events
+    ):  # which change the energy that errors are measured from
+        tables["energy"] = tuple(signal for signal in tables["energy"] if signal.source != e.ENERGY_ERROR)
+    if integrals(mechanism) and not own.info.integrals:
+        tables["outputs"] = tuple(s for s in tables["outputs"] if not _is_integral(mechanism, s))
+    try:
+        functions, places = _functions(mechanism, own, tables, bodies is None)
+    except Foreign:
+        return "null", {}
+    tables = {table: signals for table, signals in tables.items() if table not in FORMULAS or table in functions}
+    text = f"(() => {{\n{HELPERS}{javascript(functions)}\nreturn {{ {', '.join(functions)} }};\n}})()"
+    return text, _spec(mechanism, compiled, start, own, tables, places)
+
+
+def _is_integral(mechanism: Mechanism, signal: Signal) -> bool:
+    formula = {column.name: column.formula for column in FORMULAS["outputs"](mechanism)}[signal.key]
+    return any(isinstance(reading.source, Integral) for reading in readings(formula))
+
+
+def _functions(
+    mechanism: Mechanism, compiled: CompiledModel, tables: Mapping[str, tuple[Signal, ...]], of_bodies: bool
+) -> tuple[dict[str, Function], dict[str, tuple[int, int]]]:
+    """Return functions by table, and the places of point and centre of each joint in ``seats``."""
+    functions = dict[str, "Function"]()
+    for table, columns in FORMULAS.items():
+        keys = {signal.key for signal in tables[table]}
+        formulas = [(c.name, c.formula) for c in columns(mechanism)]
+        if not keys or len(keys) < len(formulas):
+            continue
+        side = compile_side(mechanism, compiled, table, f"the table {table} of results", formulas)
+        if of_bodies or not side.reads & set(READ):
+            functions[table] = checked_function(side.function, abi.OBSERVE)
+    if not of_bodies:
+        return functions, {}
+    functions["observe"] = checked_function(compiled.model.observe, abi.OBSERVE)
+    formulas, places = _seats(mechanism)
+    if formulas:
+        side = compile_side(mechanism, compiled, "seats", "Points of bodies at which reactions act", formulas)
+        functions["seats"] = checked_function(side.function, abi.OBSERVE)
+    return functions, places
+
+
+def _seats(mechanism: Mechanism) -> tuple[list[tuple[str, Expr]], dict[str, tuple[int, int]]]:
+    """Return formulas of the points at which reactions act, and the first places of point and centre by joint."""
+    formulas, places, markers = list[tuple[str, Expr]](), dict[str, tuple[int, int]](), dict(mechanism.seats)
+    for joint in mechanism.joints:
+        body = joint.bodies[0]
+        if joint.name not in markers:
+            continue
+        first = len(formulas)
+        formulas += [
+            (f"point of {joint.name} {axis}", x) for axis, x in zip("xyz", markers[joint.name].point, strict=False)
+        ]
+        places[joint.name] = first, -1
+        if body != GROUND:
+            places[joint.name] = first, len(formulas)
+            centre = mechanism.body(body).centre_of_mass
+            formulas += [(f"centre for {joint.name} {axis}", x) for axis, x in zip("xyz", centre, strict=False)]
+    return formulas, places
+
+
+def _spec(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    own: CompiledModel,
+    tables: Mapping[str, tuple[Signal, ...]],
+    places: Mapping[str, tuple[int, int]],
+) -> dict[str, Any]:
+    info, names = own.info, [body.name for body in mechanism.bodies]
+    bodies, q, v = list[list[int]](), 0, 0
+    for body in mechanism.bodies:
+        bodies.append([q, len(body.coordinates), v, len(body.speeds)])
+        q, v = q + len(body.coordinates), v + len(body.speeds)
+    joints = [
+        [
+            joint.name,
+            names.index(joint.bodies[0]) if joint.bodies[0] != GROUND else -1,
+            *places.get(joint.name, (-1, -1)),
+        ]
+        for joint in mechanism.joints
+    ]
+    order = {joint.name: i for i, joint in enumerate(mechanism.joints)}
+    sections = compiled.info.sections
+    return {
+        "tables": {
+            table: [[signal.name, signal.unit, signal.source, signal.column] for signal in signals]
+            for table, signals in tables.items()
+            if signals
+        },
+        "dimension": 3 if mechanism.space == "spatial" else 2,
+        "bodies": bodies,
+        "nq": q,
+        "nv": v,
+        "joints": joints,
+        "joint_of_row": [order[row.joint] for row in info.rows],
+        "multipliers": sections["multipliers"][0] if "multipliers" in sections else -1,
+        "work": compiled.info.work,
+        "status": {"rank": abi.RANK, "kinetic": abi.KINETIC, "potential": abi.POTENTIAL, "length": abi.LENGTH},
+        "observed": info.observed,
+        "rank": -1 if compiled.law.unique_multipliers else start.rank,
+        "redundant": not compiled.law.unique_multipliers and start.rank < compiled.in_force(start.w),
+        "sources": {
+            name: getattr(e, name)
+            for name in "STATE STATUS ENERGY ENERGY_ERROR ACCELERATION MULTIPLIER JOINT SIDE REACTION".split()
+        }
+        | {"BODY": e.BODY_REACTION, "MAGNITUDE": e.MAGNITUDE},
+    }
