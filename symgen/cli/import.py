@@ -17,8 +17,9 @@ from symgen.cli._options import examples, json_option
 @click.argument("file")
 @click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml by default, - for standard output.")
 @click.option("--floating", is_flag=True, help="Leave the base free where the file does not fix it to the ground.")
+@click.option("--stops", is_flag=True, help="Write limits of joints as stops without restitution.")
 @json_option
-def command(file: str, output: str | None, floating: bool, as_json: bool) -> int:
+def command(file: str, output: str | None, floating: bool, stops: bool, as_json: bool) -> int:
     """Write FILE, a robot in URDF, MJCF or SDF, as a mechanism file. Never overwrites a file.
 
     What the mechanism file leaves out is listed: as a comment in it, and on the screen.
@@ -34,7 +35,7 @@ def command(file: str, output: str | None, floating: bool, as_json: bool) -> int
     if name is None:
         ends = ", ".join(sorted({end for _, kind in FORMATS.items() for end in kind.SUFFIXES}))
         raise InputError("FILE", f"a file of another program ({ends})", quoted(file))
-    read = read_robot(path, name, floating=floating)
+    read = read_robot(path, name, floating=floating, stops=stops)
     mechanism = validate(read.raw, path.name)
     lines = [f"left out, and the motion may depend on it: {item}" for item in read.left_out if item.moves]
     lines += [f"left out: {item}" for item in read.left_out if not item.moves]

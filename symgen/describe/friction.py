@@ -318,7 +318,7 @@ def reaction_of(friction: Friction) -> Expr:
 
 def rate_of(bounded: Friction | EndStop, order: int = 1) -> Reading:
     """Return a derivative of the coordinate, or of the gap."""
-    return Reading(f"{bounded.name}, derivative {order}", bounded.measure, order)
+    return Reading(f"{bounded.name}{'.rate' * order}", bounded.measure, order)
 
 
 def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:

@@ -78,6 +78,7 @@ class Parts:
             "counter": SimpleNamespace(**{name: i for i, name in enumerate(COUNTERS)}),
             "number": SimpleNamespace(**NUMBERS, newton=correction.position == "newton", rounds=correction.rounds),
             "turning": layout.turning,
+            "evaluation": "rhs",
         }
 
     def add(self, part: str, role: str = "", **roles: str) -> None:

@@ -72,8 +72,11 @@ class Acting:
         by_joint: dict[str, list[tuple[int, int, Array]]] = {joint: [] for joint in self.seats}
         constant = np.ones(len(self.states))
         for row, column, number, slot in self.info.jacobian:
+            joint = self.info.rows[row].joint
+            if joint not in by_joint:  # a stop whose gap is a formula
+                continue
             value = constant * (number or 0.0) if slot is None else entries[:, slot]
-            by_joint[self.info.rows[row].joint].append((row, column, value))
+            by_joint[joint].append((row, column, value))
         vectors = dict[str, dict[str, Array]]()
         for joint, seat in self.seats.items():
             generalised: dict[int, Array] = {}

@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.compiling.carrying import carrying_of
 from symgen.compiling.choices import on_tree
+from symgen.describe.friction import mode_events
 from symgen.describe.mechanism import Topology
+from symgen.describe.stops import stop_events
 from symgen.describe.topology import state_measures
 from symgen.layout import abi
 from symgen.layout.probe import Ready
@@ -138,7 +140,7 @@ class TreeRun:
         """Return the events with coordinates, velocities and row impulses of the bodies."""
         result: list[Happening] = []
         impacts: dict[int, Impact] = {}
-        numbers = {event.name: i for i, event in enumerate(self.events)}
+        numbers = {event.name: i for i, event in enumerate(self._watched)}
         effects = None
         for event in outcome.happened:
             p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
@@ -152,10 +154,15 @@ class TreeRun:
             result.append(replace(event, state=state, impact=impact))
         return tuple(result)
 
+    @cached_property
+    def _watched(self) -> tuple[Event, ...]:
+        """Events of the run, and of rows whose forces have bounds."""
+        return (*self.events, *mode_events(self.whole), *stop_events(self.whole))
+
     def _effects_on_bodies(self) -> Effects:
         from symgen.compiling.events import effects_of
 
-        effects = self.effects() if self.effects else effects_of(self.whole, self.bodies, self.events)
+        effects = self.effects() if self.effects else effects_of(self.whole, self.bodies, self._watched)
         assert effects is not None, "an event has changed something"
         return effects
 

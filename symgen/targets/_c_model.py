@@ -172,7 +172,7 @@ class CModel:
             "p0": _list(map(c_number, start.p)),
             "y0": _list(map(c_number, start.y)),
             "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
-            "driven": any(row.joint in drivers for row in info.rows),
+            "driven": self.has_driven_rows,
             "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
             "moving": _list(f'"{name}"' for name in moving_names(info)),
             **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
@@ -216,6 +216,11 @@ class CModel:
         """The events."""
         return PrintedEvents.of(self.mechanism, self.compiled)
 
+    @property
+    def has_driven_rows(self) -> bool:
+        """Whether rows of drivers are among the rows; in joint coordinates drivers may need none."""
+        return any(row.joint in self.drivers for row in self.compiled.info.rows)
+
     @cached_property
     def bound(self) -> BoundFunctions:
         """Functions of the runtime."""
@@ -224,7 +229,7 @@ class CModel:
         printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
         further = ("apply_effects",) if self.events.effects else ()
         printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
-        if self.drivers:
+        if self.has_driven_rows:
             printed.add_lock(self.compiled, self.drivers)
         if self.target == "fmu" and self.compiled.info.m:
             printed.add_jacobian(self.compiled)

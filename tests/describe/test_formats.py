@@ -91,6 +91,16 @@ def test_a_start_outside_the_limits_is_moved_into_them(tmp_path: Path) -> None:
     assert run["pivot.angle"][0] == pytest.approx(0.3, abs=1e-12)
 
 
+def test_limits_become_stops(tmp_path: Path) -> None:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM, encoding="utf-8")
+    read = read_robot(path, "urdf", stops=True)
+    assert read.raw["joints"]["pivot"]["stop"] == {"lower": -1.0, "upper": 1.0}
+    assert "limits" not in {item.what for item in read.left_out}
+    run = model_of(read).simulate(until=2.0, inputs={"pivot_torque": 30.0}, coordinates="joint")
+    assert run["pivot.angle"][-1] == pytest.approx(1.0, abs=1e-9)  # pressed against its stop
+
+
 def test_mimic_and_a_floating_base(tmp_path: Path) -> None:
     text = """<robot name="pair">
   <link name="base"><inertial><mass value="4"/><inertia ixx="0.1" iyy="0.1" izz="0.1"/></inertial></link>

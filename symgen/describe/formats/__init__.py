@@ -70,7 +70,7 @@ def format_of(path: Path) -> str | None:
     return next((name for name in names if FORMATS.get(name).ROOT == root), names[0])
 
 
-def read_robot(path: Path, name: str, *, floating: bool = False) -> Import:
+def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = False) -> Import:
     """Return the description of a file of the format `name`.
 
     Parameters
@@ -81,6 +81,8 @@ def read_robot(path: Path, name: str, *, floating: bool = False) -> Import:
         Its format, from `format_of`.
     floating : bool
         Whether the base moves freely where the file does not say; it is fixed to the ground otherwise.
+    stops : bool
+        Whether limits of joints become stops without restitution.
 
     Raises
     ------
@@ -91,7 +93,7 @@ def read_robot(path: Path, name: str, *, floating: bool = False) -> Import:
 
     robot = FORMATS.get(name).read(path, floating)
     raw: Mapping[str, Any]
-    raw, left_out = describe(robot, f"{path.name} ({name.upper()})")
+    raw, left_out = describe(robot, f"{path.name} ({name.upper()})", stops)
     return Import(dict(raw), left_out, name)
 
 

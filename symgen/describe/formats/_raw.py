@@ -65,7 +65,7 @@ class _Names:
         return cured
 
 
-def describe(robot: Robot, source: str) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
+def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
     """Return the tables of a mechanism file, and what they leave out.
 
     Links that fixed joints hold together are one body, with points of the names of the others. A link without mass
@@ -77,15 +77,17 @@ def describe(robot: Robot, source: str) -> tuple[dict[str, Any], tuple[LeftOut, 
         What a file describes.
     source : str
         The file, for the key ``source``.
+    stops : bool
+        Whether limits of joints become stops.
     """
-    return _Description(robot).tables(source)
+    return _Description(robot, stops).tables(source)
 
 
 class _Description:
     """Bodies, joints and forces of a robot."""
 
-    def __init__(self, robot: Robot) -> None:
-        self.robot, self.names = robot, _Names()
+    def __init__(self, robot: Robot, stops: bool) -> None:
+        self.robot, self.names, self.stops = robot, _Names(), stops
         self.left_out = list(robot.left_out)
         self.carriers = self._carriers()
         self.joints = {c.name: c for c in robot.connections if c.kind != "fixed"}
@@ -215,14 +217,19 @@ class _Description:
             table["rotor_inertia"] = c.rotor
         elif c.rotor:
             self.left_out.append(LeftOut("armature", c.name, f"a {c.kind} joint has no rotor", True))
+        if self.stops and c.kind in ("revolute", "translational"):
+            limits = {key: x for key, x in (("lower", c.lower), ("upper", c.upper)) if x is not None}
+            table |= {"stop": limits} if limits else {}
         if c.friction:
             table["friction"] = {"sliding": c.friction}
         return table
 
     def _limits(self) -> None:
         limited = [c.name for c in self.joints.values() if c.lower is not None or c.upper is not None]
+        if self.stops:
+            limited = [name for name in limited if self.joints[name].kind not in ("revolute", "translational")]
         if limited:
-            why = "joints turn and slide beyond their ranges"
+            why = "joints move beyond their ranges" + ("" if self.stops else "; --stops keeps them in")
             self.left_out.append(LeftOut("limits", _listed(limited), why, True))
 
     # -- forces ------------------------------------------------------------------------------------------------------
