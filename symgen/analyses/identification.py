@@ -6,33 +6,26 @@ Before a fit, and after it, the singular values of the derivatives say which num
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
 from symgen.analyses.measured_data import Data, data_of
 from symgen.analyses.null_directions import null_directions
-from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
-from symgen.base.settings import Settings, is_set
-from symgen.describe.evaluate import parameter_values
 from symgen.layout import abi
-from symgen.result.build import build_result
-from symgen.result.sensitivities import Differentiated, place_of
+from symgen.result.sensitivities import place_of
 
 if TYPE_CHECKING:
+    from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
 
 Array = NDArray[np.float64]
-#: Bounds of a number.
-Bounds = tuple[float | None, float | None]
-
-#: Tolerances of runs whose derivatives are compared with data, unless they are set.
-_RTOL = _ATOL = 1e-10
 #: Share of intervals that cover the value.
 _COVERED = 0.95
 
@@ -131,15 +124,11 @@ class Identification:
         bias: Sequence[str],
         weights: Mapping[str, float],
     ) -> None:
-        if not is_set(settings, "step"):
-            rtol, atol = settings.rtol or _RTOL, settings.atol or _ATOL
-            settings = replace(settings, rtol=rtol, atol=atol)
-        self.mechanism, self.settings, self.data, self.bias = mechanism, replace(settings, verify=False), data, bias
-        self.names, self.runs = tuple(free), 0
+        self.data, self.bias, self.names = data, bias, tuple(free)
+        self.free = FreeNumbers("identify: free", mechanism, settings, self.names)
         self._last: tuple[bytes, Array, Array] | None = None
-        first = self._differentiated(settings, data[0])
-        result = self._run(first)
-        self.start = np.array([*(self._value(first, result, i) for i in range(len(free))), *(0.0 for _ in bias)])
+        first, result = self.free.run(data[0].t.tolist())
+        self.start = np.array([*self.free.values(first, result), *(0.0 for _ in bias)])
         self.units = {d.name: d.unit for d in first.directions}
         self.quantities = self._chosen(result, quantities)
         self.scales = {name: weights.get(name) or 1.0 / self._deviation(name) for name in self.quantities}
@@ -148,7 +137,8 @@ class Identification:
                 raise InputError("identify", "a measured quantity", quoted(name), nearest(name, self.quantities))
             self.units[f"bias of {name}"] = self._unit(result, name)
         self.labels = (*self.names, *(f"bias of {name}" for name in bias))
-        self.bounds = self._bounds([*free.values(), *((None, None) for _ in bias)])
+        every = [*free.values(), *((None, None) for _ in bias)]
+        self.bounds = limits("identify: free", self.labels, every, self.start)
         count = sum(len(d.t) for d in data for name in self.quantities if name in d.columns)
         if count < len(self.labels):
             got = f"{count} for {len(self.labels)} unknowns"
@@ -160,29 +150,6 @@ class Identification:
         spread = [1.0] * len(self.names) + [self._deviation(name) for name in self.bias]
         return np.where(self.start != 0.0, np.abs(self.start), spread)
 
-    def _differentiated(self, settings: Settings, data: Data) -> Differentiated:
-        own = replace(settings, times=data.t.tolist(), until=float(data.t[-1]))
-        return Differentiated(self.mechanism, own, self.names)
-
-    def _run(self, run: Differentiated) -> Result:
-        self.runs += 1
-        return run.result(build_result(run.run, run.integrate()))
-
-    def _value(self, run: Differentiated, result: Result, i: int) -> float:
-        d = run.directions[i]
-        if d.kind == "parameter":
-            return float(parameter_values(self.mechanism, self.settings.parameters)[d.key])
-        if d.kind == "method":
-            p, law = run.run.start.p, run.run.compiled.law
-            return float(p[law.parameter_offset + [name for name, _ in law.parameters].index(d.key)])
-        if d.key in self.settings.start:
-            return float(self.settings.start[d.key])
-        start = result.start["q"] | result.start["v"]
-        if d.key not in start:
-            expected = f"the value of {d.key} at the start, where the search begins"
-            raise InputError("identify: start", expected, "none", f"give start={{'{d.key}': VALUE}}")
-        return float(start[d.key])
-
     def _chosen(self, result: Result, quantities: Sequence[str]) -> tuple[str, ...]:
         """Return the measured quantities that the model has."""
         measured = dict.fromkeys(name for data in self.data for name in data.columns)
@@ -191,7 +158,7 @@ class Identification:
                 raise InputError("identify: quantities", "measured columns", quoted(name), nearest(name, measured))
         chosen = tuple(quantities or (name for name in measured if name in result._places))
         if not chosen:
-            expected = f"a column of {self.mechanism.name}, such as {result.q.names[0]}"
+            expected = f"a column of {self.free.mechanism.name}, such as {result.q.names[0]}"
             raise InputError(self.data[0].whence, expected, ", ".join(map(quoted, measured)) or "none")
         for name in chosen:
             place_of(result, name)
@@ -205,29 +172,6 @@ class Identification:
     @staticmethod
     def _unit(result: Result, name: str) -> str:
         return place_of(result, name)[2]
-
-    def _bounds(self, bounds: Iterable[Bounds]) -> tuple[Array, Array]:
-        pairs = [(-math.inf if a is None else float(a), math.inf if b is None else float(b)) for a, b in bounds]
-        for name, (low, high), x in zip(self.labels, pairs, self.start, strict=True):
-            if not low < high:
-                raise InputError(f"identify: free '{name}'", "a lower bound below the upper one", f"{low:g}, {high:g}")
-            if not low <= x <= high:
-                raise InputError(f"identify: free '{name}'", f"a start between {low:g} and {high:g}", f"{x:g}")
-        return np.array([low for low, _ in pairs]), np.array([high for _, high in pairs])
-
-    def settings_at(self, x: Array) -> Settings:
-        """Return the settings of a run with values of the free numbers."""
-        parameters, start = dict(self.settings.parameters), dict(self.settings.start)
-        options = dict(self.settings.options)
-        names = {p.name for p in self.mechanism.parameters}
-        for name, value in zip(self.names, x.tolist(), strict=False):
-            if name in names:
-                parameters[name] = value
-            elif name.startswith("method."):
-                options[name] = value
-            else:
-                start[name] = value
-        return replace(self.settings, parameters=parameters, start=start, options=options)
 
     def at(self, x: Array) -> tuple[Array, Array]:
         """Return residuals and their derivatives; infinite ones where the model has no motion."""
@@ -245,7 +189,7 @@ class Identification:
 
     def result_at(self, x: Array, data: Data) -> Result:
         """Return the run with values of the free numbers."""
-        return self._run(self._differentiated(self.settings_at(x), data))
+        return self.free.run(data.t.tolist(), x)[1]
 
     def _both(self, x: Array) -> tuple[Array, Array]:
         residuals, slopes = list[Array](), list[Array]()
@@ -296,11 +240,7 @@ def identify(
     sources: list[object] = list(data) if isinstance(data, list | tuple) else [data]
     if not sources:
         raise InputError("identify: data", "measured columns", "none")
-    if isinstance(free, str) or not isinstance(free, Mapping):
-        free = dict.fromkeys(arguments.words("identify: free", free), (None, None))
-    if not free:
-        raise InputError("identify: free", "numbers to be found", "none")
-    bounds = {name: pair if pair is not None else (None, None) for name, pair in free.items()}
+    bounds = with_bounds("identify: free", free)
     columns = [data_of(source, k) for k, source in enumerate(sources)]
     task = Identification(mechanism, settings, columns, bounds, quantities, bias, dict(weights or {}))
     residuals, slopes = task.at(task.start)
@@ -374,7 +314,7 @@ def _fit(task: Identification, solution: Any) -> Fit:
         null=null,
         notes=tuple(notes),
         deviations={name: float(np.sqrt(np.mean(np.concatenate(p) ** 2))) for name, p in deviations.items()},
-        runs=task.runs,
+        runs=task.free.runs,
         result=result,
         residuals=residuals,
     )

@@ -42,6 +42,8 @@ class Analysed:
         kinematics = _kinematics.kinematics
         inverse = _inverse.inverse
         identify = _identify.identify
+        objective = _identify.objective
+        gradient = _identify.gradient
 
 
 for _, _analysis in ANALYSES.items():

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.holds import joint_names
-from symgen.runs.directed_model import MOST
 
 if TYPE_CHECKING:
     from symgen.running.prepare import Prepared
@@ -49,10 +48,8 @@ def named_directions(run: Prepared, names: Sequence[str]) -> tuple[Direction, ..
     Raises
     ------
     InputError
-        If a name is unknown, means a number that varies during the run, or there are too many.
+        If a name is unknown, means a number that varies during the run, or comes twice.
     """
-    if len(names) > MOST:
-        raise InputError("sensitivities", f"at most {MOST} names", f"{len(names)}", "take them in several runs")
     directions = list[Direction]()
     for name in names:
         direction = _named(run, name)

@@ -27,8 +27,6 @@ Array = NDArray[np.float64]
 
 #: Numbers of directions that code is made for.
 LANES = (2, 4, 8)
-#: Most directions of a run.
-MOST = 64
 #: Functions of a model and of a law that have a form with directions in a run, and their types.
 _MODEL = {"prepare": e.PREPARE, "masses": abi.MOVE, "geometry": abi.MEASURE}
 _LAW = {"prepare": e.PREPARE, "rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT, "rates": abi.RHS}

@@ -271,7 +271,6 @@ def test_a_number_that_changes_nothing_is_named(tmp_path):
         ({"sensitivities": "a", "shape": "looped"}, "code of the shape 'straight', got shape 'looped'"),
         ({"sensitivities": 3}, "a list of names"),
         ({"sensitivities": "bodies.crank.points.B[0]"}, "make the number of the file a parameter"),
-        ({"sensitivities": ["a"] * 65}, "at most 64 names, got 65"),
     ],
 )
 def test_what_has_no_sensitivities_is_refused(four_bar, settings, said):

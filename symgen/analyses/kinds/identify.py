@@ -11,8 +11,10 @@ from symgen.base.keywords import RunKeywords, keyword_names
 from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.analyses.identification import Bounds, Fit
+    from symgen.analyses.free_numbers import Bounds
+    from symgen.analyses.identification import Fit
     from symgen.analyses.model_methods import Analysed
+    from symgen.analyses.objective import Gradient, Objective
 
 #: Settings that count: not those of outputs and checks, which the data and the fit decide.
 COUNTING = tuple(
@@ -20,6 +22,9 @@ COUNTING = tuple(
     for name in keyword_names(RunKeywords)
     if name not in ("verify", "times", "until", "output_step", "stop_when", "record_when", "events", "repeat")
 )
+
+#: Those that count where a quantity at the end is differentiated.
+OF_ENDS = tuple(name for name in keyword_names(RunKeywords) if name not in ("verify", "times", "output_step", "repeat"))
 
 
 def identify(
@@ -67,6 +72,83 @@ def identify(
     return fitted(model.mechanism, own, data, free, quantities, bias, weights)
 
 
+def objective(
+    model: Analysed,
+    quantity: str,
+    settings: Settings | None = None,
+    *,
+    by: Mapping[str, Bounds | None] | Sequence[str],
+    **changes: Unpack[RunKeywords],
+) -> Objective:
+    """Return a quantity at the end of the run as a function of chosen numbers, for ``scipy.optimize.minimize``.
+
+    Derivatives are by forward directions, as in runs with ``sensitivities``; there is no adjoint yet. Their number is
+    not limited: those that one loop does not take are further runs of the same steps.
+
+    Parameters
+    ----------
+    quantity : str
+        A column of results such as ``rocker.theta``, an output of the file, or a formula as in ``[outputs]``:
+        ``"(arm.tip.x - 1)**2"``, ``"integral(motor.power)"``.
+    settings : Settings, optional
+        All settings at once. Tolerances are 1e-10 where they are left open.
+    by : mapping of str to (float, float), or sequence of str
+        The numbers: parameters, values of the start such as ``crank.omega``, ``method.NAME``. Their bounds may be None.
+    **changes
+        Single settings by name, as listed above.
+
+    Returns
+    -------
+    Objective
+        Called with an array, it returns value and gradient; it has `names`, `x0` and `bounds`.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong, or an event ends the run.
+    AssemblyError
+        If the mechanism cannot be closed.
+    AnalysisError
+        If the run fails.
+    """
+    from symgen.analyses.objective import Objective
+
+    return Objective("objective", model.mechanism, settings_of("objective", settings, changes, OF_ENDS), quantity, by)
+
+
+def gradient(
+    model: Analysed,
+    quantity: str,
+    settings: Settings | None = None,
+    *,
+    by: Sequence[str],
+    **changes: Unpack[RunKeywords],
+) -> Gradient:
+    """Return a quantity at the end of the run with its derivatives by chosen numbers.
+
+    Derivatives are by forward directions; there is no adjoint yet.
+
+    Parameters
+    ----------
+    quantity, settings
+        As for `objective`.
+    by : sequence of str
+        Parameters, values of the start such as ``crank.omega``, ``method.NAME``.
+    **changes
+        Single settings by name, as listed above.
+
+    Raises
+    ------
+    InputError, AssemblyError, AnalysisError
+        As for `objective`.
+    """
+    from symgen.analyses.objective import Objective
+
+    return Objective(
+        "gradient", model.mechanism, settings_of("gradient", settings, changes, OF_ENDS), quantity, by
+    ).first
+
+
 def command(
     load: Callable[[], Analysed],
     settings: Settings,
@@ -109,7 +191,7 @@ def _shown(fit: Fit) -> Iterator[str | AnalysisTable]:
 
 
 KIND = Analysis(
-    methods=(identify,),
+    methods=(identify, objective, gradient),
     command=command,
     options=(
         Option(

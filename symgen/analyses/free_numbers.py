@@ -1,0 +1,128 @@
+"""Numbers of a model that a search varies: their values, their bounds, and runs that are differentiated by them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base import arguments
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings, is_set
+from symgen.describe.evaluate import parameter_values
+from symgen.result.build import build_result
+from symgen.result.sensitivities import Differentiated
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+
+Array = NDArray[np.float64]
+#: Bounds of a number.
+Bounds = tuple[float | None, float | None]
+
+#: Tolerances of runs whose derivatives guide a search, unless they are set.
+_RTOL = _ATOL = 1e-10
+
+
+class FreeNumbers:
+    """Numbers of a model that a search varies.
+
+    Parameters
+    ----------
+    where : str
+        Argument that has their names, for messages.
+    mechanism, settings : Mechanism, Settings
+        The model and how it runs.
+    names : sequence of str
+        Parameters, values of the start, ``method.NAME``.
+
+    Attributes
+    ----------
+    runs : int
+        Runs that were made.
+    """
+
+    def __init__(self, where: str, mechanism: Mechanism, settings: Settings, names: Sequence[str]) -> None:
+        self.where, self.mechanism, self.names, self.runs = where, mechanism, tuple(names), 0
+        if not isinstance(settings.start, Mapping):
+            raise InputError(where, "a run that begins at a start", "one that goes on from another run")
+        if not is_set(settings, "step"):
+            settings = replace(settings, rtol=settings.rtol or _RTOL, atol=settings.atol or _ATOL)
+        self.settings = replace(settings, verify=False)
+
+    def settings_at(self, x: Array) -> Settings:
+        """Return the settings of a run with values of the numbers."""
+        parameters, start = dict(self.settings.parameters), dict(self.settings.start)
+        options = dict(self.settings.options)
+        own = {p.name for p in self.mechanism.parameters}
+        for name, value in zip(self.names, x.tolist(), strict=False):
+            if name in own:
+                parameters[name] = value
+            elif name.startswith("method."):
+                options[name] = value
+            else:
+                start[name] = value
+        return replace(self.settings, parameters=parameters, start=start, options=options)
+
+    def run(self, times: Sequence[float], x: Array | None = None) -> tuple[Differentiated, Result]:
+        """Make a run to the last of some times; with the values of the settings where there is no `x`."""
+        settings = self.settings if x is None else self.settings_at(x)
+        run = Differentiated(self.mechanism, replace(settings, times=[*times], until=float(times[-1])), self.names)
+        self.runs += 1
+        return run, run.result(build_result(run.run, run.integrate()))
+
+    def values(self, run: Differentiated, result: Result) -> Array:
+        """Return the values of the numbers in a run that was made without `x`."""
+        return np.array([self._value(run, result, i) for i in range(len(self.names))])
+
+    def _value(self, run: Differentiated, result: Result, i: int) -> float:
+        d = run.directions[i]
+        if d.kind == "parameter":
+            return float(parameter_values(self.mechanism, self.settings.parameters)[d.key])
+        if d.kind == "method":
+            p, law = run.run.start.p, run.run.compiled.law
+            return float(p[law.parameter_offset + [name for name, _ in law.parameters].index(d.key)])
+        if d.key in self.settings.start:
+            return float(self.settings.start[d.key])
+        start = result.start["q"] | result.start["v"]
+        if d.key not in start:
+            expected = f"the value of {d.key} at the start, where the search begins"
+            raise InputError(self.where, expected, "none", f"give start={{'{d.key}': VALUE}}")
+        return float(start[d.key])
+
+
+def with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[str]) -> dict[str, Bounds]:
+    """Return names of free numbers with their bounds, which a sequence of names leaves open.
+
+    Raises
+    ------
+    InputError
+        If there are no names.
+    """
+    if isinstance(free, str) or not isinstance(free, Mapping):
+        free = dict.fromkeys(arguments.words(where, free), (None, None))
+    if not free:
+        raise InputError(where, "numbers to be found", "none")
+    return {name: pair if pair is not None else (None, None) for name, pair in free.items()}
+
+
+def limits(where: str, names: Sequence[str], bounds: Iterable[Bounds], start: Array) -> tuple[Array, Array]:
+    """Return lower and upper bounds, infinite where there are none.
+
+    Raises
+    ------
+    InputError
+        If a lower bound is not below the upper one, or the start lies outside.
+    """
+    pairs = [(-math.inf if a is None else float(a), math.inf if b is None else float(b)) for a, b in bounds]
+    for name, (low, high), x in zip(names, pairs, start, strict=True):
+        if not low < high:
+            raise InputError(f"{where} '{name}'", "a lower bound below the upper one", f"{low:g}, {high:g}")
+        if not low <= x <= high:
+            raise InputError(f"{where} '{name}'", f"a start between {low:g} and {high:g}", f"{x:g}")
+    return np.array([low for low, _ in pairs]), np.array([high for _, high in pairs])

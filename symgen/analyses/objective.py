@@ -1,0 +1,171 @@
+"""A quantity at the end of a run as a function of numbers of the model, with its gradient, for optimisers.
+
+Derivatives are by forward directions, which a run carries beside its state; there is no adjoint.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import msgspec
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
+from symgen.base import arguments
+from symgen.base.errors import AnalysisError, AssemblyError, InputError
+from symgen.describe.inputs import put
+from symgen.describe.mechanism import Mechanism, Output
+from symgen.describe.scope import Context, Scope
+from symgen.layout import abi
+from symgen.result.sensitivities import over, place_of
+
+if TYPE_CHECKING:
+    from symgen.base.settings import Settings
+    from symgen.result.result import Result
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """A quantity at the end of a run, with its derivatives.
+
+    Attributes
+    ----------
+    value : float
+        The quantity.
+    unit : str
+        Its unit; empty for a formula.
+    by : mapping of str to float
+        Its derivatives by name.
+    units : mapping of str to str
+        Their units.
+    result : Result
+        The run, whose status says how far it can be trusted.
+    """
+
+    value: float
+    unit: str
+    by: Mapping[str, float]
+    units: Mapping[str, str]
+    result: Result
+
+    def __repr__(self) -> str:
+        return f"<Gradient of {self.value:.6g}: " + ", ".join(f"{name} {x:.6g}" for name, x in self.by.items()) + ">"
+
+
+class Objective:
+    """A quantity at the end of a run as a function of chosen numbers: ``objective(x)`` is its value and its gradient.
+
+    ``scipy.optimize.minimize(objective, objective.x0, jac=True, bounds=objective.bounds)`` makes it smallest. Where the
+    mechanism cannot be closed, or the run fails, the value is infinite and the gradient 0, so that searches turn back.
+
+    Parameters
+    ----------
+    where : str
+        Name of the method, for messages.
+    mechanism, settings : Mechanism, Settings
+        The model and how it runs.
+    quantity : str
+        A column of results, or a formula as in ``[outputs]``.
+    by : mapping of str to (float or None, float or None), or sequence of str
+        The numbers, with their bounds.
+
+    Attributes
+    ----------
+    quantity : str
+        As above.
+    names : tuple of str
+        The numbers, in the order of `x`.
+    x0 : Array
+        Their values in the run as it is described.
+    bounds : list of (float or None, float or None)
+        Their bounds.
+    first : Gradient
+        Value and derivatives at `x0`.
+    """
+
+    def __init__(
+        self,
+        where: str,
+        mechanism: Mechanism,
+        settings: Settings,
+        quantity: str,
+        by: Mapping[str, Bounds | None] | Sequence[str],
+    ) -> None:
+        self._where, self.quantity, pairs = where, quantity, with_bounds(f"{where}: by", by)
+        mechanism, self._column = _with_output(where, mechanism, quantity)
+        self._free = FreeNumbers(f"{where}: by", mechanism, settings, tuple(pairs))
+        until = mechanism.defaults.until if settings.until is None else settings.until
+        self.names, self.bounds, self._times = self._free.names, list(pairs.values()), (float(until),)
+        run, result = self._free.run(self._times)
+        self.x0 = self._free.values(run, result)
+        limits(f"{where}: by", self.names, self.bounds, self.x0)
+        if result.outcome.code != abi.DONE:
+            raise AnalysisError(f"{where}: the run does not reach its end: {result.reason}")
+        self.first = self._gradient(result)
+        self._last = self.x0.tobytes(), self._pair(self.first)
+
+    def __repr__(self) -> str:
+        return f"<Objective {self.quantity} by {', '.join(self.names)}>"
+
+    @property
+    def runs(self) -> int:
+        """Runs that were made, each with all derivatives."""
+        return self._free.runs
+
+    def settings_at(self, x: ArrayLike) -> Settings:
+        """Return the settings of the run with values of the numbers, for `Model.simulate`."""
+        return self._free.settings_at(self._checked(x))
+
+    def __call__(self, x: ArrayLike) -> tuple[float, Array]:
+        """Return the value and the gradient."""
+        array = self._checked(x)
+        if self._last[0] != array.tobytes():
+            self._last = array.tobytes(), self._at(array)
+        value, slopes = self._last[1]
+        return value, slopes.copy()
+
+    def _checked(self, x: ArrayLike) -> Array:
+        array = np.asarray(x, dtype=float)
+        if array.shape != self.x0.shape:
+            expected = f"an array of shape {self.x0.shape}, one number each for {', '.join(self.names)}"
+            raise InputError(f"{self._where}: x", expected, f"{array.shape}")
+        return array
+
+    def _at(self, x: Array) -> tuple[float, Array]:
+        try:
+            _, result = self._free.run(self._times, x)
+        except (InputError, AssemblyError):
+            return np.inf, np.zeros(len(x))
+        return self._pair(self._gradient(result)) if result.outcome.code == abi.DONE else (np.inf, np.zeros(len(x)))
+
+    def _pair(self, gradient: Gradient) -> tuple[float, Array]:
+        return gradient.value, np.array([gradient.by[name] for name in self.names])
+
+    def _gradient(self, result: Result) -> Gradient:
+        table, place, unit = place_of(result, self._column)
+        assert result.sensitivities is not None, "the run has directions"
+        if result.sensitivities.end is not None:
+            hint = "take record_when, or Result.gradient and result.sensitivities.end"
+            raise InputError(self._where, "a run that ends at a time", f"an event at t = {result.end:g} s", hint)
+        slopes = result.gradient(self._column).row()
+        units = {d: over(unit, by) for d, by in zip(self.names, result.sensitivities.units, strict=True)}
+        return Gradient(float(getattr(result, table).values[-1, place]), unit, slopes, units, result)
+
+
+def _with_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechanism, str]:
+    """Return a mechanism that reports a quantity, and the name of its column; formulas become outputs."""
+    text = arguments.text(where, quantity).strip()
+    if re.fullmatch(r"[^\W\d][\w.]*", text):
+        return mechanism, text
+    name = "objective"
+    while any(name == output.name for output in mechanism.outputs):
+        name += "_"
+    output = Output(name, Scope(Context.of(mechanism), where).of_motion("", text))
+    outputs = (*mechanism.outputs, put(output, dict(mechanism.input_formulas)))
+    return msgspec.structs.replace(mechanism, outputs=outputs), name
