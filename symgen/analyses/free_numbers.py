@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -102,13 +103,21 @@ def with_bounds(where: str, free: Mapping[str, Bounds | None] | Sequence[str]) -
     Raises
     ------
     InputError
-        If there are no names.
+        If there are no names, or a bound is no number.
     """
     if isinstance(free, str) or not isinstance(free, Mapping):
         free = dict.fromkeys(arguments.words(where, free), (None, None))
     if not free:
         raise InputError(where, "numbers to be found", "none")
-    return {name: pair if pair is not None else (None, None) for name, pair in free.items()}
+    return {name: _pair(f"{where} '{name}'", pair) for name, pair in free.items()}
+
+
+def _pair(where: str, bounds: object) -> Bounds:
+    expected = "a lower and an upper bound, each a number or None"
+    pair = arguments.listed(where, bounds, expected) or [None, None]
+    if len(pair) != 2 or not all(x is None or isinstance(x, Real) for x in pair):
+        raise InputError(where, expected, arguments.shown(bounds))
+    return pair[0], pair[1]
 
 
 def limits(where: str, names: Sequence[str], bounds: Iterable[Bounds], start: Array) -> tuple[Array, Array]:

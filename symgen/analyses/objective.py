@@ -86,7 +86,7 @@ class Objective:
     bounds : list of (float or None, float or None)
         Their bounds.
     first : Gradient
-        Value and derivatives at `x0`.
+        Value and derivatives in that run. At `x0` the start holds values of its own that are varied.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class Objective:
         if result.outcome.code != abi.DONE:
             raise AnalysisError(f"{where}: the run does not reach its end: {result.reason}")
         self.first = self._gradient(result)
-        self._last = self.x0.tobytes(), self._pair(self.first)
+        self._last: tuple[bytes, tuple[float, Array]] | None = None
 
     def __repr__(self) -> str:
         return f"<Objective {self.quantity} by {', '.join(self.names)}>"
@@ -125,16 +125,16 @@ class Objective:
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:
         """Return the value and the gradient."""
         array = self._checked(x)
-        if self._last[0] != array.tobytes():
+        if self._last is None or self._last[0] != array.tobytes():
             self._last = array.tobytes(), self._at(array)
         value, slopes = self._last[1]
         return value, slopes.copy()
 
     def _checked(self, x: ArrayLike) -> Array:
-        array = np.asarray(x, dtype=float)
-        if array.shape != self.x0.shape:
-            expected = f"an array of shape {self.x0.shape}, one number each for {', '.join(self.names)}"
-            raise InputError(f"{self._where}: x", expected, f"{array.shape}")
+        array = np.array(arguments.numbers(f"{self._where}: x", x))
+        if len(array) != len(self.names):
+            expected = f"one number each for {', '.join(self.names)}"
+            raise InputError(f"{self._where}: x", expected, f"{len(array)} numbers")
         return array
 
     def _at(self, x: Array) -> tuple[float, Array]:
