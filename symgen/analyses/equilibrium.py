@@ -25,6 +25,7 @@ from symgen.analyses.algebra import (
 from symgen.analyses.edges import edges
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, at_balance, settle
+from symgen.analyses.stopped import fault
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError, InputError
 
@@ -76,7 +77,7 @@ class Equilibrium:
     lam : Array, shape (m,)
         The multipliers.
     notes : tuple of str
-        Forces that have no derivative there: stability and frequencies ignore that.
+        The stops in force, and forces that have no derivative there: stability and frequencies ignore that.
     """
 
     q: dict[str, float]
@@ -130,7 +131,7 @@ def judged(rest: Settled) -> Equilibrium:
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=(*subject.singular(d), *edges(subject, y)),
+        notes=(*subject.mode, *subject.singular(d), *edges(subject, y)),
     )
 
 
@@ -238,7 +239,8 @@ def scanned_rests(subject: Subject, name: str, values: Array) -> tuple[Equilibri
                 np.abs(coordinate_differences(places[1], other.y, rest.y) / places[0]).max(initial=0.0) >= SAME
                 for other in rests
             ):
-                rests.append(judged(rest))
+                there = judged(rest)
+                rests += [] if fault(rest.subject, there.y, there.lam) else [there]
         before = now
     if not reached:
         expected = "values that the coordinate can have"

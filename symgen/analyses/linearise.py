@@ -168,7 +168,7 @@ def linear_system(subject: Subject, y: Array, states: Sequence[str] = (), instan
         x.t,
         tuple(left_out),
         subject.by,
-        (*subject.singular(subject.rows(x.base)), *edges(subject, y, x.a, outputs)),
+        (*subject.mode, *subject.singular(subject.rows(x.base)), *edges(subject, y, x.a, outputs)),
         tuple(eigenvectors(x, names, vibration(x))[0].tolist()),
     )
 

@@ -149,7 +149,9 @@ def modes_about(
     coordinates = tuple(q.name for q in subject.compiled.info.coordinates)
     if not x.size:
         nothing = np.zeros(0, dtype=np.complex128)
-        return Modes(nothing, np.zeros(0), 0, (), nothing.reshape(0, 0), about=subject.named(y), t=x.t)
+        return Modes(
+            nothing, np.zeros(0), 0, (), nothing.reshape(0, 0), about=subject.named(y), t=x.t, notes=subject.mode
+        )
     still = vibration(x)
     vectors: Array | Complex
     shapes: Array | Complex
@@ -175,7 +177,10 @@ def modes_about(
             moved = x.free @ vectors[: x.positions]
             largest = np.sqrt(_work(moved, x.base.by("balance", "a") @ moved))
         shapes = shapes / np.maximum(largest, 1e-300)
-    tables, notes = _shares(x, vectors, bodies), (*subject.singular(subject.rows(x.base)), *edges(subject, y))
+    tables, notes = (
+        _shares(x, vectors, bodies),
+        (*subject.mode, *subject.singular(subject.rows(x.base)), *edges(subject, y)),
+    )
     shapes = shapes.T.astype(np.complex128)
     return Modes(in_order(values), squares, x.velocities, names, shapes, *tables, about, x.t, notes)
 

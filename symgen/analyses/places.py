@@ -18,6 +18,7 @@ from symgen.analyses.modes import Modes, modes_about
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, named_states
+from symgen.analyses.stopped import refuse_fault
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
@@ -131,12 +132,23 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
         if not subject.closed:
             expected = "a start that closes the mechanism"
             raise InputError("at start", expected, "one that does not", "ask for an equilibrium")
+        _refuse_mode(subject, subject.y)
         return subject, subject.y
     if isinstance(place.at, Mapping):
         rest = rest_at(subject, place.at)
     else:
         rest = rest_of(subject) if place.at == "equilibrium" else steady_motion(subject, place.cyclic)
+    if place.at == "steady":
+        _refuse_mode(rest.subject, rest.y)
+    elif subject.mode:
+        refuse_fault(rest.subject, rest.y, judged(rest).lam)
     return rest.subject, rest.y
+
+
+def _refuse_mode(subject: Subject, y: Array) -> None:
+    """Refuse a state in motion at which a stop cannot be in its mode."""
+    if subject.mode:
+        refuse_fault(subject, y, tangent(subject, y).lam)
 
 
 def rest_at(subject: Subject, values: Mapping[str, float]) -> Settled:
@@ -166,6 +178,7 @@ def steady_from(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] 
     """Find a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
     subject = subject_of(mechanism, replace(settings, coordinates="joint"))
     rest = steady_motion(subject, arguments.words("cyclic", cyclic))
+    _refuse_mode(rest.subject, rest.y)
     x = tangent(rest.subject, rest.y)
     names = named_states(rest.subject, x, (), False, "steady")
     if at_rest(rest.subject, x):
@@ -197,7 +210,10 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         subject = subject_of(mechanism, settings)
         if subject.closed:  # it is the tree that cannot start there, as in a run
             raise
-    return _of_bodies(mechanism, settings, subject, (judged(rest_of(subject)),))[0]
+    settled = rest_of(subject)
+    rest = judged(settled)
+    refuse_fault(settled.subject, rest.y, rest.lam)
+    return _of_bodies(mechanism, settings, subject, (rest,))[0]
 
 
 def _of_bodies(

@@ -11,12 +11,14 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import null_space_split
+from symgen.analyses.stopped import closed_stops, mode_of, with_rows
 from symgen.base.errors import InputError, nearest
 from symgen.base.settings import Settings
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.side import compile_side
+from symgen.describe.digest import digest
 from symgen.describe.friction import without_friction
-from symgen.describe.stops import refuse_bounds
+from symgen.describe.stops import without_stops
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.lower.windings import winding_order
@@ -27,7 +29,7 @@ from symgen.running.prepare import prepare
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import EndStop, Mechanism
     from symgen.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
@@ -113,6 +115,8 @@ class Subject(Yardsticks):
         Parameters that the form is differentiated by besides the inputs.
     inputs : tuple of str
         Inputs of the file: a mechanism in which formulas stand for them has switches as well.
+    shut, opened : tuple of EndStop
+        Stops that are closed at the start, which are rows of `mechanism`, and open ones.
     """
 
     mechanism: Mechanism
@@ -125,6 +129,13 @@ class Subject(Yardsticks):
     closed: bool = True
     by: tuple[str, ...] = ()
     inputs: tuple[str, ...] = ()
+    shut: tuple[EndStop, ...] = ()
+    opened: tuple[EndStop, ...] = ()
+
+    @property
+    def mode(self) -> tuple[str, ...]:
+        """A sentence on the stops in force; none where there are no stops."""
+        return mode_of(self.shut, self.opened)
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -296,7 +307,7 @@ class Subject(Yardsticks):
 
 
 def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
-    """Make a mechanism with its start ready to be analysed, without dry friction.
+    """Make a mechanism with its start ready to be analysed, without dry friction, with stops as they are at the start.
 
     Parameters
     ----------
@@ -312,14 +323,18 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     InputError
         If a setting is wrong, or a name of `by` is no parameter.
     """
-    mechanism = without_friction(mechanism)
-    refuse_bounds("analyses", mechanism)
+    settings = _unbounded(mechanism, settings)
+    mechanism, stops = without_stops(without_friction(mechanism)), mechanism.stops
     placed, inputs = inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":
         looped = mechanism.body_coordinates > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
     run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
+    shut = closed_stops(run.mechanism, run.compiled, run.start, stops)
+    if shut:
+        placed = replace(placed, mechanism=with_rows(placed.mechanism, shut))
+        run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
     mechanism, compiled, start, closed = run.mechanism, run.compiled, run.start, run.assembled.closed
     names = [q.name for q in mechanism.parameters]
     for name in by:
@@ -341,7 +356,18 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
             p[[places[name] for name in stop.values]] = list(stop.values.values())
     p[[places[name] for name, _ in placed.mechanism.input_formulas]] = 0.0
     compiled.prepare(p)
-    return Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
+    subject = Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
+    return replace(subject, shut=shut, opened=tuple(stop for stop in stops if stop not in shut))
+
+
+def _unbounded(mechanism: Mechanism, settings: Settings) -> Settings:
+    """Have the state of a run of a mechanism with bounded rows start one without them."""
+    if not mechanism.bounded or isinstance(settings.start, Mapping):
+        return settings
+    last = settings.start.last_state
+    if last.digest != digest(mechanism):
+        return settings  # of another mechanism, which is refused
+    return replace(settings, start=replace(last, digest="", windings=(), rank=0, made=None, arrays=None))
 
 
 def inputs_at_start(mechanism: Mechanism, settings: Settings) -> Inputs:

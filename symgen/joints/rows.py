@@ -77,8 +77,8 @@ class FormulaRows(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         for label in labels:
             if labels.count(label) > 1:
                 raise scope.error("rows", "labels used once", f"'{label}' {labels.count(label)} times")
-        read_bodies = list(dict.fromkeys(b for row in rows for b in _bodies(row) if b != GROUND))
-        bodies = read_bodies if self.between is None else [scope.body("between", name) for name in self.between]
+        read_bodies = tied(*rows)
+        bodies = read_bodies if self.between is None else tuple(scope.body("between", name) for name in self.between)
         for body in read_bodies:
             if body not in bodies:
                 raise scope.error("between", f"all bodies of the rows, {', '.join(read_bodies)}", f"none of '{body}'")
@@ -129,6 +129,11 @@ def _nonlinear(e: Expr) -> Expr | None:
     if _degree(e) <= 1.0 or not isinstance(e, Call):
         return None
     return next((part for a in e.arguments if (part := _nonlinear(a)) is not None), e)
+
+
+def tied(*rows: Row) -> tuple[str, ...]:
+    """Return the bodies that rows read, in the order in which they do."""
+    return tuple(dict.fromkeys(b for row in rows for b in _bodies(row) if b != GROUND))
 
 
 def _bodies(row: Row) -> Iterator[str]:
