@@ -71,7 +71,7 @@ def closed_stops(
 
 
 def _gaps(stops: Sequence[EndStop]) -> list[tuple[str, Expr]]:
-    """Return gaps by name: those of formulas as such, by whose text their code is kept beside that of the mechanism."""
+    """Return gaps by name; of a gap that a formula describes the formula, as its text selects the kept code."""
     return [
         (stop.name, stop.measure.of if isinstance(stop.measure, FormulaMeasure) else gap_of(stop)) for stop in stops
     ]

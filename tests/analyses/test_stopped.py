@@ -84,6 +84,9 @@ def test_an_arm_on_a_stop_carries_a_pendulum(coordinates: str) -> None:
     assert len(system.states) == 2
     assert np.allclose(sorted(system.eigenvalues().imag), [-math.sqrt(squared), math.sqrt(squared)], atol=1e-11)
     assert CLOSED.format("A.lower") in system.notes
+    modes = model.modes(coordinates=coordinates)
+    assert modes.omega_squared == pytest.approx((squared,), rel=1e-11)
+    assert CLOSED.format("A.lower") in modes.notes
     assert model.equilibria(("rod.theta", np.linspace(-1.0, 1.0, 6)), coordinates=coordinates)[0].stability == "stable"
 
 
