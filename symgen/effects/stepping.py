@@ -10,7 +10,6 @@ import numpy as np
 from symgen.effects.applying import EFFECT_MODEL, EFFECT_WORK, apply_effects
 from symgen.layout import abi
 from symgen.layout.start_records import INSTANT, LAYOUT, record_type
-from symgen.loopcode.bare import part
 from symgen.loopcode.exact import exact
 from symgen.native import types
 
@@ -28,17 +27,19 @@ STEP_MODEL = types.RecordType((LAYOUT, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE
 #: Steps, the effects of events, and 1 for each event that ends the run, else 0.
 RUN_MODEL = types.RecordType((STEP_MODEL, EFFECT_MODEL, _K))
 #: Working memory.
-#: - stages, middle: Rates at the four stages; the state at a stage.
+#: - first, second, third, fourth, middle: Rates at the four stages, arrays of their own, since a view of an array is a
+#:   new object in JavaScript; the state at a stage.
 #: - y, w, before, after: State and scratch at the beginning; switching functions at both ends of a step.
 #: - clock (shape (1,)): Time [s].
 #: - counters, chosen: Counters at the beginning; 1 for each event at the end of the step, else 0.
-STEP_WORK = record_type("StepWork", __name__, ("stages middle y w before after clock", _A), ("counters chosen", _K))
+_NUMBERS = "first second third fourth middle y w before after clock", _A
+STEP_WORK = record_type("StepWork", __name__, _NUMBERS, ("counters chosen", _K))
 StepWork: Any = STEP_WORK.constructor
 
 
 def new_step_work(ny: int, nw: int, events: int) -> Any:
     """Return working memory."""
-    sizes = 4 * ny, ny, ny, nw, events, events, 1
+    sizes = ny, ny, ny, ny, ny, ny, nw, events, events, 1
     integers = (np.zeros(size, dtype=np.int64) for size in (abi.N_COUNTERS, events))
     return StepWork._make((*(np.zeros(size) for size in sizes), *integers))
 
@@ -52,12 +53,20 @@ def all_finite(x: Any, count: int) -> bool:
     return finite
 
 
-@exact(types.boolean(STEP_MODEL, _F, _A, _A, _A, _K, _A))
-def find_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any) -> bool:
-    """Set the rates of a state, confirmed where a pivot is suspicious; return whether they are finite."""
-    layout, rhs, confirm, _, _, _ = model
+@exact()
+def set_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any) -> int:
+    """Set the rates of a state, confirmed where a pivot is suspicious."""
+    _, rhs, confirm, _, _, _ = model
     if rhs(t, y, p, w, iw, rate) != 0:
         confirm(t, y, p, w, iw, rate)
+    return 0
+
+
+@exact(types.boolean(STEP_MODEL, _F, _A, _A, _A, _K, _A))
+def find_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any) -> bool:
+    """Set the rates of a state; return whether they are finite."""
+    layout, _, _, _, _, _ = model
+    set_rates(model, t, y, p, w, iw, rate)
     return bool(all_finite(rate, layout.ny))
 
 
@@ -75,15 +84,14 @@ def take_step(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> b
     layout, _, _, accept, _, _ = model
     (y, p, w), middle, n = now, work.middle, layout.ny
     w[abi.STEP_STATUS] = h
-    a, b = part(work.stages, 0, n), part(work.stages, n, n)
-    c, d = part(work.stages, 2 * n, n), part(work.stages, 3 * n, n)
-    find_rates(model, t, y, p, w, iw, a)
+    a, b, c, d = work.first, work.second, work.third, work.fourth
+    set_rates(model, t, y, p, w, iw, a)
     set_stage(y, 0.5 * h, a, middle)
-    find_rates(model, t + 0.5 * h, middle, p, w, iw, b)
+    set_rates(model, t + 0.5 * h, middle, p, w, iw, b)
     set_stage(y, 0.5 * h, b, middle)
-    find_rates(model, t + 0.5 * h, middle, p, w, iw, c)
+    set_rates(model, t + 0.5 * h, middle, p, w, iw, c)
     set_stage(y, h, c, middle)
-    find_rates(model, t + h, middle, p, w, iw, d)
+    set_rates(model, t + h, middle, p, w, iw, d)
     for i in range(n):
         y[i] += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i])
     return bool(accept(t + h, y, p, w, iw) % 2 == 0 and all_finite(y, n))

@@ -81,7 +81,7 @@ RESERVED = frozenset(
     "arguments await break case catch class const debugger default delete enum eval export extends function implements "
     "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
     "var void with yield Math copysign floored rest least greatest square power "
-    "end quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
+    "end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
 )
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}
@@ -98,7 +98,8 @@ def javascript(functions: Mapping[str, lang.Function], bound: BoundFunctions | N
     functions : mapping of str to Function
         Functions to define, by their names in the text.
     bound : BoundFunctions, optional
-        Functions of the runtime bound to a model, which follow; their first argument is an object with memory.
+        Functions of the runtime bound to a model, which follow; their first argument is an object with memory, which
+        ``newMemory(p, w, iw)`` returns.
     """
     bound = bound or BoundFunctions({})
     order, names = ordered({**functions, **bound.functions}, RESERVED)
@@ -107,7 +108,18 @@ def javascript(functions: Mapping[str, lang.Function], bound: BoundFunctions | N
         for table in bound.tables.values()
     ]
     printers = (_BoundPrinter(f, names, bound) if is_bound(f) else _Printer(f, names) for f in order)
-    return "\n".join([*tables, *(printer.text() for printer in printers)])
+    return "\n".join([*tables, *(printer.text() for printer in printers), *_memory(bound)])
+
+
+def _memory(bound: BoundFunctions) -> list[str]:
+    """Return the function of the object with memory, where there is any.
+
+    Its members are literal: V8 looks up members that are added later, one by one, in a dictionary.
+    """
+    outside = ("p", "w", "iw")
+    own = [f"{name}: new Float64Array({size})" for name, (_, size) in bound.memory.items() if name not in outside]
+    shared = ", ".join(outside)
+    return [f"const newMemory = ({shared}) => ({{ {', '.join([shared, *own])} }});"] if bound.memory else []
 
 
 def js_number(value: float | int | bool) -> str:
@@ -156,7 +168,9 @@ class _Printer(FunctionPrinter):
     def loop_head(self, s: lang.For, counter: str) -> str:
         """Return the head of a loop whose counter has its own name."""
         first, last, sign = self.value(s.start), self.value(s.stop), "<" if s.step > 0 else ">"
-        return f"for (let {counter} = {first}, end = {last}; {counter} {sign} end; {counter} += {s.step}) {{"
+        kept, end = ("", last) if isinstance(s.stop, lang.Constant) else (f", end = {last}", "end")
+        further = f"{counter}++" if s.step == 1 else f"{counter} += {s.step}"
+        return f"for (let {counter} = {first}{kept}; {counter} {sign} {end}; {further}) {{"
 
     def called(self, e: lang.ScalarOperation) -> str:
         """Return the name of an operation's function."""

@@ -109,7 +109,7 @@ def live_part(
         described = not joint and is_described(mechanism)
     try:
         script = _script(mechanism, described)
-        code, memory, size = _code(
+        code, size = _code(
             acting or mechanism,
             compiled,
             exported_start(mechanism, compiled, start.datum, None if described else turns),
@@ -121,19 +121,17 @@ def live_part(
     if size > MOST[spatial]:
         return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
     constants = {*still, *dict(mechanism.input_formulas)}
-    spec = _spec(mechanism, compiled, start, step, joint, constants) | {"memory": memory}
+    spec = _spec(mechanism, compiled, start, step, joint, constants)
     return Live(f"{HELPERS}{code}\n{script}", spec), ""
 
 
-def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> tuple[str, list[tuple[str, int]], int]:
+def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> tuple[str, int]:
     """Return emitted functions and functions of the runtime for starts and events.
 
     Returns
     -------
     code : str
         The text.
-    memory : list of (str, int)
-        Memory of the functions of the runtime: names and lengths.
     size : int
         Characters of the emitted functions.
     """
@@ -144,9 +142,7 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> 
     printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _drivers(mechanism):
         printed.add_lock(compiled, drivers)
-    bound = printed.bound()
-    memory = [(name, size) for name, (_, size) in bound.memory.items() if name not in ("p", "w", "iw")]
-    return f"{LOOP_HELPERS}{javascript(functions, bound)}", memory, len(javascript(functions))
+    return f"{LOOP_HELPERS}{javascript(functions, printed.bound())}", len(javascript(functions))
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -186,6 +186,25 @@ def test_the_live_part_looks_for_events_of_the_mechanism_alone(
     assert run.to_json()["watched"] == [{"name": "floor", "action": action}]
 
 
+def test_a_step_of_a_page_makes_no_objects_and_memory_is_one_literal() -> None:
+    """Views are new objects, and V8 keeps an object in a dictionary once its members are added one by one."""
+    html = load("slider-crank").simulate(until=0.05, method="direct-correction").view().html
+    texts = {
+        text.split("(")[0]: text for text in re.split(r"^function |^const (?=newMemory)", html, flags=re.MULTILINE)
+    }
+    reached, waiting = dict[str, str](), ["take_steps"]
+    while waiting:
+        name = waiting.pop()
+        reached[name] = texts[name]
+        waiting += {n for n in re.findall(r"\b(\w+)\(", texts[name]) if n in texts and n not in reached}
+    assert {"take_step", "set_rates", "rhs", "accept"} <= set(reached)
+    assert not [name for name, text in reached.items() if re.search(r"\bpart\(|\bnew\b|\.(slice|subarray)\(", text)]
+    (members,) = re.findall(r"const newMemory = \(p, w, iw\) => \(\{ p, w, iw, (.*) \}\);", html)
+    own = dict(re.findall(r"(\w+): new Float64Array\((\d+)\)", members))
+    assert set(own) | {"p", "w", "iw"} == {*re.findall(r"\bmodel\.(\w+)", html), "p", "w", "iw"}
+    assert "memory[" not in html
+
+
 def test_the_live_part_in_joint_coordinates_begins_where_the_run_began() -> None:
     run = load("slider-crank").simulate(until=0.01, coordinates="joint", start={"crank.theta": 1.0})
     live = data_of(run.view().html)["live"]

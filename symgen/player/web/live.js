@@ -5,8 +5,7 @@ function makeLive(spec, code) {
   const { p, w, iw, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
 
   // What functions of the runtime take: parameters, scratch, counters and working memory.
-  const memory = { p, w, iw };
-  for (const [name, size] of spec.memory) memory[name] = new Float64Array(size);
+  const memory = code.newMemory(p, w, iw);
 
   // -- the start ------------------------------------------------------------------------------------------------------
 
