@@ -232,6 +232,7 @@ def _spec(
         "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],
         "moving": moving_names(info),
         **{"most_named": MOST_NAMED, "counts": COUNTS},
+        "jacobian": [list(entry) for entry in info.jacobian],
         "at": sections,
         "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
         "ended": ENDED,
