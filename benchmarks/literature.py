@@ -243,8 +243,8 @@ def classes(times: bool = False, turns: int = 9) -> PageTable:
 
 def tables(times: bool = False) -> dict[str, PageTable]:
     """Return all tables by name; run times are measured only if asked for."""
-    found = (gains(), adaptive(), energy(), violation(), projection(), classes(times))
-    return {table.command.split()[-1]: table for table in found}
+    measured = (gains(), adaptive(), energy(), violation(), projection(), classes(times))
+    return {table.command.split()[-1]: table for table in measured}
 
 
 if __name__ == "__main__":

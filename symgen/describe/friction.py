@@ -8,7 +8,7 @@ the bounds depend on the joint's reaction, laws solve for the effort in motion (
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Literal
 
 import msgspec
@@ -91,7 +91,7 @@ def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ..
 
 
 def by_coordinate(scope: Scope, joint: Joint, key: str, raw: object, example: str) -> Mapping[str, object]:
-    """Return what a key of a joint has for each of its coordinates.
+    """Return the table that a key of a joint holds for each of its coordinates.
 
     Parameters
     ----------
@@ -175,16 +175,19 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
 def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: FrictionSection) -> tuple[str, ...]:
     """Return the rows whose forces are the reaction that bounds depend on; none where they are constant."""
     by_reaction = ("coefficient", "static_coefficient", "radius")
-    given = [name for name in by_reaction if getattr(section, name) is not None]
+    of_reaction = [name for name in by_reaction if getattr(section, name) is not None]
     constant = [name for name in ("sliding", "static") if getattr(section, name) is not None]
-    if constant and given:
-        raise scope.error(f"{key}.{given[0]}", f"no such key beside {constant[0]}", f"{getattr(section, given[0])}")
-    first = "coefficient" if given else "sliding"
+    if constant and of_reaction:
+        got = f"{getattr(section, of_reaction[0])}"
+        raise scope.error(f"{key}.{of_reaction[0]}", f"no such key beside {constant[0]}", got)
+    first = "coefficient" if of_reaction else "sliding"
     if getattr(section, first) is None:
-        got = " and ".join(given or constant) or "neither"
-        expected = "the key coefficient" if given else "the key sliding, or coefficient for friction by the reaction"
+        got = " and ".join(of_reaction or constant) or "neither"
+        expected = (
+            "the key coefficient" if of_reaction else "the key sliding, or coefficient for friction by the reaction"
+        )
         raise scope.error(key, expected, got)
-    if not given:
+    if not of_reaction:
         return ()
     if scope.spatial:
         raise scope.error(f"{key}.coefficient", "friction by the reaction in the plane", "a mechanism in space")
@@ -372,9 +375,14 @@ def without_friction(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without its dry friction and what it reports of that."""
     if not mechanism.frictions:
         return mechanism
-    reported = {output.name for output in friction_outputs(mechanism.frictions)}
-    outputs = tuple(output for output in mechanism.outputs if output.name not in reported)
+    outputs = outputs_without(mechanism, friction_outputs(mechanism.frictions))
     return msgspec.structs.replace(mechanism, frictions=(), outputs=outputs)
+
+
+def outputs_without(mechanism: Mechanism, reports: Iterable[Output]) -> tuple[Output, ...]:
+    """Return the outputs of a mechanism without some reports."""
+    reported = {output.name for output in reports}
+    return tuple(output for output in mechanism.outputs if output.name not in reported)
 
 
 def refuse_friction(where: str, mechanism: Mechanism) -> None:

@@ -89,7 +89,6 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
 def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     """Return the nested dictionary of `model`, not yet validated, and the name of its origin for messages."""
     from symgen import catalogue
-    from symgen.describe.formats import format_of, read_robot
 
     arguments.path("model", model)
     text = os.fspath(model)
@@ -99,8 +98,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return catalogue.raw(match.group("name"), None if size is None else int(size)), text
     path = Path(text)
     if _is_file(path):
-        other = format_of(path)
-        return (read_toml(path) if other is None else read_robot(path, other).raw), path.name
+        return (read_toml(path) if path.suffix == ".toml" else _read_other(path)), path.name
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
     entries = catalogue.all_names()
@@ -108,6 +106,14 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     if ":" in text and not hint.startswith("known"):
         hint = f"a size is written as in {catalogue.example_of_size()}"
     raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)
+
+
+def _read_other(path: Path) -> dict[str, Any]:
+    """Return the tables of a file of another program's format; without a known end it is TOML."""
+    from symgen.describe.formats import format_of, read_robot
+
+    other = format_of(path)
+    return read_toml(path) if other is None else read_robot(path, other).raw
 
 
 def _is_file(path: Path) -> bool:

@@ -13,7 +13,15 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.describe.fields import Scalar, StateFunction, read_table
-from symgen.describe.friction import MODE, by_coordinate, effort_at_rest, number_of, rate_of, refuse_friction
+from symgen.describe.friction import (
+    MODE,
+    by_coordinate,
+    effort_at_rest,
+    number_of,
+    outputs_without,
+    rate_of,
+    refuse_friction,
+)
 from symgen.describe.mechanism import EndStop, Event, Joint, Mechanism, Output
 from symgen.describe.readings import is_angle
 from symgen.describe.scope import Scope
@@ -199,8 +207,7 @@ def without_stops(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without its stops and what it reports of them."""
     if not mechanism.stops:
         return mechanism
-    reported = {output.name for output in stop_outputs(mechanism.stops)}
-    outputs = tuple(output for output in mechanism.outputs if output.name not in reported)
+    outputs = outputs_without(mechanism, stop_outputs(mechanism.stops))
     return msgspec.structs.replace(mechanism, stops=(), outputs=outputs)
 
 

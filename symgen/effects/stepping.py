@@ -218,9 +218,9 @@ def take_steps(model: Any, until: float, h: float, now: Any, iw: Any, work: Any,
             if not size > NEAREST * (1.0 + abs(t)):
                 return FAILED
         step = rest if rest < size + LONGER * size else size
-        made = step_to_event(steps, t, step, now, iw, work)
-        if made > 0.0:
-            clock[0] = until if made == rest else t + made
+        length = step_to_event(steps, t, step, now, iw, work)
+        if length > 0.0:
+            clock[0] = until if length == rest else t + length
             happened, ended = False, False
             for k in range(ends.shape[0]):
                 happened = happened or work.chosen[k] != 0

@@ -86,9 +86,17 @@ class HalfExplicitPair:
         slopes = np.zeros(sources)
         slopes[-1] = 1.0
         scheme = PartitionedStages(
-            *(np.ascontiguousarray(self.a).ravel(), self.c, np.ascontiguousarray(self.closing).ravel(), self.closed),
+            np.ascontiguousarray(self.a).ravel(),
+            self.c,
+            np.ascontiguousarray(self.closing).ravel(),
+            self.closed,
             self.embedded,
-            *(self.stages, self.error_order, pattern.spins, slopes, numbers, plan),  # type: ignore[arg-type]  # mypy joins kinds
+            self.stages,
+            self.error_order,
+            pattern.spins,
+            slopes,
+            numbers,
+            plan,
         )
         functions = law_functions(compiled, "turn", "residual", "tangent")
         sizes = padded(info.ny), info.nv, info.m, compiled.law.unknowns, self.stages

@@ -59,7 +59,7 @@ class Observer:
             for f, kind in ((law.accept, abi.ACCEPT), (rates, abi.RHS), (confirm, abi.RHS))
         )
         w, iw = self.w.copy(), np.zeros(abi.N_COUNTERS, dtype=np.int64)
-        found, kept = np.zeros_like(self.states), np.zeros((len(self.times), len(w)))
+        rows, scratch = np.zeros_like(self.states), np.zeros((len(self.times), len(w)))
         ydot = np.zeros(model.sizes["y"] * (1 + model.lanes))
         for k in range(len(self.times)):
             t, y, p = self._here(k)
@@ -67,8 +67,8 @@ class Observer:
             accept(t, y, p, w, iw)
             if rates(t, y, p, w, iw, ydot) != 0:
                 confirm(t, y, p, w, iw, ydot)
-            found[k], kept[k] = ydot[: found.shape[1]], w
-        return found, kept
+            rows[k], scratch[k] = ydot[: rows.shape[1]], w
+        return rows, scratch
 
     def _wind(self, w: Array, k: int) -> None:
         """Set the angles that count turns to their values at an output."""
@@ -98,11 +98,11 @@ class Observer:
         info = model.plain.info
         first, _ = info.sections["residual"]
         holonomic = [first + i for i, row in enumerate(info.rows) if row.holonomic]
-        found = np.zeros((len(self.times), model.lanes))
+        largest = np.zeros((len(self.times), model.lanes))
         for k in range(len(self.times)):
             t, y, p = self._here(k)
             w = self.w.copy()
             self._wind(w, k)
             model.caller("geometry", model.whole.model.geometry)(t, y, p, w)
-            found[k] = np.abs(model.shadow(w, "w")[holonomic]).max(axis=0, initial=0.0)
-        return found
+            largest[k] = np.abs(model.shadow(w, "w")[holonomic]).max(axis=0, initial=0.0)
+        return largest

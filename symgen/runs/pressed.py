@@ -13,8 +13,7 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.describe.friction import JAM
 from symgen.layout import abi
-from symgen.loopcode.exact import compiled_form
-from symgen.runs.box import INSIDE, new_box, solve_box
+from symgen.runs.box import INSIDE, new_box
 from symgen.runs.events import Happening
 from symgen.runs.transitions import (
     AT_BOUND,
@@ -26,6 +25,8 @@ from symgen.runs.transitions import (
     Flags,
     Integers,
     Transitions,
+    find_forces,
+    symmetrise,
 )
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
@@ -59,7 +60,7 @@ class PressedTransitions(Transitions):
     def _solve(
         self, rest: Integers, signs: Array, static: Array, sliding: Array, loose: Flags
     ) -> tuple[Array, Array, Array]:
-        """Return what `Transitions` does.
+        """Return the signs of rows at rest, G among all rows, and the forces at rest.
 
         Bounds by reactions follow the forces, which follow the bounds, until both agree; `static` and `sliding` of
         these coordinates become bounds.
@@ -69,7 +70,7 @@ class PressedTransitions(Transitions):
         moving = [i for i in pressed if signs[i] != 0.0]
         plain = np.where(np.isin(np.arange(size), pressed), 0.0, signs)
         offset, alone = self._accelerations(plain), self._reactions()
-        mobility, parts = self._mobility(), np.zeros((*alone.shape, size))
+        parts = np.zeros((*alone.shape, size))
         for j in (*rest, *moving):
             if sliding[j] > 0.0:
                 probe, force = plain.copy(), 1.0 if j in pressed else sliding[j]
@@ -80,10 +81,8 @@ class PressedTransitions(Transitions):
             self._refuse_jam(i, float((sliding if i in moving else static)[i] * np.linalg.norm(parts[i, :, i])))
         if k == 0:
             return np.zeros(0), matrix, forces
+        symmetrise(matrix, rest, self._mobility())
         among = matrix[np.ix_(rest, rest)]
-        among = 0.5 * (among + among.T)
-        fixed = np.diag(among) <= DEPENDENT * mobility[rest]  # as at a dead centre
-        among[fixed], among[:, fixed] = 0.0, 0.0
         coefficients, box = np.where(loose, sliding, static)[rest], new_box(k)
         size_of = np.ones(size)
         size_of[pressed] = np.where(signs[pressed] == 0.0, np.inf, np.linalg.norm(alone[pressed], axis=1))
@@ -94,8 +93,7 @@ class PressedTransitions(Transitions):
             np.multiply(bounds, size_of[rest], out=bounds, where=bounds > 0.0)
             box.bounds[:], box.lower[:] = bounds, -bounds
             box.offset[:] = offset[rest] - matrix[rest][:, moving] @ forces[moving]
-            if compiled_form(solve_box)(k, box) != 0:
-                raise InputError("friction", "forces at rest that can be found", "none after many changes")
+            find_forces(k, box)
             forces[rest] = box.forces
             before = size_of.copy()
             size_of[pressed] = np.linalg.norm(alone[pressed] - parts[pressed] @ forces, axis=1)
@@ -111,7 +109,6 @@ class PressedTransitions(Transitions):
             names = ", ".join(self.rows.names[i] for i in pressed)
             raise InputError("friction", "bounds and reactions that agree", f"others at {names} after many changes")
         moves |= loose[rest] & (np.abs(box.forces) >= AT_BOUND * bounds) & (bounds > 0.0)
-        matrix[np.ix_(rest, rest)] = among
         direction = np.sign(np.where(box.forces == 0.0, box.left, box.forces))
         static[pressed], sliding[pressed] = static[pressed] * size_of[pressed], sliding[pressed] * size_of[pressed]
         return np.where(moves, direction, 0.0), matrix, forces

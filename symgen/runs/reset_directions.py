@@ -169,12 +169,12 @@ class _Reset:
         info, still = self.info, self.y.copy()
         still[info.nq : info.work] = 0.0
         self.model.shadow(still, "y")[info.nq : info.work] = 0.0
-        rest, found = self._evaluated(function, length, still), list[Array]()
+        rest, coefficients = self._evaluated(function, length, still), list[Array]()
         for j in range(info.nq, info.work):
             still[j] = 1.0
-            found.append(self._evaluated(function, length, still) - rest)
+            coefficients.append(self._evaluated(function, length, still) - rest)
             still[j] = 0.0
-        return np.stack(found, axis=1), rest
+        return np.stack(coefficients, axis=1), rest
 
     def _struck(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array]:
         """Return the directions of velocities after the smallest impulse, and of its energy."""
@@ -203,11 +203,11 @@ class _Reset:
         rows, right = rows * scale[:, np.newaxis], right * scale[:, np.newaxis]
         left, sizes, turned = np.linalg.svd(rows)
         rank = int(np.sum(sizes > _NONE * sizes[0]))
-        found = turned[:rank].T @ ((left[:, :rank].T @ right) / sizes[:rank, np.newaxis])
+        solution = turned[:rank].T @ ((left[:, :rank].T @ right) / sizes[:rank, np.newaxis])
         free, scaled = turned[rank:].T, unit[:, np.newaxis] * m * unit
-        pull = free.T @ (unit[:, np.newaxis] * loads - scaled @ found)
-        found = found + free @ np.linalg.lstsq(free.T @ scaled @ free, pull, rcond=None)[0]
-        velocities = unit[:, np.newaxis] * found
+        pull = free.T @ (unit[:, np.newaxis] * loads - scaled @ solution)
+        solution = solution + free @ np.linalg.lstsq(free.T @ scaled @ free, pull, rcond=None)[0]
+        velocities = unit[:, np.newaxis] * solution
         energy = 0.5 * (
             (velocities - directions).T @ (m @ (after + before))
             + np.einsum("i,ijk,j->k", change, mass, after + before)
@@ -221,12 +221,12 @@ class _Reset:
         geometry = model.function(model.plain.model.geometry, timed=True).caller(abi.MEASURE.signature.arguments)
         w = self.w.copy()
         geometry(self.t, self.y.copy(), self.p, w)
-        found, (first, _), (nu, m) = model.shadow(w, "w"), info.sections["jacobian"], info.sections["nu"]
+        directions, (first, _), (nu, m) = model.shadow(w, "w"), info.sections["jacobian"], info.sections["nu"]
         slopes = np.zeros((info.m, info.nv, model.lanes))
         for row, column, _, slot in info.jacobian:
             if slot is not None:
-                slopes[row, column] = found[first + slot]
-        return slopes, found[nu : nu + m].copy()
+                slopes[row, column] = directions[first + slot]
+        return slopes, directions[nu : nu + m].copy()
 
     def _masses(self, entries: Array) -> tuple[Array, Any]:
         """Return the directions of M, shape (nv, nv, L), and a function: directions of the energy of driven bodies."""

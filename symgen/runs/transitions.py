@@ -229,11 +229,7 @@ class Transitions:
                 force = -probe[j]
             if force > 0.0:
                 matrix[:, j] = (offset - self._accelerations(probe)) / force
-        among = matrix[np.ix_(rows, rows)]
-        among = 0.5 * (among + among.T)
-        fixed = np.diag(among) <= DEPENDENT * mobility[rows]  # as at a dead centre
-        among[fixed], among[:, fixed] = 0.0, 0.0
-        matrix[np.ix_(rows, rows)] = among
+        symmetrise(matrix, rows, mobility)
         return matrix, offset
 
     def _solve(
@@ -251,8 +247,7 @@ class Transitions:
         while True:
             box.bounds[:] = np.where(stops, 0.0, bounds)
             box.lower[:] = np.where(stops, np.where(opening, 0.0, -np.inf), -bounds)
-            if compiled_form(solve_box)(k, box) != 0:
-                raise InputError("friction", "forces at rest that can be found", "none after many changes")
+            find_forces(k, box)
             sizes = np.abs(box.offset) + np.abs(among) @ np.abs(box.forces)
             moves = (box.place != INSIDE) & (np.abs(box.left) > NO_ACCELERATION * sizes)
             over = moves & ~stops & (bounds > sliding[rest])
@@ -423,3 +418,24 @@ class Transitions:
         arrays = 0.0, self._y, self.simulation.state.p, self._scratch, self._counters, self._rate
         first, second = (direct(f, abi.RHS, *arrays) for f in rate_functions(self.simulation.compiled.law_module))
         return first, second
+
+
+def symmetrise(matrix: Array, rows: Integers, mobility: Array) -> None:
+    """Make G symmetric among some rows, and 0 for rows that joints hold still, as at a dead centre."""
+    among = matrix[np.ix_(rows, rows)]
+    among = 0.5 * (among + among.T)
+    still = np.diag(among) <= DEPENDENT * mobility[rows]
+    among[still], among[:, still] = 0.0, 0.0
+    matrix[np.ix_(rows, rows)] = among
+
+
+def find_forces(k: int, box: Any) -> None:
+    """Solve a box problem of forces at rest.
+
+    Raises
+    ------
+    InputError
+        If its solution is not found.
+    """
+    if compiled_form(solve_box)(k, box) != 0:
+        raise InputError("friction", "forces at rest that can be found", "none after many changes")

@@ -49,15 +49,15 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar):
 def test_formulas_and_integrals_against_differences(four_bar, tmp_path, quantity):
     reported = model(tmp_path, FOUR_BAR + f'\n[outputs]\nJ = "{quantity}"\n')
     by, start = ("a", "c", "m2", "crank.omega"), {"crank.omega": 0.4}
-    found = four_bar.gradient(quantity, by=by, start=start, method="lagrange", **CONSTANT)
+    gradient = four_bar.gradient(quantity, by=by, start=start, method="lagrange", **CONSTANT)
     named = reported.gradient("J", by=by, start=start, method="lagrange", **CONSTANT)
-    assert named.value == pytest.approx(found.value, rel=1e-12)
+    assert named.value == pytest.approx(gradient.value, rel=1e-12)
     for name in by:
         value = {"crank.omega": 0.4, **reported.parameters()}[name]
         settings = {**CONSTANT, "method": "lagrange"} | ({"start": start} if name != "crank.omega" else {})
         expected = differences(reported, name, value, 5e-4 * value, "J", **settings)
-        assert found.by[name] == pytest.approx(expected, rel=1e-8)
-        assert named.by[name] == pytest.approx(found.by[name], rel=1e-11)
+        assert gradient.by[name] == pytest.approx(expected, rel=1e-8)
+        assert named.by[name] == pytest.approx(gradient.by[name], rel=1e-11)
 
 
 def test_the_integral_of_idas(tmp_path):

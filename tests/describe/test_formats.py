@@ -249,8 +249,8 @@ def test_the_command_and_every_other_command(tmp_path: Path, capsys: pytest.Capt
     path, target = tmp_path / "arm.urdf", tmp_path / "arm.toml"
     path.write_text(ARM, encoding="utf-8")
     assert main(["import", str(path), "-o", str(target), "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert said["format"] == "urdf" and said["bodies"] == 1 and len(said["left_out"]) == 4
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["format"] == "urdf" and answer["bodies"] == 1 and len(answer["left_out"]) == 4
     assert target.read_text(encoding="utf-8").startswith("# left out, and the motion may depend on it: contacts")
     assert load(target).bodies == load(path).bodies
     assert main(["import", str(path), "-o", str(target)]) == 2  # never overwrites

@@ -66,7 +66,7 @@ def test_a_file_without_stops_is_the_same_as_before() -> None:
 )
 def test_wrong_stops(keys: dict[str, object], sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
-        four_bar(**keys)  # type: ignore[arg-type]
+        four_bar(**keys)  # type: ignore[arg-type]  # wrong ones on purpose
 
 
 def test_a_driver_has_no_stops() -> None:

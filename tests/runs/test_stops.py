@@ -208,7 +208,7 @@ def leg_events(until: float) -> list[tuple[float, str]]:
         return float(-y[1]) if _ > t + 1e-6 else 1.0
 
     for function in (force, gap):
-        function.terminal, function.direction = True, -1.0  # type: ignore[attr-defined]
+        function.terminal, function.direction = True, -1.0  # type: ignore[attr-defined]  # solve_ivp reads them off the function
     while t < until:
         run = solve_ivp(
             *(locked if closed else free, (t, until), state),

@@ -90,7 +90,7 @@ class _Description:
         self.robot, self.names, self.stops = robot, _Names(), stops
         self.left_out = list(robot.left_out)
         self.carriers = self._carriers()
-        self.joints = {c.name: c for c in robot.connections if c.kind != "fixed"}
+        self.joints = {c.name: c for c in robot.connections if c.kind not in ("fixed", "floating")}
         self._drop_massless_ends()
 
     # -- bodies ------------------------------------------------------------------------------------------------------

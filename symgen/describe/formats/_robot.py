@@ -10,7 +10,7 @@ from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times
 #: The ground among links: a name that no link has.
 GROUND = ""
 
-Kind = Literal["fixed", "revolute", "translational", "spherical", "cylindrical", "planar", "rigid"]
+Kind = Literal["fixed", "floating", "revolute", "translational", "spherical", "cylindrical", "planar", "rigid"]
 
 
 @dataclass(frozen=True)

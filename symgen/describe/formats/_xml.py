@@ -15,8 +15,8 @@ from symgen.describe.formats._frames import Frame, Vector, of_rpy
 LARGEST, MOST_ELEMENTS, DEEPEST = 50_000_000, 500_000, 200
 
 
-def read_tree(path: Path, root: str) -> ET.Element:
-    """Return the outermost element of an XML file, which must be `root`.
+def read_tree(path: Path, root: str | None = None) -> ET.Element:
+    """Return the outermost element of an XML file, which must be `root` where that is named.
 
     Raises
     ------
@@ -31,7 +31,7 @@ def read_tree(path: Path, root: str) -> ET.Element:
     if len(content) > LARGEST:
         raise InputError(path.name, f"a file of at most {LARGEST} bytes", "a larger one")
     tree = _Parser(path.name).parse(content)
-    if tree.tag != root:
+    if root is not None and tree.tag != root:
         raise InputError(path.name, f"an XML file whose outermost element is '{root}'", quoted(tree.tag))
     return tree
 

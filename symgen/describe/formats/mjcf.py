@@ -63,19 +63,13 @@ def _check_includes(path: Path, tree: ET.Element) -> None:
             if inner == file or count > _MOST_INCLUDES:
                 got = f"{quoted(name)} in itself" if inner == file else "more"
                 raise InputError(f"{path.name}: include", f"at most {_MOST_INCLUDES} files, none in itself", got)
-            waiting.append((inner, _included(inner)))
+            waiting.append((inner, read_tree(inner)))
         for part in ("compiler", "option"):
             for setting in element.iter(part):
                 for key in ("meshdir", "texturedir", "assetdir"):
                     if not (folder / setting.get(key, "")).resolve().is_relative_to(folder.parent):
                         expected = f"a folder beside or in the folder of {path.name}"
                         raise InputError(f"{path.name}: {part}, {key}", expected, quoted(setting.get(key, "")))
-
-
-def _included(path: Path) -> ET.Element:
-    from symgen.describe.formats._xml import outermost
-
-    return read_tree(path, outermost(path) or "mujoco")
 
 
 class _Reader:
@@ -179,10 +173,8 @@ class _Reader:
                     self.left_out.append(LeftOut(what, name, "a ball joint has three directions", True))
         frame = Frame(_vector(self.data.xanchor[k]), place.rotation)
         c = Connection(name, kind, parent, child, frame, axis=_vector(model.jnt_axis[k]))
-        c.damping, c.stiffness = damping, float(model.jnt_stiffness[k])
-        if self._disabled("DAMPER") or self._disabled("SPRING"):
-            c.damping = 0.0 if self._disabled("DAMPER") else c.damping
-            c.stiffness = 0.0 if self._disabled("SPRING") else c.stiffness
+        c.damping = 0.0 if self._disabled("DAMPER") else damping
+        c.stiffness = 0.0 if self._disabled("SPRING") else float(model.jnt_stiffness[k])
         if kind != "spherical":
             c.value, c.rest = float(model.qpos0[at]), float(model.qpos_spring[at])
             c.friction, c.rotor = friction, float(model.dof_armature[dof])

@@ -23,6 +23,7 @@ from symgen.describe.formats._xml import number, numbers, origin_of, read_tree, 
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
+    "floating": "floating",
     "revolute": "revolute",
     "continuous": "revolute",
     "prismatic": "translational",
@@ -30,9 +31,10 @@ _KINDS: dict[str, Kind] = {
     "spherical": "spherical",
     "ball": "spherical",
 }
+#: What drives a joint: its name and unit.
+_EFFORTS: dict[str, tuple[str, str]] = {"revolute": ("torque", "N m"), "translational": ("force", "N")}
 #: Elements beside links and joints, which say nothing about the motion of the mechanism.
 _SILENT = {
-    "material": "colours of links are read where they are",
     "gazebo": "settings of another program",
     "transmission": "every joint has an input of its own",
     "sensor": "outputs are written by the user",
@@ -41,7 +43,7 @@ _SILENT = {
 
 
 class Urdf:
-    """Reads links, joints, limits, `mimic`, `dynamics`, and the elements ``loop_joint``, ``loop`` and ``coupling``."""
+    """Reads links, joints, limits, `mimic`, `dynamics`, and the elements ``loop_joint`` and ``loop``."""
 
     SUFFIXES: ClassVar[tuple[str, ...]] = (".urdf", ".xml")
     ROOT: ClassVar[str] = "robot"
@@ -81,20 +83,18 @@ class _Reader:
             if not self.floating:
                 connections.insert(0, Connection(f"base of {root}", "fixed", GROUND, root))
         followers = [f for e, c in joints if (f := self._mimic(e, c, names)) is not None]
-        closing, coupled = self._loops(links)
         led = {f.joint for f in followers}
         actuators = [
-            Actuator(f"{c.name}_{'force' if c.kind == 'translational' else 'torque'}", {c.name: 1.0}, unit=unit)
+            Actuator(f"{c.name}_{_EFFORTS[c.kind][0]}", {c.name: 1.0}, unit=_EFFORTS[c.kind][1])
             for c in connections
-            if c.kind in ("revolute", "translational") and c.name not in led
-            for unit in ("N" if c.kind == "translational" else "N m",)
+            if c.kind in _EFFORTS and c.name not in led
         ]
         self._leave_out(joints)
         return Robot(
             self.tree.get("name", "robot"),
             links,
-            connections + closing,
-            followers + coupled,
+            connections + self._loops(links),
+            followers,
             actuators,
             left_out=self.left_out,
         )
@@ -151,12 +151,9 @@ class _Reader:
         name = self._name(element)
         where = f"{self.source}: joint {quoted(name)}"
         sort = element.get("type", "")
-        if sort == "floating":
-            kind: Kind = "rigid"  # marks a free child until places are known
-        elif sort in _KINDS:
-            kind = _KINDS[sort]
-        else:
-            raise InputError(f"{where}, type", "a type of joint", quoted(sort), nearest(sort, [*_KINDS, "floating"]))
+        if sort not in _KINDS:
+            raise InputError(f"{where}, type", "a type of joint", quoted(sort), nearest(sort, _KINDS))
+        kind = _KINDS[sort]
         parent, child = (self._end(where, element.find(tag), tag, links) for tag in ("parent", "child"))
         connection = Connection(name, kind, parent, child)
         connection.at = origin_of(f"{where}, origin", element.find("origin"))  # in the parent until places are known
@@ -212,7 +209,6 @@ class _Reader:
         if len(placed) < len(links):
             lost = next(name for name in links if name not in placed)
             raise InputError(f"{self.source}: link {quoted(lost)}", "links that form trees", "a ring of joints")
-        joints[:] = [(e, c) for e, c in joints if e.get("type") != "floating"]
         return roots
 
     def _mimic(self, element: ET.Element, c: Connection, names: list[str]) -> Follower | None:
@@ -228,8 +224,11 @@ class _Reader:
 
     # -- loops -------------------------------------------------------------------------------------------------------
 
-    def _loops(self, links: dict[str, Link]) -> tuple[list[Connection], list[Follower]]:
+    def _loops(self, links: dict[str, Link]) -> list[Connection]:
         """Return the joints of ``loop_joint`` (two links with places) and ``loop`` (predecessor and successor)."""
+        for element in self.tree.findall("coupling"):
+            where = f"{self.source}: coupling {quoted(self._name(element))}"
+            raise InputError(where, "joints that follow others by <mimic>", "<coupling>", "write the ratio as a mimic")
         closing = list[Connection]()
         for tag, first, second in (("loop_joint", "link1", "link2"), ("loop", "predecessor", "successor")):
             for element in self.tree.findall(tag):
@@ -246,17 +245,12 @@ class _Reader:
                 if (axis := element.find("axis")) is not None:
                     connection.axis = triple(f"{where}, axis", axis.get("xyz", "0 0 1"))
                 closing.append(connection)
-        coupled = [self._coupling(e) for e in self.tree.findall("coupling")]
-        return closing, coupled
+        return closing
 
     @staticmethod
     def _loop_frame(where: str, end: ET.Element | None) -> Frame:
         origin = None if end is None else end.find("origin")
         return origin_of(where, end if origin is None else origin)
-
-    def _coupling(self, element: ET.Element) -> Follower:
-        where = f"{self.source}: coupling {quoted(self._name(element))}"
-        raise InputError(where, "joints that follow others by <mimic>", "<coupling>", "write the ratio as a mimic")
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 
@@ -278,9 +272,9 @@ class _Reader:
         if meshes:
             self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
         for tag, why in _SILENT.items():
-            if counts.pop(tag, 0) and tag != "material":
+            if counts.pop(tag, 0):
                 self.left_out.append(LeftOut(f"<{tag}>", "the file", why, False))
-        for tag in ("link", "joint", "loop_joint", "loop", "coupling"):
+        for tag in ("link", "joint", "loop_joint", "loop", "material"):
             counts.pop(tag, None)
         for tag, count in counts.items():
             self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", "it is no element of URDF", False))
