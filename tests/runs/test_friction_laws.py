@@ -1,5 +1,7 @@
 """Friction with a smooth law in place of the exact one, and sliding friction in inverse dynamics."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -33,7 +35,7 @@ def pendulum(friction: str) -> Mechanism:
     return validate(parse_toml(PENDULUM.replace("FRICTION", friction), "p"), "p.toml")
 
 
-def test_a_smooth_law_creeps_where_the_exact_one_rests() -> None:
+def test_a_smooth_law_creeps_where_the_exact_one_rests(tmp_path: Path) -> None:
     """It holds by its rate alone: 0.5 N m tanh(rate / speed) = m g l sin(angle)."""
     exact = symgen.load(pendulum("sliding = 0.5")).simulate(until=10.0, output_step=1.0)
     np.testing.assert_allclose(exact["pin.angle"], 0.04, rtol=0, atol=1e-12)
@@ -45,7 +47,7 @@ def test_a_smooth_law_creeps_where_the_exact_one_rests() -> None:
     np.testing.assert_allclose(result["pin.angle.rate"][1:], rates[1:], rtol=0.0, atol=2e-6)
     np.testing.assert_allclose(result.outputs["pin.force"], -0.5 * np.tanh(result["pin.angle.rate"] / 1e-3), atol=1e-12)
     assert not result.events
-    smooth.generate(target="c")
+    smooth.generate(tmp_path / "smooth", target="c")
 
 
 @pytest.mark.parametrize(
