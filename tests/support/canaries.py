@@ -33,7 +33,7 @@ CANARIES = (
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
 #: Sections whose entries are all of one kind.
-_ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "beams", "outputs", "events")
+_ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "beams", "stops", "outputs", "events")
 
 
 def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -103,6 +103,9 @@ def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
     section, kind = path[0], next((p[1] for p in path if isinstance(p, tuple)), None)
     if section == "states":
         yield SMALL | {"states": {"x": {"rate": "k - x", "start": 1.0}}}
+        return
+    if section == "stops":
+        yield copy.deepcopy(SMALL) | {"stops": {"wall": {"gap": "9.0 - rod.P.x"}}}
         return
     if section == "beams":
         section_of = {"width": 0.02, "height": 0.01}
