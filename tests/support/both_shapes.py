@@ -118,7 +118,7 @@ def evaluate(model: Model, name: str, options: dict[str, str], shape: str) -> di
     if hasattr(law, "confirm"):
         law.confirm(t, y.copy(), p, w, iw, rate)
         found["confirm"] = rate.copy()
-        if not hasattr(law, BY_PIVOTS):  # loops in closed form are evaluated by pivots first, which may settle it
+        if BY_PIVOTS not in compiled.law.operations:  # pivots of loops in closed form may settle it before
             found["confirm counters"] = np.array([iw[COUNTERS.index("suspects")], iw[COUNTERS.index("light")]]) * 1.0
     out = np.zeros(info.m + 2 * len(info.joint_coordinates))
     compiled.model.observe(t, y.copy(), p, w, rng.standard_normal(info.ny), out)
