@@ -68,6 +68,12 @@ DRAWN: Mapping[str, Callable[[], str]] = {
     "motor": lambda: _described("tutorials/motor-current.md", "motor-and-linkage"),
     "whip": lambda: _described("tutorials/flexible-link.md", "whip"),
     "crane": lambda: _described("tutorials/modes.md", "crane"),
+    "swing": lambda: _described("file-format/README.md", "swing"),
+    "barrier": lambda: _described("file-format/bodies.md", "barrier"),
+    "pump": lambda: _described("file-format/joints.md", "pump"),
+    "wheel-on-a-strut": lambda: _described("file-format/forces.md", "wheel-on-a-strut"),
+    "cam-and-follower": lambda: _described("file-format/formulas.md", "cam-and-follower"),
+    "double-swing": lambda: _described("file-format/runs.md", "double-swing"),
 }
 
 

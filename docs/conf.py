@@ -37,7 +37,7 @@ NAVIGATION = {
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),
     "Analyses": ("docs/equilibrium", "docs/modes", "docs/linearise", "docs/kinematics", "docs/inverse"),
     "Reference": (
-        "docs/file-format",
+        "docs/file-format/README",
         "docs/drawing",
         "docs/player",
         "docs/command-line",

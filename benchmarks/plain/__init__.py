@@ -3,5 +3,5 @@
 Nothing here is shared with `symgen`: TOML is read by `tomllib`, formulas by a parser of their own, rows of joints and
 generalised forces come from vector algebra on rotation matrices with derivatives carried forward beside the values,
 accelerations from a singular value decomposition, motions from SciPy's DOP853 with a projection after every step.
-Signs, names and units are those of docs/file-format.md and docs/results.md.
+Signs, names and units are those of docs/file-format and docs/results.md.
 """

@@ -1,4 +1,4 @@
-"""Forces: generalised forces and potential energies, from docs/file-format.md."""
+"""Forces: generalised forces and potential energies, from docs/file-format."""
 
 from __future__ import annotations
 

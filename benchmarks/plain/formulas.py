@@ -1,6 +1,6 @@
 """Formulas of a mechanism file: text to a tree, by recursive descent, and the tree's value.
 
-The grammar is that of docs/file-format.md: numbers, names with at most one dot, ``+ - * / **``, comparisons and their
+The grammar is that of docs/file-format: numbers, names with at most one dot, ``+ - * / **``, comparisons and their
 chains, ``and or not``, ``a if c else b``, calls. A tree is a tuple whose first item says what it is.
 """
 

@@ -1,4 +1,4 @@
-"""Joints in the plane: rows and coordinates, from docs/file-format.md."""
+"""Joints in the plane: rows and coordinates, from docs/file-format."""
 
 from __future__ import annotations
 

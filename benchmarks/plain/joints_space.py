@@ -1,4 +1,4 @@
-"""Joints in space: rows and coordinates, from docs/file-format.md."""
+"""Joints in space: rows and coordinates, from docs/file-format."""
 
 from __future__ import annotations
 

@@ -22,6 +22,7 @@ from symgen.describe.load import parse_toml
 from symgen.describe.names import CALLABLE
 from symgen.describe.sections import (
     BodySection,
+    InputSection,
     MechanismSection,
     OrientationSection,
     ParameterSection,
@@ -204,7 +205,7 @@ KINDS = [*((k, JOINTS) for k in JOINTS.names), *((k, FORCES) for k in FORCES.nam
 
 @pytest.mark.parametrize(("kind", "registry"), KINDS, ids=lambda x: x if isinstance(x, str) else "")
 def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: object) -> None:
-    text = page("file-format")
+    text = page("file-format/joints" if registry is JOINTS else "file-format/forces")
     assert any(cell.startswith(f"`{kind}`") for cell in rows(text)), f"{kind} is in no table"
     keys = {field.name for field in msgspec.structs.fields(registry.get(kind))}  # type: ignore[attr-defined]  # a registry of structs
     table = " ".join(rows(section(text, f"`{kind}`")))
@@ -212,26 +213,29 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
 
 
 @pytest.mark.parametrize(
-    ("heading", "structs"),
+    ("stem", "heading", "structs"),
     [
-        ("`[mechanism]`", [MechanismSection]),
-        ("`[run]`", [RunSection]),
-        ("`[parameters]`", [ParameterSection]),
-        ("`[states.NAME]`", [StateSection]),
-        ("`[tables.NAME]`", [TableSection]),
-        ("`[bodies.NAME]`", [BodySection]),
-        ("`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),
-        ("`[beams.NAME]`", [BeamSection]),
-        ("`[events.NAME]`", [EventSection]),
+        ("README", "`[mechanism]`", [MechanismSection]),
+        ("README", "`[parameters]`", [ParameterSection]),
+        ("runs", "`[run]`", [RunSection]),
+        ("runs", "`[events.NAME]`", [EventSection]),
+        ("formulas", "`[inputs]`", [InputSection]),
+        ("formulas", "`[states.NAME]`", [StateSection]),
+        ("formulas", "`[tables.NAME]`", [TableSection]),
+        ("bodies", "`[bodies.NAME]`", [BodySection]),
+        ("bodies", "`[bodies.NAME]` in space", [SpatialBodySection, OrientationSection]),
+        ("bodies", "`[beams.NAME]`", [BeamSection]),
     ],
 )
-def test_a_section_stands_in_the_reference_with_all_its_keys(heading: str, structs: list[type[msgspec.Struct]]) -> None:
-    table = " ".join(rows(section(page("file-format"), heading)))
+def test_a_section_stands_in_the_reference_with_all_its_keys(
+    stem: str, heading: str, structs: list[type[msgspec.Struct]]
+) -> None:
+    table = " ".join(rows(section(page(f"file-format/{stem}"), heading)))
     assert set(re.findall(r"`(\w+)`", table)) == {f.name for s in structs for f in msgspec.structs.fields(s)}
 
 
 def test_every_function_of_an_expression_is_named() -> None:
-    text = section(page("file-format"), "Expressions")
+    text = section(page("file-format/formulas"), "Expressions")
     missing = [function for function in CALLABLE if not re.search(rf"\b{function}\b", text)]
     assert not missing
 
@@ -317,6 +321,18 @@ def test_the_navigation_of_the_site_names_pages_that_exist() -> None:
     pages = [page for pages in ast.literal_eval(tree.value).values() for page in pages]
     assert len(pages) == len(set(pages))
     assert not [page for page in pages if not (ROOT / f"{page}.md").is_file()]
+
+
+@pytest.mark.parametrize("stem", ["README", "bodies", "joints", "forces", "formulas", "runs"])
+def test_a_page_of_the_file_begins_with_a_picture_and_an_example(stem: str) -> None:
+    text = page(f"file-format/{stem}")
+    assert text.index("![") < text.index("```toml\n[mechanism]") < text.index("\n| ")
+
+
+def test_links_to_decisions_have_names() -> None:
+    """A number says nothing to a reader; the index of decisions has both."""
+    bare = re.compile(r"\[(?:decisions? )?\d{4}\]\(")
+    assert not [name(page) for page in PAGES if page.name != "CHANGELOG.md" and bare.search(page.read_text("utf-8"))]
 
 
 def test_every_decision_is_listed() -> None:
