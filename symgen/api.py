@@ -286,7 +286,8 @@ class Model(Analysed, Shown):
         progress : callable, optional
             Called with the time reached, about ten times a second.
         sensitivities : sequence of str
-            Numbers that the motion is differentiated by: parameters, values of the start such as ``crank.omega``, and
+            Numbers that the motion is differentiated by: parameters, numbers written in the file by their paths, such
+            as ``bodies.crank.mass`` and ``bodies.crank.points.B[0]``, values of the start such as ``crank.omega``, and
             ``method.NAME``. `Result.gradient` returns the derivatives.
         **changes
             Single settings by name, as listed above.
@@ -306,9 +307,11 @@ class Model(Analysed, Shown):
         settings = changed(settings, changes)
         before = seconds_in_cache()
         if by := arguments.words("sensitivities", sensitivities):
+            from symgen.describe.lifted import lifted
             from symgen.result.sensitivities import Differentiated
 
-            directed = Differentiated(self.mechanism, settings, by)
+            own = lifted("sensitivities", self.mechanism, by)
+            directed = Differentiated(own.mechanism, settings, own.keys)
             run, integrate = directed.run, directed.integrate
         else:
             run = prepare(self.mechanism, settings)

@@ -39,17 +39,19 @@ class FreeNumbers:
         Argument that has their names, for messages.
     mechanism, settings : Mechanism, Settings
         The model and how it runs.
-    names : sequence of str
-        Parameters, values of the start, ``method.NAME``.
+    keys : mapping of str to str
+        Names as typed, each with its name in the mechanism: parameters, values of the start, ``method.NAME``.
 
     Attributes
     ----------
+    names : tuple of str
+        Names as typed.
     runs : int
         Runs that were made.
     """
 
-    def __init__(self, where: str, mechanism: Mechanism, settings: Settings, names: Sequence[str]) -> None:
-        self.where, self.mechanism, self.names, self.runs = where, mechanism, tuple(names), 0
+    def __init__(self, where: str, mechanism: Mechanism, settings: Settings, keys: Mapping[str, str]) -> None:
+        self.where, self.mechanism, self.keys, self.names, self.runs = where, mechanism, keys, tuple(keys), 0
         if not isinstance(settings.start, Mapping):
             raise InputError(where, "a run that begins at a start", "one that goes on from another run")
         if not is_set(settings, "step"):
@@ -61,7 +63,7 @@ class FreeNumbers:
         parameters, start = dict(self.settings.parameters), dict(self.settings.start)
         options = dict(self.settings.options)
         own = {p.name for p in self.mechanism.parameters}
-        for name, value in zip(self.names, x.tolist(), strict=False):
+        for name, value in zip(self.keys.values(), x.tolist(), strict=False):
             if name in own:
                 parameters[name] = value
             elif name.startswith("method."):
@@ -73,7 +75,7 @@ class FreeNumbers:
     def run(self, times: Sequence[float], x: Array | None = None) -> tuple[Differentiated, Result]:
         """Make a run to the last of some times; with the values of the settings where there is no `x`."""
         settings = self.settings if x is None else self.settings_at(x)
-        run = Differentiated(self.mechanism, replace(settings, times=[*times], until=float(times[-1])), self.names)
+        run = Differentiated(self.mechanism, replace(settings, times=[*times], until=float(times[-1])), self.keys)
         self.runs += 1
         return run, run.result(build_result(run.run, run.integrate()))
 

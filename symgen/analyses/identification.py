@@ -17,6 +17,7 @@ from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bound
 from symgen.analyses.measured_data import Data, data_of
 from symgen.analyses.null_directions import null_directions
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
+from symgen.describe.lifted import lifted
 from symgen.layout import abi
 from symgen.result.sensitivities import place_of
 
@@ -125,7 +126,8 @@ class Identification:
         weights: Mapping[str, float],
     ) -> None:
         self.data, self.bias, self.names = data, bias, tuple(free)
-        self.free = FreeNumbers("identify: free", mechanism, settings, self.names)
+        own = lifted("identify: free", mechanism, self.names)
+        self.free = FreeNumbers("identify: free", own.mechanism, settings, own.keys)
         self._last: tuple[bytes, Array, Array] | None = None
         first, result = self.free.run(data[0].t.tolist())
         self.start = np.array([*self.free.values(first, result), *(0.0 for _ in bias)])

@@ -18,6 +18,7 @@ from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bound
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.inputs import put
+from symgen.describe.lifted import lifted
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.describe.scope import Context, Scope
 from symgen.layout import abi
@@ -81,6 +82,8 @@ class Objective:
         As above.
     names : tuple of str
         The numbers, in the order of `x`.
+    mechanism : Mechanism
+        The mechanism that runs: numbers of the file among `names` are parameters of it.
     x0 : Array
         Their values in the run as it is described.
     bounds : list of (float or None, float or None)
@@ -98,9 +101,11 @@ class Objective:
         by: Mapping[str, Bounds | None] | Sequence[str],
     ) -> None:
         self._where, self.quantity, pairs = where, quantity, with_bounds(f"{where}: by", by)
-        mechanism, self._column = _with_output(where, mechanism, quantity)
-        self._free = FreeNumbers(f"{where}: by", mechanism, settings, tuple(pairs))
+        own = lifted(f"{where}: by", mechanism, tuple(pairs))
+        mechanism, self._column = _with_output(where, own.mechanism, quantity)
+        self._free = FreeNumbers(f"{where}: by", mechanism, settings, own.keys)
         until = mechanism.defaults.until if settings.until is None else settings.until
+        self.mechanism = mechanism
         self.names, self.bounds, self._times = self._free.names, list(pairs.values()), (float(until),)
         run, result = self._free.run(self._times)
         self.x0 = self._free.values(run, result)
@@ -119,7 +124,7 @@ class Objective:
         return self._free.runs
 
     def settings_at(self, x: ArrayLike) -> Settings:
-        """Return the settings of the run with values of the numbers, for `Model.simulate`."""
+        """Return the settings of the run with values of the numbers, for a run of `mechanism`."""
         return self._free.settings_at(self._checked(x))
 
     def __call__(self, x: ArrayLike) -> tuple[float, Array]:

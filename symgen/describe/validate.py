@@ -42,6 +42,7 @@ from symgen.describe.mechanism import (
     StateVariable,
 )
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
+from symgen.describe.origins import keep_origin
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.scope import Context, Scope
 from symgen.describe.sections import (
@@ -84,7 +85,7 @@ def validate(raw: Raw, source: str) -> Mechanism:
     InputError
         At the first thing that is wrong.
     """
-    return _Validator(raw, source).mechanism()
+    return keep_origin(_Validator(raw, source).mechanism(), raw, source)
 
 
 class _Validator:

@@ -5,7 +5,7 @@ They are derivatives of the run that was made: of its code, its steps and its co
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -96,8 +96,9 @@ class Differentiated:
         The description.
     settings : Settings
         Of the run.
-    names : sequence of str
-        What it is differentiated by: parameters, values of the start, ``method.NAME``.
+    names : mapping of str to str
+        What it is differentiated by, as typed, each with its name in the mechanism: parameters, values of the start,
+        ``method.NAME``.
 
     Attributes
     ----------
@@ -105,7 +106,7 @@ class Differentiated:
         The run without directions.
     """
 
-    def __init__(self, mechanism: Mechanism, settings: Settings, names: Sequence[str]) -> None:
+    def __init__(self, mechanism: Mechanism, settings: Settings, names: Mapping[str, str]) -> None:
         self.run, self._notes = prepared(mechanism, settings)
         self.directions = named_directions(self.run, names)
         self._start = StartDirections(self.run, self.directions)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, nearest, quoted
@@ -35,15 +35,16 @@ class Direction:
     key: str
 
 
-def named_directions(run: Prepared, names: Sequence[str]) -> tuple[Direction, ...]:
+def named_directions(run: Prepared, names: Mapping[str, str]) -> tuple[Direction, ...]:
     """Return the directions called `names`.
 
     Parameters
     ----------
     run : Prepared
         The run.
-    names : sequence of str
-        Parameters, inputs, coordinates and velocities of the start, parameters of the method.
+    names : mapping of str to str
+        Parameters, inputs, coordinates and velocities of the start, parameters of the method: names as typed, each with
+        its name in the mechanism, which differs for numbers of the file (`symgen.describe.lifted`).
 
     Raises
     ------
@@ -51,8 +52,8 @@ def named_directions(run: Prepared, names: Sequence[str]) -> tuple[Direction, ..
         If a name is unknown, means a number that varies during the run, or comes twice.
     """
     directions = list[Direction]()
-    for name in names:
-        direction = _named(run, name)
+    for name, key in names.items():
+        direction = replace(_named(run, key), name=name)
         if any((direction.kind, direction.key) == (other.kind, other.key) for other in directions):
             raise InputError("sensitivities", "each number once", quoted(name) + " twice")
         directions.append(direction)
@@ -82,7 +83,5 @@ def _named(run: Prepared, name: str) -> Direction:
         return Direction(name, laws[key], "method", key)
     candidates = (*parameters, *(q for q in quantities if q not in euler), *joints, *states)
     candidates += tuple(f"method.{key}" for key in laws)
-    expected, hint = f"parameters or values of the start of {mechanism.name}", nearest(name, candidates)
-    if "[" in name:
-        hint = "make the number of the file a parameter: a name in its place, its value in [parameters]"
-    raise InputError(where, expected, quoted(name), hint)
+    expected = f"parameters or values of the start of {mechanism.name}"
+    raise InputError(where, expected, quoted(name), nearest(name, candidates))

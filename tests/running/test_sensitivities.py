@@ -270,7 +270,10 @@ def test_a_number_that_changes_nothing_is_named(tmp_path):
         ({"sensitivities": "a", "integrator": "rkmk4"}, "got 'rkmk4'"),
         ({"sensitivities": "a", "shape": "looped"}, "code of the shape 'straight', got shape 'looped'"),
         ({"sensitivities": 3}, "a list of names"),
-        ({"sensitivities": "bodies.crank.points.B[0]"}, "make the number of the file a parameter"),
+        (
+            {"sensitivities": "bodies.crank.points.B[0]"},
+            r"which is .a/2.; take the parameters in it",
+        ),
     ],
 )
 def test_what_has_no_sensitivities_is_refused(four_bar, settings, said):

@@ -1,0 +1,152 @@
+"""Numbers written in a file, by their paths: one that a run is differentiated by becomes a parameter.
+
+Only numbers that are named become parameters, so that code of other runs stays what it is.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.names import LONGEST
+from symgen.describe.origins import Origin, origin_of
+from symgen.describe.validate import validate
+
+#: Sections whose numbers have paths; those of parameters, inputs and starts have names.
+SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", "stops")
+#: Units by the key of a body, or of the mechanism.
+_UNITS = {
+    "gravity": "m/s^2",
+    "mass": "kg",
+    "inertia": "kg m^2",
+    "centre_of_mass": "m",
+    "points": "m",
+    "position": "m",
+    "angle": "rad",
+    "velocity": "m/s",
+    "angular_velocity": "rad/s",
+}
+
+#: Keys and indices from the file to a number.
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Lifted:
+    """A mechanism in which numbers of its file are parameters.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The mechanism; the one that was handed over where there are no such numbers.
+    keys : mapping of str to str
+        Names as typed, each with its name in the mechanism.
+    """
+
+    mechanism: Mechanism
+    keys: Mapping[str, str]
+
+
+def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
+    """Return a mechanism in which the numbers that `names` has by their paths are parameters.
+
+    Parameters
+    ----------
+    where : str
+        Argument that has the names, for messages.
+    mechanism : Mechanism
+        The mechanism.
+    names : sequence of str
+        Paths such as ``bodies.crank.mass`` or ``bodies.crank.points.B[0]``; other names stay what they are.
+
+    Raises
+    ------
+    InputError
+        If a name comes twice, or a path leads to no number, or to one that has to be a number.
+    """
+    paths, keys = [name for name in names if _is_path(name)], {name: name for name in names}
+    if len(keys) < len(names):
+        twice = next(name for i, name in enumerate(names) if name in names[:i])
+        raise InputError(where, "each number once", f"{quoted(twice)} twice")
+    if not paths:
+        return Lifted(mechanism, keys)
+    origin = origin_of(mechanism)
+    if origin is None:
+        expected = "names of parameters, as the file of this model is not at hand"
+        raise InputError(where, expected, quoted(paths[0]), "load the file again")
+    places = dict(_numbers(origin.raw))
+    taken = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
+    for name in paths:
+        if name not in places:
+            raise _absent(where, name, origin, places)
+        keys[name] = _free(name, taken)
+        taken.add(keys[name])
+        # one at a time, so that messages have the number that cannot vary
+        origin = Origin(_replaced(origin.raw, places[name], keys[name], name), origin.source)
+        try:
+            mechanism = validate(origin.raw, origin.source)
+        except InputError as error:
+            got = f"{quoted(name)}, whose place takes {error.expected}"
+            raise InputError(where, "numbers that a parameter may stand for", got) from None
+    return Lifted(mechanism, keys)
+
+
+def _is_path(name: str) -> bool:
+    """Whether a name is the path of a number: coordinates, velocities and joints have no such parts."""
+    section, _, rest = name.partition(".")
+    return (section in SECTIONS and ("." in rest or section == "mechanism")) or "[" in name
+
+
+def _numbers(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
+    """Yield all numbers of a description with paths, as text and as keys."""
+    stack: list[tuple[str, Path, object]] = [(name, (name,), raw.get(name)) for name in SECTIONS]
+    while stack:
+        text, path, value = stack.pop()
+        if isinstance(value, Mapping):
+            stack.extend((f"{text}.{key}", (*path, key), item) for key, item in value.items())
+        elif isinstance(value, list | tuple):
+            stack.extend((f"{text}[{i}]", (*path, i), item) for i, item in enumerate(value))
+        elif isinstance(value, int | float) and not isinstance(value, bool):
+            yield text, path
+
+
+def _absent(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -> InputError:
+    """Return the error about a path that leads to no number."""
+    value: object = origin.raw
+    for part in re.findall(r"[^.\[\]]+", name):
+        if isinstance(value, Mapping):
+            value = value.get(part)
+        elif isinstance(value, list | tuple) and part.isdecimal() and len(part) < 9 and int(part) < len(value):
+            value = value[int(part)]
+        else:
+            value = None
+    expected = f"the path of a number in {origin.source}"
+    if isinstance(value, str):
+        return InputError(where, expected, f"{quoted(name)}, which is {quoted(value)}", "take the parameters in it")
+    return InputError(where, expected, quoted(name), nearest(name, places))
+
+
+def _free(name: str, taken: set[str]) -> str:
+    """Return a name of a parameter for a path."""
+    own = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[: LONGEST - 4]
+    return next(x for k in range(len(taken) + 1) if (x := own if not k else f"{own}_{k}") not in taken)
+
+
+def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:
+    """Return a description in which a parameter stands in place of a number."""
+    result: dict[str, Any] = copy.deepcopy(dict(raw))
+    table: Any = result
+    for key in path[:-1]:
+        if isinstance(table[key], tuple):
+            table[key] = list(table[key])
+        table = table[key]
+    value, table[path[-1]] = float(table[path[-1]]), parameter
+    key = path[1] if path[0] == "mechanism" else path[2] if path[0] == "bodies" and len(path) > 2 else ""
+    entry = {"value": value, "unit": _UNITS.get(str(key), ""), "note": name}
+    result["parameters"] = {**result.get("parameters", {}), parameter: entry}
+    return result

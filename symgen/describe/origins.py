@@ -1,0 +1,31 @@
+"""Descriptions that mechanisms were validated from, kept as long as these exist in this process."""
+
+from __future__ import annotations
+
+import weakref
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from symgen.describe.mechanism import Mechanism
+
+
+class Origin(NamedTuple):
+    """A description, and the name of its file or other origin for messages."""
+
+    raw: Mapping[str, Any]
+    source: str
+
+
+_ORIGINS: dict[int, Origin] = {}
+
+
+def keep_origin(mechanism: Mechanism, raw: Mapping[str, Any], source: str) -> Mechanism:
+    """Return `mechanism`, and keep its description beside it."""
+    _ORIGINS[id(mechanism)] = Origin(raw, source)  # as in `symgen.describe.remembered`
+    weakref.finalize(mechanism, _ORIGINS.pop, id(mechanism), None).atexit = False
+    return mechanism
+
+
+def origin_of(mechanism: Mechanism) -> Origin | None:
+    """Return the description of a mechanism; None for one that was pickled, or derived from another."""
+    return _ORIGINS.get(id(mechanism))
