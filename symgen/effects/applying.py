@@ -24,10 +24,10 @@ APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
 #: that are written, entries of the mass matrix of bodies.
 #: - bodies, first: Velocities of bodies that joints of a tree carry, and the first of these among the numbers that the
 #:   emitted function of bodies sets; 0 where bodies have the velocities of the state.
-#: - owners (shape (k,)): Event of each velocity.
+#: - owners, columns (shape (k,)): Event of each velocity; its number in the state, -1 where it is another one.
 #: - writes (shape (2 l,)): (event, place in the state) of each value.
 #: - entries (shape (2 e,)): (row, column) of each entry; diagonal ones only where joints carry bodies.
-CHANGES = record_type("Changes", __name__, ("bodies first", _N), ("owners writes entries", _K))
+CHANGES = record_type("Changes", __name__, ("bodies first", _N), ("owners columns writes entries", _K))
 Changes: Any = CHANGES.constructor
 
 #: Working memory.
@@ -63,6 +63,15 @@ def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> 
     layout, _, formulas, bodies, changes = model
     n, nq, m, count = layout.nv, layout.nq, layout.m, changes.owners.shape[0]
     still, out, impulse, motion = work.still, work.out, work.impulse, work.motion
+    plain, k = changes.bodies == 0, m
+    for i in range(count):
+        if chosen[changes.owners[i]] != 0:
+            plain = plain and changes.columns[i] >= 0
+            for j in range(n):
+                impulse.rows[k * n + j] = 1.0 if j == changes.columns[i] else 0.0
+            k += 1
+    if plain:
+        return
     for i in range(still.shape[0]):
         still[i] = now.y[i]
     for column in range(-1, n):

@@ -99,7 +99,9 @@ class Effects:
         places = {q.name: info.own_states.start + i for i, q in enumerate(info.states)}
         owners = [n for n, effect in self.effects.items() for _ in effect.velocities]
         writes = [(n, places[name]) for n, effect in self.effects.items() for name in effect.writes]
-        numbers = (np.array(x, dtype=np.int64).ravel() for x in (owners, writes, list(self.entries)))
+        own = {} if self.bodies else {v.name: i for i, v in enumerate(info.velocities)}
+        columns = [own.get(name, -1) for effect in self.effects.values() for name in effect.velocities]
+        numbers = (np.array(x, dtype=np.int64).ravel() for x in (owners, columns, writes, list(self.entries)))
         return Changes._make((self.bodies, self.first, *numbers))
 
     @cached_property

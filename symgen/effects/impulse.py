@@ -136,6 +136,32 @@ def find_impulses(n: int, k: int, work: Any) -> None:
         work.impulses[i] *= work.scale[i]
 
 
+@exact()
+def set_uncoupled(n: int, k: int, v: Any, work: Any) -> bool:
+    """Set the solution where M is diagonal and each row gives a value to a velocity of its own; return whether so."""
+    mass, after, order = work.mass, work.after, work.order
+    if k > n:
+        return False
+    for j in range(n):
+        after[j], order[j] = v[j], 0
+        for i in range(n):
+            if i != j and mass[i * n + j] != 0.0:
+                return False
+    for i in range(k):
+        own = -1
+        for j in range(n):
+            entry = work.rows[i * n + j]
+            if entry != 0.0:
+                if own >= 0 or entry != 1.0:
+                    return False
+                own = j
+        if own < 0 or order[own] != 0:
+            return False
+        order[own], after[own] = 1, work.values[i]
+        work.impulses[i] = mass[own * n + own] * (after[own] - v[own])
+    return True
+
+
 @exact(types.int64(types.int64, types.int64, types.float64[::1], IMPULSE))
 def smallest_impulse(n: int, k: int, v: Any, work: Any) -> int:
     """Set the velocities after the smallest impulse along the rows of `work`, and the impulses.
@@ -155,6 +181,8 @@ def smallest_impulse(n: int, k: int, v: Any, work: Any) -> int:
         1 where ``C v+ - c`` is larger than rounding: the rows contradict each other; else 0.
     """
     rows, scale = work.rows, work.scale
+    if set_uncoupled(n, k, v, work):
+        return 0
     scale_rows(n, k, work)
     for j in range(n):
         work.change[j] = 0.0

@@ -91,6 +91,8 @@ def is_finite(x: float) -> int:
 def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: float, high: float) -> float:
     """Return the root of the cubic between two extrema, by Newton's iteration, or bisection where that leaves them."""
     rise, x = g1 - g0, 0.5 * (low + high)
+    if low == 0.0 and high == 1.0:  # where nothing bends back, the chord is near
+        x = g0 / (g0 - g1)
     for _ in range(_ITERATIONS):
         g = cubic(g0, d0, g1, d1, x)
         if side * g >= 0.0:
@@ -109,8 +111,9 @@ def root_between(g0: float, d0: float, g1: float, d1: float, side: float, low: f
 def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
     """Return the position where the cubic first leaves a side, g1 being on the other; 0 where it has left already."""
     low, below = 0.0, 1 if side * g0 >= 0.0 else 0
-    for k in range(3):
-        high = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
+    first = extremum(g0, d0, g1, d1, 0)
+    for k in range(0 if first < 1.0 else 2, 3):  # the second one is behind the first
+        high = 1.0 if k == 2 else first if k == 0 else extremum(g0, d0, g1, d1, 1)
         if high > 1.0:
             continue
         above = 0 if k < 2 and side * cubic(g0, d0, g1, d1, high) >= 0.0 else 1

@@ -40,6 +40,20 @@ def test_the_equations_of_impact(seed, n, k, rank, massless):
     )
 
 
+@pytest.mark.parametrize("columns", [(1,), (2, 0), ()])
+def test_velocities_that_nothing_couples_are_set_without_a_decomposition(columns):
+    """A row of zeros more has the general solution."""
+    random = np.random.default_rng(len(columns))
+    mass, rows, v = np.diag([1.3, 1.3, 0.02]), np.eye(3)[list(columns)], random.normal(size=3)
+    values = random.normal(size=len(columns))
+    after, impulses, contradictory = impulse_along(mass, rows, values, v)
+    general = impulse_along(mass, np.vstack([rows, np.zeros(3)]), np.append(values, 0.0), v)
+    assert not contradictory
+    np.testing.assert_allclose(after, general[0], rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(impulses, general[1][:-1], rtol=0.0, atol=1e-14)
+    assert impulse_along(mass, np.vstack([rows, rows]), np.append(values, values + 1.0), v)[2] == (len(columns) > 0)
+
+
 def test_rows_that_contradict_each_other_are_noticed():
     mass, rows, values, v = problem(0, 5, 3, 2)
     assert not impulse_along(mass, rows, values, v)[2]
