@@ -23,7 +23,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -193,8 +193,10 @@ def pairs_of(lines: Iterable[Line], integrator: str, method: str) -> list[tuple[
     for line in lines:
         runs = {run["method"]: run for run in line.get("runs", ()) if run["integrator"] == integrator}
         if method in runs:
-            both = ({k: runs[name][k] for k in Measured.__annotations__} for name in ("lagrange", method))
-            pairs.append(tuple(Measured(**own) for own in both))
+            base, own = (
+                Measured(**{f.name: runs[name][f.name] for f in fields(Measured)}) for name in ("lagrange", method)
+            )
+            pairs.append((base, own))
     return pairs
 
 
