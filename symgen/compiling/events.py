@@ -11,6 +11,7 @@ from symgen.compiling.side import compile_side
 from symgen.describe.formula_text import to_text
 from symgen.describe.friction import bound_in_motion, components, mode_events, rate_of
 from symgen.describe.kinks import Discontinuity, changes_in_time, changing_rows, discontinuities_of
+from symgen.describe.losses import places_of_losses
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.describe.stops import gap_of, stop_events
 from symgen.effects.effects import Effect, Effects
@@ -96,6 +97,7 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
         compile_side(mechanism, compiled, "reactions", "Reactions at dry friction", forces) if pressed else None,
         pressed,
         changes_in_time(mechanism),
+        tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
     )
 
 

@@ -18,8 +18,8 @@ from symgen.describe.fields import Scalar, read_table, words_of
 from symgen.describe.mechanism import EndStop, Event, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
 from symgen.ir.program import JAMMING, MODE_NUMBERS, MODES
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
-from symgen.vocabulary.measures import Driven, Effort, Exerted, Holonomic, Measure, Sum
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings
+from symgen.vocabulary.measures import Driven, Effort, Exerted, Holonomic, Integral, Measure, Sum
 
 #: Kinds of joints in the plane whose rows of forces are the components of a reaction.
 REACTING = ("revolute", "translational", "pin-in-slot")
@@ -357,13 +357,18 @@ def with_friction_outputs(mechanism: Mechanism) -> Mechanism:
 def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
     """Yield mode (0 at rest, else the sign of the rate) and force of each dry friction."""
     for friction in frictions:
-        force = Reading(f"{friction.name}.force", Exerted((effort_in_motion(friction),)))
-        total = call("add", force, effort_at_rest(friction))
-        if friction.pressed:
-            against = call("mul", bound_in_motion(friction, rate_of(friction)), reaction_of(friction))
-            total = call("sub", total, call("mul", sign_of(friction), against))
         yield Output(f"{friction.name}.mode", sign_of(friction), "")
-        yield Output(f"{friction.name}.force", total, unit_of_effort(friction))
+        yield Output(f"{friction.name}.force", total_effort(friction), unit_of_effort(friction))
+
+
+def total_effort(friction: Friction) -> Expr:
+    """Return the effort of dry friction at rest and in motion, a formula of outputs."""
+    force = Reading(f"{friction.name}.force", Exerted((effort_in_motion(friction),)))
+    total = call("add", force, effort_at_rest(friction))
+    if not friction.pressed:
+        return total
+    against = call("mul", bound_in_motion(friction, rate_of(friction)), reaction_of(friction))
+    return call("sub", total, call("mul", sign_of(friction), against))
 
 
 def unit_of_effort(friction: Friction) -> str:
@@ -380,9 +385,16 @@ def without_friction(mechanism: Mechanism) -> Mechanism:
 
 
 def outputs_without(mechanism: Mechanism, reports: Iterable[Output]) -> tuple[Output, ...]:
-    """Return the outputs of a mechanism without some reports."""
-    reported = {output.name for output in reports}
-    return tuple(output for output in mechanism.outputs if output.name not in reported)
+    """Return the outputs of a mechanism without some reports, and without integrals of what they report."""
+    reported = {output.name: None for output in reports}
+    rows = {bounded.row for bounded in mechanism.bounded}
+
+    def reads(value: Expr) -> bool:
+        sources = [reading.source for reading in readings(value)]
+        inner = [source.of for source in sources if isinstance(source, Integral)]
+        return any(isinstance(s, Driven) and s.row in rows for s in sources) or any(map(reads, inner))
+
+    return tuple(o for o in mechanism.outputs if o.name not in reported and not reads(o.value))
 
 
 def refuse_friction(where: str, mechanism: Mechanism) -> None:

@@ -14,6 +14,7 @@
 | ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
+| ``pin.dissipated``, ``pin.lower.dissipated`` | energy lost in dry friction, and at a stop | outputs |
 
 `symgen.describe.readings` makes columns of results from the same table.
 """
@@ -21,7 +22,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
@@ -211,11 +212,16 @@ class Readings:
         self._context, self._order = context, order
         self._dimension = 3 if context.space == "spatial" else 2
 
+    @property
+    def _losses(self) -> Mapping[str, Reading]:
+        return self._context.losses if self._order == OUTPUT else {}
+
     def owners(self) -> Iterator[str]:
-        """Yield the names of all bodies, joints and forces with readings."""
+        """Yield the names of all bodies, joints, forces and stops with readings."""
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces
+        yield from (name.partition(".")[0] for name in self._losses)
 
     def has(self, name: str) -> bool:
         """Return whether a force has this name."""
@@ -226,7 +232,8 @@ class Readings:
         if owner in self._context.bodies:
             points = self._context.points[owner]
             return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
-        return tuple(self._of_element(owner, where))
+        lost = (name.partition(".") for name in self._losses)
+        return (*self._of_element(owner, where), *(label for head, _, label in lost if head == owner))
 
     def find(self, path: tuple[str, ...], where: str) -> Expr | None:
         """Return the meaning of a dotted name, None where it has none.
@@ -239,6 +246,8 @@ class Readings:
             File and key, for messages about joints that are resolved on the way.
         """
         owner, *words = path
+        if (name := ".".join(path)) in self._losses:
+            return self._losses[name]
         if owner not in self._context.bodies:
             entry = self._of_element(owner, where).get(".".join(words))
         elif len(words) == 2 and words[0] in self._context.points[owner]:
@@ -257,7 +266,7 @@ class Readings:
     def _of_element(self, owner: str, where: str) -> Table:
         if owner in self._context.joint_names:
             return of_joint(self._context.joint(owner, where), self._order)
-        return of_force(self._context.forces[owner], self._order)
+        return of_force(self._context.forces[owner], self._order) if owner in self._context.forces else {}
 
 
 class Column(NamedTuple):

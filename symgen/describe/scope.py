@@ -17,7 +17,7 @@ from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mech
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import ZERO, Expr, Number, call, dot, moving, readings
+from symgen.vocabulary.expressions import ZERO, Expr, Number, Reading, call, dot, moving, readings
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
@@ -42,10 +42,13 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     forces: Mapping[str, Force] = {}  # empty while forces are resolved
     inputs: tuple[str, ...] = ()
     state_names: tuple[str, ...] = ()
+    losses: Mapping[str, Reading] = {}  # energy lost in dry friction and at stops, which outputs may read
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:
         """Return the context of a complete mechanism, for later formulas."""
+        from symgen.describe.losses import losses  # which needs scopes
+
         joints = {joint.name: joint for joint in mechanism.joints}
         return cls(
             source or mechanism.name,
@@ -58,6 +61,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
             {force.name: force for force in mechanism.forces},
             mechanism.inputs,
             tuple(state.name for state in mechanism.states),
+            losses(mechanism.bounded),
         )
 
     @cached_property

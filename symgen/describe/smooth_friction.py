@@ -15,14 +15,18 @@ from symgen.vocabulary.measures import Effort, Exerted
 
 def smooth_force(friction: Friction, bodies: tuple[str, ...]) -> Force:
     """Return dry friction as a force: the bound times tanh(rate / `speed`), or times the sign of the rate."""
+    return Force(friction.row, "friction", bodies, (smooth_effort(friction),))
+
+
+def smooth_effort(friction: Friction) -> Effort:
+    """Return the effort of this force."""
     rate = Name("rate")
     if friction.speed is None:
         way = call("sign", rate)
     else:
         way = call("tanh", call("div", rate, friction.speed))
     against = call("add", call("mul", way, bound_in_motion(friction, rate)), call("mul", friction.viscous, rate))
-    effort = Effort("friction", friction.measure, call("neg", against))
-    return Force(friction.row, "friction", bodies, (effort,))
+    return Effort("friction", friction.measure, call("neg", against))
 
 
 def with_smooth_friction(mechanism: Mechanism, frictions: Sequence[Friction]) -> Mechanism:

@@ -27,6 +27,7 @@ from symgen.describe.fields import (
 from symgen.describe.friction import check_frictions, read_friction, with_friction_outputs
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.kinds import FORCES, JOINTS
+from symgen.describe.losses import losses
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
@@ -148,6 +149,11 @@ class _Validator:
         holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
         holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
         frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
+        stops = (
+            *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
+            *(read_gap(self.scope("stops", name), value) for name, value in self.entries("stops")),
+        )
+        self.context = msgspec.structs.replace(self.context, losses=losses((*frictions, *stops)))
         mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
@@ -161,10 +167,7 @@ class _Validator:
             defaults=self.defaults(line(head.source)),
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
             frictions=tuple(friction for friction in frictions if friction.speed is None),
-            stops=(
-                *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
-                *(read_gap(self.scope("stops", name), value) for name, value in self.entries("stops")),
-            ),
+            stops=stops,
             states=tuple(self.state(name, value) for name, value in self.entries("states")),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),

@@ -90,6 +90,8 @@ class BoundedRows:
         Coordinates whose bounds depend on the reaction of their joint.
     changes : bool
         Whether anything but the motion and inputs changes over time.
+    losses : tuple of int or None
+        Of each stop, the place in the state of the energy that it has taken; None where no output reads it.
     """
 
     names: tuple[str, ...]
@@ -99,6 +101,7 @@ class BoundedRows:
     reactions: Formulas | None = None
     pressed: tuple[int, ...] = ()
     changes: bool = True
+    losses: tuple[int | None, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -92,6 +92,9 @@ class Impacts:
         watched = self._events.watched
         numbers = [watched.names.index(f"{self.rows.names[i]}.{HIT}") for i in active]
         impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
+        before = rate[[touching.index(i) for i in active]]
+        after = -restitution[[touching.index(i) for i in active]] * np.minimum(before, 0.0)
+        self._lose(active, impact, before + after)
         self.latest = dict.fromkeys(active, impact)
         hit = [n for i, n in zip(active, numbers, strict=True) if rate[touching.index(i)] < 0.0]
         end = self._events.end_of_resets(hit, state)
@@ -105,12 +108,19 @@ class Impacts:
         self.left = {}
         if end is not None:
             modes[active, 2] = 1.0
-            watched.effects.apply(numbers, now, state.y, state.p, state.w)
+            self._lose(active, watched.effects.apply(numbers, now, state.y, state.p, state.w), after)
             modes[active, 2] = 0.0
             self._events.forget_resets(hit)
             self.left = dict.fromkeys(active, max(end - now, 0.0))
             self._ends.clear()
         self._events.begin_anew(state)
+
+    def _lose(self, active: Sequence[int], impact: Impact, rates: Array) -> None:
+        """Add what an impact takes to the losses of its stops, by the sums of their rates before and after it."""
+        y, impulses = self.simulation.state.y, impact.impulses[len(impact.impulses) - len(active) :]
+        for i, impulse, rate in zip(active, impulses, rates, strict=True):
+            if (place := self.rows.losses[i - self.rows.dry]) is not None:
+                y[place] -= 0.5 * float(impulse * rate)
 
 
 def best_end(ends: Sequence[float], restitution: float) -> float:
