@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from symgen.base import arguments
 from symgen.layout import abi
 from symgen.running.prepare import Restarts
 from symgen.runs.events import EventRecord, record_of
 from symgen.stepping.advance import Advance
 from symgen.stepping.history import History
+from symgen.stepping.meter import Meter
 from symgen.stepping.named import Named
 
 if TYPE_CHECKING:
@@ -111,6 +114,29 @@ class Readings:
             If there is no such column.
         """
         return float(self._now[name][0])
+
+    def meter(self, formulas: Sequence[str]) -> Callable[[], NDArray[np.float64]]:
+        """Return a function that evaluates formulas at the present state, compiled: sensors of a controller.
+
+        Parameters
+        ----------
+        formulas : sequence of str
+            Names of columns of results, such as ``"arm.tip.ax"``, and formulas of them.
+
+        Raises
+        ------
+        InputError
+            If one is no formula of the motion, or reads an integral.
+        """
+        meter = Meter(self._prepared, self._loop, arguments.words("meter", formulas), "meter")
+
+        def values() -> NDArray[np.float64]:
+            self._advance.recover()
+            if not self._free:
+                self._advance.begin()
+            return meter()
+
+        return values
 
     @property
     def _prepared(self) -> Prepared:

@@ -32,6 +32,7 @@ PRINTED: dict[str, tuple[dict[str, tuple[float, float]], tuple[str, ...]]] = {
     "controller.py": ({rf"gust to {NUMBER} rad": (0.0, 1e-3), rf"back at {NUMBER} m": (0.0, 1e-3)}, ()),
     # gains of the catalogue's file, which were computed before symgen linearised anything
     "lqr.py": ({rf"gains \[{NUMBER}": (-3.1623, 1e-4), rf"pole at {NUMBER}": (0.0, 1e-4)}, ()),
+    "swing_up.py": ({rf"at a height of {NUMBER} of": (1.0, 1e-2), rf"length, at {NUMBER} rad/s": (0.0, 0.1)}, ()),
     "sweep.py": ({rf"at most {NUMBER} m from": (0.0, 1e-3)}, ("heights.csv",)),
     "optimisation.py": ({rf"stiffness {NUMBER} N/m": (4.0 * 9.81 * 0.6 / (0.2 * 0.3), 0.5)}, ()),
     # dead centres: crank and coupler in line span 8 + 2 and 8 - 2 m; ground 10 m, rocker 5 m
