@@ -10,7 +10,7 @@ from typing import Any
 from symgen.emit.module import PLATFORMS, ModulePiece, Origins, function_source, module_source, python_number, render
 from symgen.emit.whole import Places
 from symgen.ir.numerics import NUMBERS
-from symgen.ir.program import BY_PIVOTS, COUNTERS, STATUS, Correction, LawCode
+from symgen.ir.program import BY_PIVOTS, COUNTERS, FREE_RHS, HELD_RHS, MODE_NUMBERS, STATUS, Correction, LawCode
 
 
 class PartsLayout:
@@ -209,6 +209,8 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     form, parts = law.form, Parts(layout, law.correction)
     if "refactor" in names:
         parts.add("metric", "metric")
+    if FREE_RHS in names:
+        parts.pieces.append(("acceleration", _by_modes(layout)))
     if form in ("iterated", "dense"):
         parts.add(form, "acceleration")
     if form == "tangent":
@@ -225,3 +227,20 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     by_metric = "partition" if law.correction.metric == "independent" else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")
     return parts.pieces
+
+
+def _by_modes(layout: PartsLayout) -> ModulePiece:
+    """Return the right-hand side that enters the one with rows with bounds, or the one without where all are off."""
+    first, arguments = layout.size("switchable") - layout.size("bounded"), "t, y, p, w, iw, ydot"
+    held = (f"w[{layout.at('modes')} + {MODE_NUMBERS * row}]" for row in range(first, layout.size("switchable")))
+    body = [
+        f"if {' and '.join(f'{number} == 0.0' for number in held)}:",
+        f"    return {FREE_RHS}({arguments})",
+        f"return {HELD_RHS}({arguments})",
+    ]
+    before, names, sections = layout.finished()
+    purpose = "Rates of the state, with rows with bounds where one of them is in force."
+    calls = {FREE_RHS, HELD_RHS, *names}
+    return function_source(
+        "rhs", arguments, purpose, [*before, *body], layout.decorator, calls=calls, sections=sections
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
@@ -204,3 +204,9 @@ class Equations(Counted):
             "mass": [node for block in self.mass for line in block.entries for node in line],
             "forces": list(self.forces),
         }
+
+
+def without_bounded_rows(equations: Equations) -> Equations:
+    """Return equations in which no row with bounds is in force; it keeps its number, and its entries are left out."""
+    rows = (replace(row, entries=(), held=equations.graph.zero) if row.bounded else row for row in equations.rows)
+    return replace(equations, rows=tuple(rows))

@@ -20,6 +20,8 @@ Info = TypeVar("Info")
 
 #: The right-hand side that `confirm` evaluates where loops in closed form are suspicious.
 BY_PIVOTS = "rhs_by_pivots"
+#: The right-hand sides of motions with rows with bounds in force and without: ``rhs`` enters one of them.
+HELD_RHS, FREE_RHS = "rhs_held", "rhs_free"
 
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3
@@ -208,6 +210,8 @@ class ModelLayout:
     parameters: int
     sections: Mapping[str, tuple[int, int]]  # name -> (offset in w, size)
     states: int = 0
+    switchable: int = 0  # rows that may be off
+    bounded: int = 0  # of these, the last ones, whose forces have bounds
 
     @property
     def ny(self) -> int:

@@ -6,11 +6,22 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from symgen.base.errors import InputError
-from symgen.formulate.equations import Equations
+from symgen.formulate.equations import Equations, without_bounded_rows
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import BY_PIVOTS, JAMMING, Block, LawProgram, ModelLayout, ModelProgram, Target
+from symgen.ir.program import (
+    BY_PIVOTS,
+    FREE_RHS,
+    HELD_RHS,
+    JAMMING,
+    Block,
+    LawProgram,
+    ModelLayout,
+    ModelProgram,
+    Target,
+)
 from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
+from symgen.lower.plans import cheapest_plan
 from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_form, record_law
 from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
@@ -55,18 +66,27 @@ def lower_law(
     names = [p.name for p in method.parameters]
     record = record_law(method, options, equations.driving is not None)
     apart = _refuse_drags(method, record) if equations.drags else frozenset[str]()
+    either = record
     record = record.resolved(model.plan.schur, apart)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
-    for part in record.parts:
-        if part.role == "acceleration":
-            flag = None if part.flag is None else scalars.values[part.flag]
-            hoister.reserve([*(node for _, node in part_outputs(scalars, part)), *([] if flag is None else [flag])])
+    accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
+    loose: tuple[ScalarNodes, Part] | None = None
+    if record.form == "direct" and any(row.bounded for row in equations.rows):
+        loose = _without_bounded_rows(scalars, either, apart)
+        accelerations.append(loose)
+    for values, part in accelerations:
+        flag = None if part.flag is None else values.values[part.flag]
+        hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
     if model.plan.loops and not equations.drags and record.form == "direct" and method.integrates != "independent":
         blocks = [*_with_closed_loops(hoister, scalars, record.parts[0], blocks[0]), *blocks[1:]]
+    if loose is not None:
+        held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
+        free = replace(law_block(hoister, *loose), name=FREE_RHS)
+        blocks = [held, replace(free, purpose=f"{free.purpose}; no row with bounds in force"), *blocks[1:]]
     unknowns, level = 0, ""
     pattern: tuple[tuple[int, int], ...] = ()
     if implicit:
@@ -77,6 +97,7 @@ def lower_law(
         blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
     layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
+    operations = {b.name: b.operations for b in blocks}
     info = LawInfo(
         method=method.name,
         key=method.stem(options, implicit),
@@ -91,7 +112,7 @@ def lower_law(
         unknowns=unknowns,
         level=level,
         tangent=pattern,
-        operations={b.name: b.operations for b in blocks},
+        operations=operations | ({} if loose is None else {"rhs": operations[FREE_RHS]}),
         unique_multipliers=method.unique_multipliers,
     )
     closed = method.integrates == "independent"
@@ -105,6 +126,15 @@ def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool
     if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
         expected = "one that eliminates multipliers or solves for them, where rows may be off"
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
+
+
+def _without_bounded_rows(scalars: ScalarNodes, record: RecordedLaw, apart: frozenset[str]) -> tuple[ScalarNodes, Part]:
+    """Return the right-hand side of motions with no row with bounds in force, in the cheapest elimination for them."""
+    plan = cheapest_plan(without_bounded_rows(scalars.equations), closing=False)
+    record = record.resolved(plan.schur, apart)
+    loose, part = scalars.without_bounded_rows(record.operations, plan), record.parts[0]
+    loose.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    return loose, part
 
 
 def _with_closed_loops(hoister: Hoister, scalars: ScalarNodes, part: Part, block: Block) -> list[Block]:

@@ -44,7 +44,11 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         if size or name not in ("winding", "modes", "mass_entry", JAMMING):
             sections[name] = (offset, size)
             offset += size
-    layout = ModelLayout(equations.nq, equations.nv, m, len(equations.parameters), sections, len(equations.states))
+    layout = ModelLayout(
+        *(equations.nq, equations.nv, m, len(equations.parameters), sections, len(equations.states)),
+        switchable=sum(row.held is not None for row in equations.rows),
+        bounded=sum(row.bounded for row in equations.rows),
+    )
     hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
         law_block(hoister, scalars, geometry),

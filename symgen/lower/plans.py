@@ -15,14 +15,14 @@ from symgen.methods._base import multiplier_law
 from symgen.methods._formula import System
 
 
-def cheapest_plan(equations: Equations) -> EliminationPlan:
+def cheapest_plan(equations: Equations, closing: bool = True) -> EliminationPlan:
     """Return the plan with the fewest operations of accelerations, multipliers and flags of suspicious pivots.
 
-    Equal numbers are decided by the longest chain of operations.
+    Equal numbers are decided by the longest chain of operations. Loops in closed form are left out unless `closing`.
     """
     if not equations.m:
         return EliminationPlan()
-    costs = {plan: _cost(equations, plan) for plan in _plans(equations)}
+    costs = {plan: _cost(equations, plan) for plan in _plans(equations) if closing or not plan.loops}
     best = min(costs, key=costs.__getitem__)
     normal = replace(best, normal=True)
     # Euler parameters have no sines whose squares meet

@@ -7,7 +7,7 @@ from copy import copy
 from functools import cached_property
 from typing import Self
 
-from symgen.formulate.equations import Equations
+from symgen.formulate.equations import Equations, without_bounded_rows
 from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
@@ -47,6 +47,16 @@ class ScalarNodes(OfMass):
         other.values, other.stored, other.flags, other.closing = {}, {}, [], True
         return other
 
+    def without_bounded_rows(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan) -> Self:
+        """Return another tape in the same graph, nothing evaluated yet, of motions with no row with bounds in force."""
+        other = self.following(operations)
+        for name in ("saddle", "row_halves", "order", "_schur"):
+            other.__dict__.pop(name, None)
+        other.equations = without_bounded_rows(self.equations)
+        other.rows = tuple(row.entries for row in other.equations.rows)
+        other.stored, other.flags, other.plan = {}, [], plan
+        return other
+
     def compute(self, ends: Iterable[int]) -> None:
         """Evaluate the operations that some depend on."""
         self.run(needed(ends, lambda i: self.operations[i].operands))
@@ -62,7 +72,7 @@ class ScalarNodes(OfMass):
         effects = list[tuple[Nodes, Nodes]]()
         for drag in drags:
             against = [g.zero] * e.nv
-            for j, node in self.rows[drag.row]:
+            for j, node in self.directions[drag.row]:
                 against[j] = g.mul(drag.sign, node)
             effects.append(self._eliminated(tuple(against), (g.zero,) * e.m))
         alone = [tuple(multipliers[i] for i in drag.pressed) for drag in drags]

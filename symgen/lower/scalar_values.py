@@ -49,6 +49,7 @@ class NodeValues(Replay):
             g.input("parameter", i)  # so that the numbers of nodes do not depend on the first use in a formula
         self.mask = tuple(g.input("mask", i) for i in range(e.m))
         self.rows: Rows = tuple(row.entries for row in e.rows)
+        self.directions = self.rows  # also of rows that are left out
         self.phi = tuple(g.zero if r.phi is None else r.phi for r in e.rows)
         self.nu = tuple(r.nu for r in e.rows)
         self.v = tuple(g.input("v", i) for i in range(e.nv))

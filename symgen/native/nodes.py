@@ -99,7 +99,7 @@ class NodesPrinter(ValuePrinter):
         own = ", ".join(f'ptr noalias %"{a}", i64 %"{a}.n"' for a in arrays)
         self.views = {a: (f'%"{a}"', (f'%"{a}.n"',)) for a in arrays}
         self.values["t"] = self.put(f'load {_kind("float")}, ptr %"t", align 8')
-        self.end(self.statements(self.function))
+        self.end(self.statements(self.function.body))
         tables = [
             f'@"{self.symbol(f)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
             f"[{', '.join('double ' + literal(v) for v in x)}]"
@@ -108,20 +108,42 @@ class NodesPrinter(ValuePrinter):
         ]
         return "\n".join([*tables, f'define i64 @"{self.name}"({own}) nounwind {{', ".entry:", *self.lines, "}"])
 
-    def statements(self, function: lang.Function) -> lang.Expression:
+    def statements(self, body: tuple[lang.Statement, ...]) -> lang.Expression:
         """Print the statements of a function up to its result and return that."""
-        for statement in function.body:
+        for statement in body:
             if isinstance(statement, lang.Assign):
                 self.assign(statement.name, statement.value)
             elif isinstance(statement, lang.Store):
                 self.store(statement)
             elif isinstance(statement, lang.Evaluate) and isinstance(statement.call, lang.FunctionCall):
                 self.inline(statement.call)
+            elif isinstance(statement, lang.If) and not self.is_vector(statement.test):
+                self.choose(statement)
             elif isinstance(statement, lang.Return):
                 return statement.value
             else:
                 raise Foreign(f"a {type(statement).__name__} in straight code")
         raise Foreign("code without a result")
+
+    def choose(self, statement: lang.If) -> None:
+        """Print a choice, the same at all nodes, of statements that end the function."""
+        if statement.otherwise or self.function is not self.functions[0]:
+            raise Foreign("a choice inside straight code")
+        yes, no = self.labels("then", "else")
+        self.branch(self.value(statement.test), yes, no)
+        values, vectors, equal, stored, far = self.values, self.vectors, self.equal, self.stored, self.far
+        for label in (yes, no):
+            self.values, self.vectors, self.equal, self.stored = (
+                values.copy(),
+                vectors.copy(),
+                equal.copy(),
+                stored.copy(),
+            )
+            self.far = far
+            self.sines.clear()
+            self.begin(label)
+            if label == yes:
+                self.end(self.statements(statement.then))
 
     def assign(self, name: str, value: lang.Expression) -> None:
         """Print an assignment to a variable."""
@@ -142,7 +164,7 @@ class NodesPrinter(ValuePrinter):
         self.function, self.values, self.vectors = function, {"t": values["t"]}, {"t"}
         self.sines.clear()
         self.functions.append(function)
-        result = self.statements(function)
+        result = self.statements(function.body)
         text, vector = self.plain(result), self.is_vector(result)
         self.function, self.values, self.vectors = outer, values, vectors
         self.sines.clear()
@@ -161,8 +183,9 @@ class NodesPrinter(ValuePrinter):
 
     def end(self, value: lang.Expression) -> None:
         """Print the end: whether a pivot is suspicious at any node, and whether an angle is large."""
-        test = self.plain(value)
-        if self.is_vector(value):
+        inner = isinstance(value, lang.FunctionCall) and "y" in value.arguments
+        test, vector = self.inline(value) if inner else (self.plain(value), self.is_vector(value))
+        if vector:
             if value.type != "bool":
                 test = self.operated("bool", "ne", value.type, [test, self.spread("0", value.type)])
             test = self.of_vectors("vector.reduce.or", "i1", (test, "bool"))
@@ -175,7 +198,9 @@ class NodesPrinter(ValuePrinter):
         self.lines.append(f"  ret i64 {result}")
 
     def at(self, index: lang.Expression) -> int:
-        """Return an index."""
+        """Return an index: a number, or a sum of numbers."""
+        if isinstance(index, lang.ScalarOperation) and index.name == "add":
+            return sum(self.at(part) for part in index.arguments)
         if not isinstance(index, lang.Constant):
             raise Foreign("an index that is computed")
         return int(index.value)

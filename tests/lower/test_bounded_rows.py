@@ -1,0 +1,79 @@
+"""Two right-hand sides where rows have bounds: one with these rows, and one for motions with none of them in force."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from symgen import Settings
+from symgen.compiling.pipeline import choose_method
+from symgen.describe.load import read_raw
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.validate import validate
+from symgen.formulate.formulate import formulate
+from symgen.layout import abi
+from symgen.layout.probe import Ready
+from symgen.lower.law import lower_law
+from symgen.lower.model import lower_model
+from symgen.running.prepare import Prepared, prepare
+
+#: Bodies of the pins of the four-bar, in the order of their rate.
+PINS = {"A": ("", "crank"), "B": ("crank", "coupler"), "C": ("coupler", "rocker"), "D": ("", "rocker")}
+
+
+def four_bar(friction: Mapping[str, float], pins: str, torques: Mapping[str, float] | None = None) -> Mechanism:
+    """Return the four-bar of the catalogue with dry pins, or with torques on its bodies."""
+    raw, source = read_raw("four-bar")
+    raw["bodies"]["crank"]["angular_velocity"] = 2.0
+    for pin in pins:
+        raw["joints"][pin]["friction"] = dict(friction)
+    for body, torque in (torques or {}).items():
+        raw.setdefault("forces", {})[f"on_{body}"] = {"type": "torque", "body": body, "torque": torque}
+    return validate(raw, source)
+
+
+def operations(mechanism: Mechanism) -> Mapping[str, int]:
+    """Return the operations of the functions of a law."""
+    equations, choice = formulate(mechanism), choose_method("direct-correction", {"weight": "mass"})
+    return lower_law(equations, lower_model(equations, ""), choice.method, choice.options).info.operations
+
+
+def rates(run: Prepared, signs: Mapping[str, float], moved: float) -> tuple[np.ndarray[Any, Any], ...]:
+    """Return v' and the multipliers of joints where friction has some signs, at a start with other velocities."""
+    compiled, y, p, w = run.compiled, run.start.y.copy(), run.start.p.copy(), run.start.w.copy()
+    info, iw, rate = compiled.info, np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros_like(run.start.y)
+    y[info.nq : info.nq + info.nv] *= moved
+    for row, modes in zip(info.switchable, compiled.modes(w), strict=True):
+        modes[:] = 0.0, 0.0, signs[info.rows[row].joint], 0.0
+    assert Ready(compiled.law_module.rhs, abi.RHS)(0.0, y, p, w, iw, rate) == 0
+    own = [i for i in range(info.m) if i not in info.bounded]
+    multipliers = compiled.section(w, "multipliers")
+    assert not multipliers[list(info.bounded)].any()
+    return rate[info.nq : info.nq + info.nv].copy(), multipliers[own].copy()
+
+
+@pytest.mark.parametrize(
+    ("friction", "pins", "more"), [({"sliding": 4.0}, "A", 14), ({"sliding": 4.0}, "ABCD", 29)], ids=["one", "four"]
+)
+def test_sliding_costs_few_operations(friction: dict[str, float], pins: str, more: int) -> None:
+    """No row of friction takes part in the elimination while none is in force."""
+    plain, dry = operations(four_bar({}, "")), operations(four_bar(friction, pins))
+    assert dry["rhs"] == dry["rhs_free"] <= plain["rhs"] + more
+    assert dry["rhs_held"] > dry["rhs_free"]
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_friction_in_motion_is_a_torque(coordinates: str) -> None:
+    """Constant friction of given signs is a torque on both bodies: the same accelerations and forces of joints."""
+    signs = {"A": 1.0, "B": -1.0, "C": 1.0, "D": -1.0}
+    torques = dict.fromkeys(("crank", "coupler", "rocker"), 0.0)
+    for pin, (first, second) in PINS.items():
+        for body, sign in ((first, 1.0), (second, -1.0)):
+            if body:
+                torques[body] += sign * signs[pin] * 4.0
+    settings = Settings(method="direct-correction", integrator="dop853", coordinates=coordinates)
+    dry = prepare(four_bar({"sliding": 4.0}, "ABCD"), settings)
+    driven = prepare(four_bar({}, "", torques), settings)
+    for mine, other in zip(rates(dry, signs, 0.7), rates(driven, {}, 0.7), strict=True):
+        np.testing.assert_allclose(mine, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
