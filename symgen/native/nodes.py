@@ -183,8 +183,10 @@ class NodesPrinter(ValuePrinter):
 
     def end(self, value: lang.Expression) -> None:
         """Print the end: whether a pivot is suspicious at any node, and whether an angle is large."""
-        inner = isinstance(value, lang.FunctionCall) and "y" in value.arguments
-        test, vector = self.inline(value) if inner else (self.plain(value), self.is_vector(value))
+        if isinstance(value, lang.FunctionCall) and "y" in value.arguments:
+            test, vector = self.inline(value)
+        else:
+            test, vector = self.plain(value), self.is_vector(value)
         if vector:
             if value.type != "bool":
                 test = self.operated("bool", "ne", value.type, [test, self.spread("0", value.type)])
