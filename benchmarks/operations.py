@@ -19,12 +19,13 @@ from rich.table import Table
 import symgen
 from benchmarks.show import show
 from symgen.compiling.choices import on_tree
+from symgen.compiling.closing import free_velocities
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
-from symgen.ir.program import Block, EliminationPlan
+from symgen.ir.program import BY_PIVOTS, Block, EliminationPlan
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
-from symgen.lower.plans import cheapest_plan
+from symgen.lower.plans import cheapest_plan, closing_plan
 from symgen.methods import METHODS
 
 MODELS = (
@@ -35,12 +36,12 @@ MODELS = (
 CORRECTION = ("geometry", "refactor", "spread")
 
 
-def blocks(equations: Equations, plan: EliminationPlan) -> dict[str, Block]:
-    """Return the emitted functions of `direct-correction` by name, with a plan of elimination."""
+def blocks(equations: Equations, plan: EliminationPlan, free: tuple[int, ...] = ()) -> dict[str, Block]:
+    """Return the emitted functions of `direct-correction` by name, with a plan of elimination and free velocities."""
     method = METHODS.get("direct-correction", "")
     with patch("symgen.lower.model.cheapest_plan", return_value=plan):
         model = lower_model(equations, "")
-    law = lower_law(equations, model, method, method.complete_options({}))
+    law = lower_law(equations, model, method, method.complete_options({}), closing=closing_plan(equations, plan, free))
     return {block.name: block for block in (*model.blocks, *law.blocks)}
 
 
@@ -53,12 +54,13 @@ def rows(names: tuple[str, ...], casadi: bool) -> Iterator[list[str]]:
         for coordinates, described in (("bodies", mechanism), ("joints", on_tree(mechanism))):
             equations = formulate(described)
             plan = cheapest_plan(equations)
-            old, new = blocks(equations, EliminationPlan()), blocks(equations, plan)
+            old, new = blocks(equations, EliminationPlan()), blocks(equations, plan, free_velocities(described))
+            pivots = new.get(BY_PIVOTS, new["rhs"])
             yield [
                 name,
                 coordinates,
                 f"{len(plan.rows)} of {equations.m}",
-                *(str(each["rhs"].operations) for each in (old, new)),
+                *(str(block.operations) for block in (old["rhs"], pivots, new["rhs"])),
                 *(str(sum(each[x].operations for x in CORRECTION if x in each)) for each in (old, new)),
                 *((str(shared_by_casadi(new["rhs"])),) if casadi else ()),
             ]
@@ -70,6 +72,7 @@ def main(names: tuple[str, ...] = MODELS) -> None:
     casadi = importlib.util.find_spec("casadi") is not None
     for head in (
         "`rhs` by S",
+        "`rhs` by pivots",
         "`rhs`",
         "correction by S",
         "correction",

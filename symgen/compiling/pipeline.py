@@ -52,17 +52,23 @@ class Generated:
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method with its requested structural options, and the shape of its code."""
+    """A method with its requested structural options, the shape of its code, and velocities that loops leave free."""
 
     method: Method
     options: Mapping[str, str]
     implicit: bool = False
     shape: str = "straight"
+    free: tuple[int, ...] = ()
 
     @property
     def stem(self) -> str:
         """File stem of its module."""
-        return self.method.stem(self.options, self.implicit)
+        return self.method.stem(self.options, self.implicit) + self.suffix
+
+    @property
+    def suffix(self) -> str:
+        """End of the file stem, which says the free velocities."""
+        return "".join(f"_f{j}" for j in self.free)
 
     def with_options(self, **options: str) -> MethodChoice:
         """Return the choice with other values of some options."""
@@ -196,6 +202,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     from symgen.emit.emit import emit_law, emit_model
     from symgen.emit.lanes import emit_lanes_law
     from symgen.lower.law import lower_law
+    from symgen.lower.plans import closing_plan
 
     began = time.perf_counter()
     folder, key = folder_of(mechanism), (id(mechanism), target)
@@ -211,7 +218,8 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     named = whole and target != "lanes"  # lanes have their own places of elements
     modules[f"model{suffix}"] = emit_model(program, equations, target, whole) if named else source, info
     for choice in choices:
-        law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
+        closing = closing_plan(equations, program.plan, choice.free)
+        law = lower_law(equations, program, choice.method, choice.options, choice.implicit, closing, choice.suffix)
         words = (choice.method.summary, choice.method.reference)
         if target == "lanes":
             sources = {f"{choice.stem}{suffix}": emit_lanes_law(law, program, equations, *words)}
@@ -274,6 +282,9 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
         from symgen.compiling.looped import compile_looped
 
         return replace(compile_looped(mechanism, choice, generator_digest()), origin=(compile_again, arguments))
+    from symgen.compiling.closing import at_start
+
+    choice = at_start(mechanism, choice)
     folder, took = folder_of(mechanism), [0.0, 0.0]
     model, stem = f"model{SUFFIXES[target]}", f"{choice.stem}{SUFFIXES[target]}"
 
@@ -343,6 +354,10 @@ def load_compiled(
 
 def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     """Return the metadata of a program."""
+    from symgen.lower.closing import loop_pairs
+
+    plan = program.plan
+    open_loops = not (plan.loops or equations.drags or any(row.held is not None for row in equations.rows))
     return ModelInfo(
         name=program.name,
         digest=program.digest,
@@ -366,6 +381,8 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         states=equations.states,
         switchable=tuple(i for i, row in enumerate(equations.rows) if row.held is not None),
         bounded=tuple(i for i, row in enumerate(equations.rows) if row.bounded),
+        pairs=loop_pairs(equations, plan.fixed) if open_loops else (),
+        fixed=tuple((block.columns, block.rows) for block in plan.fixed),
     )
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 #: A pivot of S below this fraction of its diagonal entry is suspicious: rank is then decided on D D^T.
 SUSPICIOUS = 1e-6
+#: Two columns of a loop with a squared sine below this are suspicious where other velocities could be solved for.
+PARALLEL = 1e-4
 #: A pivot of D D^T (rows scaled) below this belongs to a row that depends on the others: the row is skipped.
 SKIP = 1e-12
 #: A pivot of D D^T (rows scaled) below this is near a singular position and is reported.

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
-from symgen.ir.program import MODE_NUMBERS, SCALES, STATUS
+from symgen.ir.program import BY_PIVOTS, MODE_NUMBERS, SCALES, STATUS
 from symgen.vocabulary.infos import Info, LawInfo
 from symgen.vocabulary.quantities import Counted, Quantity
 
@@ -41,7 +41,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     parameters that may change during a run; `states` are states of the file's own, after the work, and `integrals` is
     the number of auxiliary states after these; `alone` are rows eliminated before all rows coupled to them: they are
     never left out, so nothing reads their mask; `switchable` are rows that may be off,
-    and `bounded` those of them with forces within bounds, which are off at a start;
+    and `bounded` those of them with forces within bounds, which are off at a start; `pairs` are the rows of joints that
+    may close loops, with their velocities behind those that are `fixed`, by columns and rows;
     `shadows` is the number of elements behind the state without error control, directions
     (`symgen.runs.directed_model`).
     """
@@ -68,6 +69,8 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     switchable: tuple[int, ...] = ()
     shadows: int = 0
     bounded: tuple[int, ...] = ()
+    pairs: tuple[tuple[tuple[int, int], tuple[int, ...]], ...] = ()
+    fixed: tuple[tuple[tuple[int, ...], tuple[int, ...]], ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
@@ -144,6 +147,14 @@ class CompiledModel(ABC):
     @abstractmethod
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start sets them."""
+
+    @property
+    def closes_all(self) -> bool:
+        """Whether all rows fix velocities or close loops that leave some free."""
+        pairs = self.info.pairs if BY_PIVOTS in self.law.operations else ()
+        return bool(pairs) and self.info.m == sum(
+            len(rows) for rows in (*(x for _, x in self.info.fixed), *(x for x, _ in pairs))
+        )
 
     def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
         """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""

@@ -6,9 +6,8 @@ The other entries of M become N^T M N, those of D lose a column. This cannot fai
 rows are independent of each other. Accelerations of fixed velocities then follow from their rows, and multipliers of
 the rows from the equations of the velocities, both as they were before.
 
-Where velocities that are fixed, by drivers as a rule, leave just two velocities to the two rows of a joint, these rows
-close a loop: one determinant takes the place of two pivots. It vanishes where both columns are parallel, so that a flag
-goes with it.
+The two rows of a joint may close a loop: two of their velocities follow from the others, and one determinant takes the
+place of two pivots. It vanishes where both columns are parallel, so that a flag goes with it.
 
 What is left over is eliminated one by one: velocities, then rows.
 """
@@ -228,11 +227,11 @@ class SaddleMatrix:
     def _from_rest(self, step: _Fixed, right: list[int], x: dict[int, int]) -> None:
         """Add the unknowns of a loop from what elimination has left of its equations."""
         g, size = self.graph, range(len(step.rows))
-        moved = [
-            g.sub(right[r], g.total(g.mul(n[a], x[i]) for i, n in step.with_rows.items()))
-            for a, r in enumerate(step.rows)
-        ]
-        x |= {c: g.dot(line, moved) for c, line in zip(step.columns, step.inverse, strict=True)}
+        for a, c in enumerate(step.columns):
+            value = g.dot(step.inverse[a], [right[r] for r in step.rows])
+            for i, n in step.motion.items():
+                value = g.sub(value, g.mul(n[a], x[i]))
+            x[c] = value
         forces = [
             g.sub(
                 g.sub(right[c], g.dot(step.mass[a], [x[d] for d in step.columns])),
@@ -295,32 +294,6 @@ def fixed_velocities(equations: Equations, hinges: bool) -> tuple[FixedVelocitie
                     if not _is_open(matrix, other):
                         del costs[other]
     return tuple(dict.fromkeys(taken.values()))
-
-
-def closed_loops(equations: Equations, fixed: tuple[FixedVelocities, ...]) -> tuple[FixedVelocities, ...]:
-    """Return the loops whose two rows leave no choice of velocities, in order; none where a row is left without any."""
-    matrix = SaddleMatrix(
-        equations.graph.copy(), equations.nv, mass_entries(equations), tuple(row.entries for row in equations.rows)
-    )
-    for block in fixed:
-        matrix.fix(block)
-    of_joint: dict[str, list[int]] = {}
-    for r, row in enumerate(equations.rows):
-        if row.held is None and not row.axes and equations.nv + r in matrix.left:
-            of_joint.setdefault(row.joint, []).append(r)
-    pairs = [(rows[0], rows[1]) for rows in of_joint.values() if len(rows) == 2]
-    loops: list[FixedVelocities] = []
-    while True:
-        ready = [rows for rows in pairs if len(c := matrix.columns(rows[0])) == 2 and c == matrix.columns(rows[1])]
-        if not ready:
-            break
-        loops.append(FixedVelocities(matrix.columns(ready[0][0]), ready[0]))
-        square, _ = matrix.close(loops[-1])
-        if square == matrix.graph.zero:
-            return ()
-        pairs.remove(ready[0])
-    idle = any(not matrix.columns(x - matrix.nv) for x in matrix.left if x >= matrix.nv)
-    return () if idle else tuple(loops)
 
 
 def mass_entries(equations: Equations) -> dict[tuple[int, int], int]:

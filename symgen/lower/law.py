@@ -14,6 +14,7 @@ from symgen.ir.program import (
     HELD_RHS,
     JAMMING,
     Block,
+    EliminationPlan,
     LawProgram,
     ModelLayout,
     ModelProgram,
@@ -35,7 +36,13 @@ _KEEPS_MASS = frozenset(("begin", "aim", "geometry"))
 
 
 def lower_law(
-    equations: Equations, model: ModelProgram, method: Method, options: Mapping[str, str], implicit: bool = False
+    equations: Equations,
+    model: ModelProgram,
+    method: Method,
+    options: Mapping[str, str],
+    implicit: bool = False,
+    closing: EliminationPlan | None = None,
+    suffix: str = "",
 ) -> LawProgram:
     """Lower one method: its acceleration law, and its correction where it differs from the model's.
 
@@ -51,6 +58,10 @@ def lower_law(
         Its structural options, complete.
     implicit : bool
         Whether the descriptor form for implicit integrators is added.
+    closing : EliminationPlan, optional
+        The model's plan with loops in closed form, as velocities chosen at the start allow; the model's by default.
+    suffix : str
+        Of the file stem, which says the choice.
 
     Raises
     ------
@@ -64,25 +75,25 @@ def lower_law(
     if any(row.held is not None for row in equations.rows):
         _refuse_switching(method, options, implicit)
     names = [p.name for p in method.parameters]
-    record = record_law(method, options, equations.driving is not None)
-    apart = _refuse_drags(method, record) if equations.drags else frozenset[str]()
-    either = record
-    record = record.resolved(model.plan.schur, apart)
+    recorded = record_law(method, options, equations.driving is not None)
+    apart = _refuse_drags(method, recorded) if equations.drags else frozenset[str]()
+    record = recorded.resolved(model.plan.schur, apart)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
     loose: tuple[ScalarNodes, Part] | None = None
     if record.form == "direct" and any(row.bounded for row in equations.rows):
-        loose = _without_bounded_rows(scalars, either, apart)
+        loose = _without_bounded_rows(scalars, recorded, apart)
         accelerations.append(loose)
     for values, part in accelerations:
         flag = None if part.flag is None else values.values[part.flag]
         hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
-    if model.plan.loops and not equations.drags and record.form == "direct" and method.integrates != "independent":
-        blocks = [*_with_closed_loops(hoister, scalars, record.parts[0], blocks[0]), *blocks[1:]]
+    closing = closing or model.plan
+    if closing.loops and not equations.drags and record.form == "direct" and method.integrates != "independent":
+        blocks = [*_with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0]), *blocks[1:]]
     if loose is not None:
         held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
         free = replace(law_block(hoister, *loose), name=FREE_RHS)
@@ -100,7 +111,7 @@ def lower_law(
     operations = {b.name: b.operations for b in blocks}
     info = LawInfo(
         method=method.name,
-        key=method.stem(options, implicit),
+        key=method.stem(options, implicit) + suffix,
         options=dict(options),
         parameters=tuple((p.name, p.default) for p in method.parameters),
         parameter_offset=hoister.first_parameter,
@@ -137,9 +148,13 @@ def _without_bounded_rows(scalars: ScalarNodes, record: RecordedLaw, apart: froz
     return loose, part
 
 
-def _with_closed_loops(hoister: Hoister, scalars: ScalarNodes, part: Part, block: Block) -> list[Block]:
+def _with_closed_loops(
+    hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, plan: EliminationPlan, block: Block
+) -> list[Block]:
     """Return the right-hand side with loops in closed form, and behind it the one that `confirm` evaluates."""
-    closing = scalars.with_closed_loops()
+    if not any(operation.kind == "constrained" for operation in record.operations):
+        return [block]
+    part, closing = record.parts[0], scalars.with_closed_loops(record.operations, plan)
     closing.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
     behind = replace(block, name=BY_PIVOTS, purpose=f"the same with a pivot for each row of a loop, {block.purpose}")
     closed = law_block(hoister, closing, part)

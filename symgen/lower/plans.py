@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import PARAMETER
 from symgen.ir.program import EliminationPlan
-from symgen.lower.blocks import closed_loops, fixed_velocities
+from symgen.lower.blocks import fixed_velocities
+from symgen.lower.closing import closed_loops
 from symgen.lower.record import Part, RecordedLaw
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._base import multiplier_law
@@ -27,6 +28,25 @@ def cheapest_plan(equations: Equations, closing: bool = True) -> EliminationPlan
     normal = replace(best, normal=True)
     # Euler parameters have no sines whose squares meet
     return best if best.schur or equations.spins or _cost(equations, normal) >= costs[best] else normal
+
+
+def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int]) -> EliminationPlan:
+    """Return a plan that also closes loops, with some velocities free; the same one where that takes more operations.
+
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    plan : EliminationPlan
+        From `cheapest_plan`.
+    free : sequence of int
+        Velocities that no loop is solved for.
+    """
+    loops = closed_loops(equations, plan.fixed, free) if free and not plan.loops else ()
+    orders = dict.fromkeys((loops, loops[::-1]))  # from free velocities on, and towards them
+    normal = (False,) if equations.spins else (False, True)
+    plans = [plan, *(EliminationPlan(plan.fixed, False, n, order) for order in orders if order for n in normal)]
+    return min(plans, key=lambda each: _cost(equations, each)) if len(plans) > 1 else plan
 
 
 def _plans(equations: Equations) -> Iterator[EliminationPlan]:
@@ -48,7 +68,7 @@ def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
     record = RecordedLaw(tuple(system.tape.operations), (part,))
     record = record.resolved(plan.schur, frozenset(("constrained",) if equations.drags else ()))
     scalars = ScalarNodes(equations, record.operations, plan=plan)
-    scalars = scalars.with_closed_loops() if plan.loops else scalars
+    scalars = scalars.with_closed_loops(record.operations, plan) if plan.loops else scalars
     scalars.compute(record.ends)
     accelerations, multipliers, flag = (scalars.values[i] for i in record.ends)
     g, nodes = scalars.graph, [*accelerations, *multipliers, *(() if flag is None else (flag,))]

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from copy import copy
 from functools import cached_property
 from typing import Self
 
 from symgen.formulate.equations import Equations, without_bounded_rows
 from symgen.ir.graph import PARAMETER
-from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
+from symgen.ir.numerics import PARALLEL, SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
 from symgen.ir.program import STATUS, EliminationPlan, FixedVelocities, Target
 from symgen.lower.blocks import SaddleMatrix
@@ -40,11 +39,11 @@ class ScalarNodes(OfMass):
         self.plan = EliminationPlan() if plan is None else plan
         self.closing = False
 
-    def with_closed_loops(self) -> Self:
-        """Return the same tape, nothing evaluated yet, with loops in closed form where multipliers are solved for."""
-        other = copy(self)
+    def with_closed_loops(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan) -> Self:
+        """Return a tape in the same graph, nothing evaluated yet, with the loops of a plan in closed form."""
+        other = self.following(operations)
         other.__dict__.pop("saddle", None)
-        other.values, other.stored, other.flags, other.closing = {}, {}, [], True
+        other.plan, other.stored, other.flags, other.closing = plan, {}, [], True
         return other
 
     def without_bounded_rows(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan) -> Self:
@@ -129,7 +128,9 @@ class ScalarNodes(OfMass):
         g, fixed = self.graph, {c for block in self.plan.fixed for c in block.columns}
         matrix, eliminated = self._with_fixed(self.mass_matrix, self.rows, self.plan.normal), set(self.plan.rows)
         for loop in self.plan.loops if self.closing else ():
-            self.flags.append(self._doubtful(loop, *matrix.close(loop)))
+            square, largest = matrix.close(loop)
+            sine = PARALLEL if matrix.loops[-1].motion else SUSPICIOUS
+            self.flags.append(self._doubtful(loop, square, largest, sine))
             fixed |= set(loop.columns)
             eliminated |= set(loop.rows)
         for row, entries in enumerate(self.rows):
@@ -151,10 +152,10 @@ class ScalarNodes(OfMass):
         matrix.eliminate_rest(reciprocal)
         return matrix
 
-    def _doubtful(self, loop: FixedVelocities, square: int, largest: int) -> int:
+    def _doubtful(self, loop: FixedVelocities, square: int, largest: int, sine: float) -> int:
         """Return the node that is true where a loop's columns are nearly parallel or short, or a row is masked."""
         g, (a, b), (i, j) = self.graph, loop.rows, loop.columns
-        least = g.add(g.mul(g.constant(SUSPICIOUS), largest), g.add(self.mask[a], self.mask[b]))
+        least = g.add(g.mul(g.constant(sine), largest), g.add(self.mask[a], self.mask[b]))
         doubtful = g.call("le", square, least)
         if not g.depends[largest] & ~PARAMETER:
             return doubtful

@@ -13,6 +13,7 @@ from msgspec import structs
 
 from symgen.base.errors import AssemblyError, counted
 from symgen.base.files import check_path, write_whole
+from symgen.compiling.closing import law_at_start
 from symgen.compiling.looped import kernel_stems
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
@@ -20,7 +21,6 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.formula_text import to_text
 from symgen.describe.topology import state_names
 from symgen.formulate.formulate import formulate
-from symgen.lower.law import lower_law
 from symgen.lower.looped.instances import instances
 from symgen.lower.model import lower_model
 from symgen.player.motion_page import PAGES
@@ -308,7 +308,7 @@ def _operations(e: Equations) -> dict[str, dict[str, int]]:
 def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str, Any]:
     """Return the functions emitted for a method with their operation counts."""
     program = lower_model(equations, digest(mechanism))
-    law = lower_law(equations, program, choice.method, choice.options)
+    law = law_at_start(mechanism, equations, program, choice)
     return {
         "name": choice.method.name,
         "summary": choice.method.summary,

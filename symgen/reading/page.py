@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import script_json
+from symgen.compiling.closing import law_at_start
 from symgen.drawing import sketch
 from symgen.emit.emit import emit_law, emit_model
 from symgen.formulate.formulate import formulate
-from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_part
 from symgen.player.motion_page import rates_script
@@ -110,7 +110,7 @@ class EquationPage:
         self.program = lower_model(self.e, digest="")
         method, options = self.choice.method, self.choice.options
         self.steps = law(method.name, options, self.e.driving is not None)
-        self.law = lower_law(self.e, self.program, method, options)
+        self.law = law_at_start(self.mechanism, self.e, self.program, self.choice)
         self.source = emit_model(self.program, self.e)
         self.parts = emit_law(self.law, self.program, self.e, method.summary, method.reference)
         self.places = sections(self.file)

@@ -20,6 +20,7 @@ from symgen.base.files import Content, check_name, templates_folder, why, write_
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
 from symgen.compiling.choices import choose_coordinates, on_tree
+from symgen.compiling.closing import at_start
 from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import DOES
@@ -109,6 +110,8 @@ def write_package(
         plans, run, reason = _started(plans)
     derived = on_tree(plans[0].mechanism) if coordinates == "joint" else plans[0].mechanism
     choices = tuple(for_coordinates(derived, plan.choice) for plan in plans)
+    if shape == "straight":
+        choices = tuple(at_start(derived, choice) for choice in choices)
     generated = generate(derived, choices, shape, target, whole=True)
     modules, laws = _by_method(generated.modules, choices, SUFFIXES[target])
     files: dict[str, Content] = {f"{stem}.py": source for stem, (source, _) in modules.items()}

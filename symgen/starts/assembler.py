@@ -130,7 +130,10 @@ class Assembly:
         info, held, layout = self.compiled.info, self.held, layout_of(self.compiled)
         return layout._replace(
             t=self.t,
-            ask_light=int(self.ask_light and hasattr(self.compiled.law_module, "confirm")),
+            # where all rows close loops or fix velocities, S is formed in doubtful positions alone
+            ask_light=int(
+                self.ask_light and hasattr(self.compiled.law_module, "confirm") and not self.compiled.closes_all
+            ),
             unchanged=_marked(tuple(held.velocities), info.nv),
             fixed=_marked(held.fixed, info.nv),
             held=np.array([(i, velocity_of(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),

@@ -71,7 +71,7 @@ def laid_out(equations: Equations, formula, plan=SCHUR, closed=False):
     part = Part("rhs", "", tuple(("", end.index) for end in ends))
     record = RecordedLaw(tuple(system.tape.operations), (part,)).resolved(plan.schur)
     scalars = ScalarNodes(equations, record.operations, plan=plan)
-    scalars = scalars.with_closed_loops() if closed else scalars
+    scalars = scalars.with_closed_loops(record.operations, plan) if closed else scalars
     scalars.compute(record.ends)
     return scalars, [scalars.values[index] for index in record.ends]
 
