@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import combinations
 from math import comb
 from typing import TYPE_CHECKING, Any
@@ -25,8 +26,9 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.describe.start import described_start
 from symgen.describe.topology import state_names
+from symgen.ir.loops import loop_order
 from symgen.layout.compiled import ModelInfo
-from symgen.lower.closing import loop_order
+from symgen.methods._base import Method
 from symgen.store.entries import Entries
 from symgen.store.modules import load_module, plain_function
 
@@ -46,9 +48,20 @@ NEARLY_BEST = 0.25
 
 def at_start(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     """Return a choice with the velocities that stay free, where a mechanism's loops are closed by determinants."""
-    if choice.implicit or choice.shape != "straight" or choice.method.integrates == "independent":
+    if choice.implicit or choice.shape != "straight":
         return choice
-    return replace(choice, free=free_velocities(mechanism))
+    free = free_velocities(mechanism)
+    return replace(choice, free=free if free and _eliminates(choice.method, tuple(choice.options.items())) else ())
+
+
+@lru_cache(maxsize=64)
+def _eliminates(method: Method, options: tuple[tuple[str, str], ...]) -> bool:
+    """Whether a method solves M v' + D^T lambda = f, D v' = gamma in its right-hand side."""
+    from symgen.lower.record import record_law
+
+    record = record_law(method, dict(options))
+    direct = record.form == "direct" and method.integrates != "independent"
+    return direct and any(operation.kind == "constrained" for operation in record.operations)
 
 
 def law_at_start(mechanism: Mechanism, equations: Equations, program: ModelProgram, choice: MethodChoice) -> LawProgram:

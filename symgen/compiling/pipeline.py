@@ -212,13 +212,15 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
         _latest.clear()
         before = _without_method(mechanism, target)
     derived = time.perf_counter()
-    equations, program, source, info = before
+    equations, program, source, info, closings = before
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
     named = whole and target != "lanes"  # lanes have their own places of elements
     modules[f"model{suffix}"] = emit_model(program, equations, target, whole) if named else source, info
     for choice in choices:
-        closing = closing_plan(equations, program.plan, choice.free)
+        closing = closings.get(choice.free)
+        if closing is None:
+            closing = closings[choice.free] = closing_plan(equations, program.plan, choice.free)
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit, closing, choice.suffix)
         words = (choice.method.summary, choice.method.reference)
         if target == "lanes":
@@ -233,12 +235,14 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 
+#: Result of `_without_method`.
+Shared = tuple[Any, Any, str, Mapping[str, Any], dict[tuple[int, ...], Any]]
 #: The last derivation, of one mechanism for one target: the mechanism, and the result of `_without_method`.
-_latest: dict[tuple[int, str], tuple[weakref.ref[Mechanism], tuple[Any, Any, str, Mapping[str, Any]]]] = {}
+_latest: dict[tuple[int, str], tuple[weakref.ref[Mechanism], Shared]] = {}
 
 
-def _without_method(mechanism: Mechanism, target: str) -> tuple[Any, Any, str, Mapping[str, Any]]:
-    """Return equations, the model's program, its source and its metadata, which every method shares."""
+def _without_method(mechanism: Mechanism, target: str) -> Shared:
+    """Return equations, program, source and metadata of the model, and plans by free velocities; methods share them."""
     from symgen.emit.emit import emit_model
     from symgen.emit.lanes import emit_lanes_model
     from symgen.formulate.formulate import formulate
@@ -247,7 +251,7 @@ def _without_method(mechanism: Mechanism, target: str) -> tuple[Any, Any, str, M
     equations = formulate(mechanism)
     program = lower_model(equations, mechanism_digest(mechanism))
     source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
-    return equations, program, source, model_info(program, equations).to_dict()
+    return equations, program, source, model_info(program, equations).to_dict(), {}
 
 
 def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:

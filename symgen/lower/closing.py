@@ -7,14 +7,12 @@ can be closed this way.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from symgen.formulate.equations import Equations
+from symgen.ir.loops import Pair, loop_order
 from symgen.ir.program import FixedVelocities
 from symgen.lower.blocks import SaddleMatrix, mass_entries
-
-#: The two rows of a joint, and the velocities left over in them.
-Pair = tuple[tuple[int, int], tuple[int, ...]]
 
 
 def loop_pairs(equations: Equations, fixed: Sequence[FixedVelocities]) -> tuple[Pair, ...]:
@@ -29,19 +27,6 @@ def loop_pairs(equations: Equations, fixed: Sequence[FixedVelocities]) -> tuple[
         return ()
     pairs = ((rows[0], rows[1]) for rows in of_joint.values() if len(rows) == 2)
     return tuple((rows, tuple(sorted({*matrix.columns(rows[0]), *matrix.columns(rows[1])}))) for rows in pairs)
-
-
-def loop_order(pairs: Iterable[Pair], free: Iterable[int]) -> tuple[FixedVelocities, ...]:
-    """Return the loops that follow from free velocities, each as soon as it has two others that do not."""
-    waiting, known, loops = list(pairs), {*free}, list[FixedVelocities]()
-    while True:
-        ready = next(((p, two) for p in waiting if len(two := tuple(c for c in p[1] if c not in known)) == 2), None)
-        if ready is None:
-            return tuple(loops)
-        (rows, _), columns = ready
-        waiting.remove(ready[0])
-        known |= {*columns}
-        loops.append(FixedVelocities(columns, rows))
 
 
 def closed_loops(
