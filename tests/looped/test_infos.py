@@ -23,8 +23,8 @@ from symgen.lower.model import lower_model
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")
 #: What each shape lays out in its own way, and a digest that only straight code is told. Rows that are eliminated alone
-#: are the same where kernels know all zeros of D.
-OWN = ("digest", "sections", "jacobian", "hoisted", "operations", "alone")
+#: are the same where kernels know all zeros of D. Looped code takes S, and closes no loops.
+OWN = ("digest", "sections", "jacobian", "hoisted", "operations", "alone", "pairs", "fixed")
 
 
 def infos(mechanism: Mechanism) -> list[dict[str, Any]]:
