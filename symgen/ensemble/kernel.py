@@ -13,17 +13,18 @@ from numpy.typing import NDArray
 from symgen.compiling.events import compile_events
 from symgen.ensemble.chunks import Chunk, Results, Rows
 from symgen.ensemble.device_runs import DeviceRuns, need_of
-from symgen.ensemble.loop_runs import LoopRuns, TreeRuns
+from symgen.ensemble.loop_runs import PLAIN, BodyObserver, LoopRuns, TreeRuns, motion_picks
 from symgen.ensemble.measures import MeasuredOutputs
 from symgen.ensemble.recipe import Code, Recipe
 from symgen.ensemble.verdicts import summary_column
 from symgen.integrators import INTEGRATORS
+from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.compiled import CompiledModel
 from symgen.layout.model_arrays import joints_of
 from symgen.layout.start_records import Instant, StartConditions
 from symgen.loops.integrator import Integrator
-from symgen.running.tree import carried_of
+from symgen.running.tree import carried_of, places_of_turns
 from symgen.runs.new_state import span_of
 from symgen.starts.assembler import Assembly
 
@@ -193,14 +194,19 @@ class RowKernel:
             watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, rtol)
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
-        info, picks = compiled.info, list[tuple[int, int]]()
-        for q in recipe.quantities:  # what bodies do stands behind multipliers, where loops look for joint coordinates
-            of_bodies = q.source == e.STATE and q.column < info.work
-            work = own.info.work - info.work if q.source == e.STATE else 0
-            picks.append((e.JOINT, q.column - own.info.m) if of_bodies else (q.source, q.column + work))
+        info, plain = compiled.info, recipe.sources <= PLAIN and recipe.measures is None
+        turns = places_of_turns(watch.mechanism, recipe.tree, compiled.shape)
+        picks = motion = motion_picks(info, own.info, turns)
+        if plain:
+            picks = [motion[q.column] if q.source == e.STATE else (q.source, q.column) for q in recipe.quantities]
         flat = np.array(picks, dtype=np.int64).ravel()
         loop = LoopRuns(recipe, own, integrator, setup, flat, watched, width=info.nq + 2 * info.nv)
-        return TreeRuns(on_tree[1], self._parameters(own), loop)
+        observer = None
+        if not plain:
+            first = info.ny + abi.N_STATUS
+            turned = {first + i: sign for i, (_, _, sign) in enumerate(turns)}
+            observer = BodyObserver(LoopRuns(recipe, compiled, integrator, setup, recipe.picks), turned)
+        return TreeRuns(on_tree[1], self._parameters(own), loop, observer)
 
 
 def new_control() -> Integers:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,8 +20,9 @@ from symgen.layout.start_records import Instant
 from symgen.loopcode.padding import aligned
 from symgen.loops.event_loop import with_events
 from symgen.loops.searching import decide
-from symgen.loops.stopping import with_table
+from symgen.loops.stopping import preparing, table_of, with_table
 from symgen.rows.row_events import OfEffects
+from symgen.rows.row_observers import observe_rows_between_stops, observe_rows_left
 from symgen.rows.rows import observe_nothing, over_rows
 from symgen.runs.events import event_state, forget_steps
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
@@ -34,11 +36,12 @@ if TYPE_CHECKING:
     from symgen.layout.records import Span, State
     from symgen.loops.integrator import Integrator, Setup
     from symgen.loops.run_spec import Watched
+    from symgen.vocabulary.infos import ModelInfo
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-#: What loops leave of a motion in joint coordinates; further quantities are left to `symgen.ensemble.singly`.
+#: What loops leave of a motion in joint coordinates; further quantities are those of bodies (`BodyObserver`).
 PLAIN = {e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR}
 
 
@@ -87,39 +90,17 @@ class LoopRuns:
         out : Results
             Written.
         """
-        recipe, compiled, setup, summary = self.recipe, self.compiled, self.setup, out.summary
-        info, model, law, adaptive = compiled.info, compiled.model, compiled.law_module, recipe.spec.adaptive
-        rates, sizes, span, series = (
-            rate_functions(law),
-            sizes_of(compiled),
-            span_of(recipe.spec, setup),
-            self._series(),
-        )
-        sources = {*self.picks[::2].tolist()}
-        needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
-        observe = model.observe if self.width is None else model.bodies
-        observe = observe if e.JOINT in sources else observe_nothing
-        wants = (
-            int(recipe.watch is not None and recipe.watch.ends),
-            int(bool(sources & needs)),
-            int(e.JOINT in sources),
-        )
-        masked = bool(np.any(compiled.section(starts.w.T, "mask")[:, selected]))
-        places = layout_of(compiled), np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
-        results = out.values.reshape(-1), summary.reshape(-1), out.events.reshape(-1)
-        arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
-        chunk = RowChunk._make((*arrays, *wants, *places))
-        room = max(setup.room, 2 * info.ny + series.observed.rows.shape[1])
-        datum = recipe.datum if self.width is None else ()  # joint coordinates have no origin
-        state = new_state(compiled, sizes, setup.memory, room, datum)._replace(control=control)
-        observers = sizes, *rates, law.accept, observe
+        recipe, setup, summary = self.recipe, self.setup, out.summary
+        compiled, adaptive = self.compiled, recipe.spec.adaptive
+        observers, span, chunk, state, series = self._arguments(starts, selected, out, control)
+        sizes, rates = observers[:2]
         if self.lanes is not None:
             if self._in_lanes(self.lanes, observers, span, chunk, state, series) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         system, inner = (sizes, *setup.functions), self.integrator.loop(adaptive)
         if self.watched is not None:
-            system, inner = (*system, self.watched.function, decide, rates[0]), with_events(inner)
+            system, inner = (*system, self.watched.function, decide, rates), with_events(inner)
             state = event_state(self.watched, sizes, state)
             if out.events.shape[1]:
                 out.events[selected] = np.nan
@@ -139,6 +120,57 @@ class LoopRuns:
             chunk = chunk._replace(selected=chunk.selected[done:])
             done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         return bool(done == len(chunk.selected))
+
+    def observe(
+        self, rows: Rows, starts: Instant, selected: Integers, left: Array, out: Results, control: Integers
+    ) -> bool:
+        """Write quantities of selected rows by the motion that another loop has left; return whether all are done.
+
+        Parameters
+        ----------
+        rows, starts, selected, out, control
+            As for `run`; `out` has the summaries of the runs.
+        left : Array, shape (rows, ny + status, times)
+            See `symgen.rows.row_observers.observe_left`.
+        """
+        recipe = self.recipe
+        observers, span, chunk, state, series = self._arguments(starts, selected, out, control)
+        if not recipe.stops:
+            return bool(observe_rows_left((0, observers), span, chunk, state, series, left) == len(selected))
+        stops = table_of(self.compiled, recipe.spec.adaptive, rows.stops or ((),))
+        model = (0, stops, 0, *preparing(self.compiled)), observers
+        return bool(observe_rows_between_stops(model, span, chunk, state, series, left) == len(selected))
+
+    def _arguments(
+        self, starts: Instant, selected: Integers, out: Results, control: Integers
+    ) -> tuple[tuple[Any, ...], Span, RowChunk, State, Kept]:
+        """Return sizes and functions of the model, steps, rows, state and outputs, as loops over rows take them."""
+        recipe, compiled, setup = self.recipe, self.compiled, self.setup
+        info, model, law = compiled.info, compiled.model, compiled.law_module
+        rates, sizes, span, series = (
+            rate_functions(law),
+            sizes_of(compiled),
+            span_of(recipe.spec, setup),
+            self._series(),
+        )
+        sources = {*self.picks[::2].tolist()}
+        needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
+        observe = model.observe if self.width is None else model.bodies
+        observe = observe if e.JOINT in sources else observe_nothing
+        wants = (
+            int(recipe.watch is not None and recipe.watch.ends),
+            int(bool(sources & needs)),
+            int(e.JOINT in sources),
+        )
+        masked = bool(np.any(compiled.section(starts.w.T, "mask")[:, selected]))
+        places = layout_of(compiled), np.zeros(room_of_choice(info.m, info.nv) if masked else 0)
+        results = out.values.reshape(-1), out.summary.reshape(-1), out.events.reshape(-1)
+        arrays = (selected, *(x.ravel() for x in starts), recipe.limits, self.picks, *results)
+        chunk = RowChunk._make((*arrays, *wants, *places))
+        room = max(setup.room, 2 * info.ny + series.observed.rows.shape[1])
+        datum = recipe.datum if self.width is None else ()  # joint coordinates have no origin
+        state = new_state(compiled, sizes, setup.memory, room, datum)._replace(control=control)
+        return (sizes, *rates, law.accept, observe), span, chunk, state, series
 
     def _examine(self, state: Any) -> None:
         """Examine the constraints that may jump in the last step of a run, as a single run does."""
@@ -192,6 +224,39 @@ class LoopRuns:
 
 
 @dataclass(frozen=True)
+class BodyObserver:
+    """Observes the motion of bodies that a loop over a tree of joints leaves.
+
+    Attributes
+    ----------
+    loop : LoopRuns
+        Of the bodies, whose law gives the quantities.
+    turned : dict of int to float
+        Sign of each column of the motion that has one.
+    """
+
+    loop: LoopRuns
+    turned: Mapping[int, float]
+
+
+def motion_picks(info: ModelInfo, own: ModelInfo, turns: Sequence[tuple[bool, int, float]]) -> list[tuple[int, int]]:
+    """Return the columns of a tree's loop that are the motion of bodies: their states, and their status.
+
+    Parameters
+    ----------
+    info, own : ModelInfo
+        Of the bodies, and of the tree.
+    turns : sequence of (bool, int, float)
+        From `symgen.running.tree.places_of_turns`.
+    """
+    picks = [(e.JOINT, i - own.m) for i in range(info.work)]
+    picks += [(e.STATE, i) for i in range(own.work, own.ny)]
+    picks += [(e.STATUS, i) for i in range(abi.N_STATUS)]
+    picks += [(e.STATE, i) if is_coordinate else (e.STATUS, abi.N_STATUS + i) for is_coordinate, i, _ in turns]
+    return picks + [(e.STATUS, abi.N_STATUS + i) for i in range(own.windings, own.kept)]
+
+
+@dataclass(frozen=True)
 class TreeRuns:
     """Runs rows in joint coordinates from starts of bodies.
 
@@ -203,11 +268,14 @@ class TreeRuns:
         Parameters of the tree that all rows share.
     loop : LoopRuns
         Of the tree.
+    observer : BodyObserver or None
+        Computes the quantities; None where the tree's loop leaves all of them.
     """
 
     carried: Carried
     p: Array
     loop: LoopRuns
+    observer: BodyObserver | None = None
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows from consistent starts; parameters as for `symgen.ensemble.loop_runs.LoopRuns.run`."""
@@ -221,14 +289,22 @@ class TreeRuns:
         for k in reversed(range(over.shape[1])):  # the first one stays
             out.summary[selected[over[:, k]], [[e.START], [e.START_WHERE]]] = [[e.TURNED_OVER], [k]]
         selected = selected[~over.any(axis=1)]
-        if not self.loop.run(rows, now, selected, out, control):
+        if self.observer is None:
+            done = self.loop.run(rows, now, selected, out, control)
+            columns = {q.column: i for i, q in enumerate(self.loop.recipe.quantities) if q.source == e.STATE}
+            self._turn(selected, alike, columns, out.values)
+            return done
+        left = np.full((runs, len(self.loop.picks) // 2, len(self.loop.recipe.times)), np.nan)
+        if not self.loop.run(rows, now, selected, replace(out, values=left), control):
             return False
-        self._turn(selected, alike, out.values)
-        return True
+        self._turn(selected, alike, {i: i for i in range(info.nq)}, left)
+        for column, sign in self.observer.turned.items():
+            left[:, column] *= sign
+        starts.w[selected, abi.STEP_STATUS] = now.w[selected, abi.STEP_STATUS]
+        return self.observer.loop.observe(rows, starts, selected, left, out, control)
 
-    def _turn(self, selected: Integers, alike: Array, values: Array) -> None:
-        """Have Euler parameters, which have two signs, go on from the start's."""
-        at = {q.column: i for i, q in enumerate(self.loop.recipe.quantities) if q.source == e.STATE}
+    def _turn(self, selected: Integers, alike: Array, at: Mapping[int, int], values: Array) -> None:
+        """Have Euler parameters, which have two signs, go on from the start's; `at` has the columns of coordinates."""
         for (first, _), products in zip(self.carried.bodies.info.spins, alike.T, strict=True):
             columns = [at[k] for k in range(first, first + 4) if k in at]
             values[np.ix_(selected[products[selected] < 0.0], columns)] *= -1.0

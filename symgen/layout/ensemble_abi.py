@@ -53,6 +53,7 @@ SUMMARY = (
 N_SUMMARY = len(SUMMARY)
 #: Positions of the first of them.
 START, START_MOVED, START_VELOCITIES, START_WHERE, START_SIZE, REDUNDANT_ROWS, LIGHT, CODE = range(8)
+END, OUTPUTS, ENERGY_START = map(SUMMARY.index, ("end", "outputs", "energy_start"))
 
 #: Code of a run with an impossible reset, in addition to those of single runs (`symgen.layout.abi`).
 IMPOSSIBLE = 50

@@ -179,28 +179,12 @@ def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: 
     """Do nothing: the same parameters hold at all outputs of a run without stops."""
 
 
-def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
-    """Write the results of a run.
-
-    Parameters
-    ----------
-    code, r : int
-        End code of the loop, and the row.
-    system, span : tuple, Span
-        Arguments of the loop.
-    model : tuple
-        Its sizes, and the functions called at outputs.
-    chunk, state, series
-        As for `run_rows`; `state` is that of the run at its end.
-    """
+def observe_outputs(
+    count: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any
+) -> None:
+    """Write the requested quantities of a run with so many outputs; parameters otherwise as for `end_run`."""
     sizes, rates, confirm, accept, observe = model
-    law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
-    summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
-    until = series.outputs.times[series.outputs.times.shape[0] - 1]
-    if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
-        series.outputs.times[0] = state.clock[abi.TIME]
-        store(sizes, state.w, series.outputs, 0, state.y)
-        count = 1
+    law, nw = (sizes, rates, confirm, accept), state.w.shape[0]
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
@@ -223,6 +207,31 @@ def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, s
         # loops take the padding behind a state for zeros; observed values may even be nan
         for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
             state.room[i] = 0.0
+
+
+def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
+    """Write the results of a run.
+
+    Parameters
+    ----------
+    code, r : int
+        End code of the loop, and the row.
+    system, span : tuple, Span
+        Arguments of the loop.
+    model : tuple
+        Its sizes, and the functions called at outputs.
+    chunk, state, series
+        As for `run_rows`; `state` is that of the run at its end.
+    """
+    sizes, nw, count = model[0], state.w.shape[0], state.control[abi.OUTPUTS]
+    summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
+    until = series.outputs.times[series.outputs.times.shape[0] - 1]
+    if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
+        series.outputs.times[0] = state.clock[abi.TIME]
+        store(sizes, state.w, series.outputs, 0, state.y)
+        count = 1
+    part(chunk.ws, r * nw, nw)[abi.STEP_STATUS] = state.w[abi.STEP_STATUS]  # for laws whose gains follow the step
+    observe_outputs(count, r, system, span, model, chunk, state, series)
     series.outputs.times[series.outputs.times.shape[0] - 1] = until
     state.control[e.RUNS_DONE] += 1
 
@@ -324,10 +333,12 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
     return 0
 
 
+#: Sizes of a model, and the functions called at outputs.
+OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
-_STOPS = {"take_row": take_stops, "hold": hold_between_stops}
+STOPPING = {"take_row": take_stops, "hold": hold_between_stops}
 _loops: dict[Any, Any] = {}
 
 
@@ -350,11 +361,10 @@ def over_rows(
         inner = with_events(loop) if events else loop
         inner = with_stops(inner) if stops else inner
         args = signature_of(inner).arguments
-        observers = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-        model = types.RecordType((*args[:1], observers, *([OF_EFFECTS] if effects else [])))
+        model = types.RecordType((*args[:1], OBSERVERS, *([OF_EFFECTS] if effects else [])))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
-        meanings |= (_STOPS if stops else {}) | (_EXAMINED if examined else {})
+        meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
         _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are
     return _loops[key]

@@ -246,16 +246,8 @@ class TreeRun:
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
         """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
-        coordinates = state_measures(self.mechanism, self.topology)
-        own = {m: i for i, m in enumerate(winding_order(self.mechanism, "straight"))}
-        turns = list[Array]()
-        for measure in winding_order(self.whole, self.bodies.shape):
-            if measure in coordinates:
-                i, _, sign = coordinates[measure]
-                turns.append(sign * states[:, i])
-            else:
-                turns.append(windings[:, own[measure]])
-        return turns
+        places = places_of_turns(self.whole, self.mechanism, self.bodies.shape)
+        return [sign * states[:, i] if own else windings[:, i] for own, i, sign in places]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -278,6 +270,34 @@ class CarriedOutcome(Outcome):
     end_state: Array = field(repr=False)
     work: float
     tree: TreeRun = field(repr=False)
+
+
+def places_of_turns(whole: Mechanism, mechanism: Mechanism, shape: str) -> list[tuple[bool, int, float]]:
+    """Return where a tree has the angles that the code for bodies counts turns of.
+
+    Parameters
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    shape : str
+        Of the code for bodies.
+
+    Returns
+    -------
+    list of (bool, int, float)
+        Whether it is a coordinate of the tree, else one of its own angles that count turns; index; and sign.
+    """
+    assert mechanism.topology is not None, "it has a tree"
+    coordinates = state_measures(mechanism, mechanism.topology)
+    own = {m: i for i, m in enumerate(winding_order(mechanism, "straight"))}
+    places = list[tuple[bool, int, float]]()
+    for measure in winding_order(whole, shape):
+        if measure in coordinates:
+            i, _, sign = coordinates[measure]
+            places.append((True, i, sign))
+        else:
+            places.append((False, own[measure], 1.0))
+    return places
 
 
 def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:

@@ -6,10 +6,11 @@ from runs.test_events import four_bar
 from support.emitted import mechanism_of
 
 import symgen
-from ensemble.single_runs import assert_row, assert_rows
+from ensemble.single_runs import assert_row, assert_rows, column_of
 from symgen.base.errors import InputError
+from symgen.catalogue import raw
 from symgen.compiling import events
-from symgen.ensemble import singly
+from symgen.ensemble import kernel
 from symgen.running import tree
 
 #: Model, what varies, how it is said of a single run, and whether rows of loops depend on others: those run apart.
@@ -58,7 +59,7 @@ def test_both_coordinates_give_one_motion():
 
 
 def test_whatever_else_is_kept_is_that_of_single_runs():
-    """Accelerations, reactions, multipliers and joint coordinates are worked out as for single runs, one by one."""
+    """Accelerations, reactions, multipliers and joint coordinates follow from the motion that the loop leaves."""
     asked = {"until": 0.05, "times": (0.0, 0.05), "coordinates": "joint"}
     kept = ("crank.alpha", "B.angle", "lam", "A")
     found, model = (
@@ -67,6 +68,29 @@ def test_whatever_else_is_kept_is_that_of_single_runs():
     )
     assert {"crank.alpha", "B.angle", "A.Fx"} < {q.name for q in found.ensemble.recipe.quantities}
     assert_rows(found, model, **asked)
+
+
+@pytest.mark.parametrize(
+    "steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-3}], ids=["dop853", "rk4"]
+)
+@pytest.mark.parametrize("method", ["direct-correction", "baumgarte"])
+def test_all_quantities_of_random_rows_have_the_bits_of_single_runs(steps, method):
+    """Formulas, integrals, reactions, an input that jumps and an event that changes velocities among them."""
+    description = raw("four-bar")
+    description["inputs"] = {"torque": 0.0}
+    description["forces"] = {"motor": {"type": "torque", "body": "crank", "torque": "torque"}}
+    description["events"] = {"blow": {"when": "t > 0.02", "reset": {"coupler.omega": "1.5 - 0.4*coupler.omega"}}}
+    description["outputs"] = {"reach": {"value": "crank.x*t + torque"}, "path": {"value": "integral(coupler.vx**2)"}}
+    model, masses = symgen.load(mechanism_of(description)), np.random.default_rng(7).uniform(1.0, 3.0, 3)
+    asked = {"until": 0.2, "times": (0.0, 0.02, 0.1, 0.2), "coordinates": "joint", "method": method, **steps}
+    asked["inputs"] = {"torque": "4 if t < 0.1 else 1"}
+    kept = ("q", "v", "a", "joint_coordinates", "lam", "reactions", "magnitudes", "energy", "outputs", "motor")
+    found = symgen.sweep(model, {"crank_mass": masses}, quantities=(*kept, "event"), **asked)
+    assert not found.ensemble.recipe.watch.alone, "one loop runs all of them"
+    for i, mass in enumerate(masses):
+        one = model.simulate(parameters={"crank_mass": float(mass)}, **asked)
+        for j, q in enumerate(found.ensemble.recipe.quantities):
+            np.testing.assert_array_equal(found.values[i, j], column_of(one, q.name), q.name)
 
 
 def test_events_are_found_in_both_and_auto_takes_what_is_smaller():
@@ -98,11 +122,7 @@ def test_targets_without_joint_coordinates_say_so():
 def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
     """Events are compiled, effects for bodies as well, and a start is carried once and not for each row."""
     calls = []
-    for module, name in (
-        *((module, "effects_of") for module in (singly, events)),
-        (singly, "compile_events"),
-        (tree, "carrying_of"),
-    ):
+    for module, name in ((events, "effects_of"), (kernel, "compile_events"), (tree, "carrying_of")):
         original = getattr(module, name)
 
         def counted(*arguments, name=name, original=original):
@@ -112,7 +132,7 @@ def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
         monkeypatch.setattr(module, name, counted)
     model = four_bar(blow={"when": "t > 0.02", "reset": {"coupler.omega": "1.5 - 0.4*coupler.omega"}})
     asked = {"until": 0.05, "coordinates": "joint", "integrator": "rk4", "step": 1e-2}
-    kept = ("crank.ax", "event")  # accelerations of a tree are worked out one by one
+    kept = ("crank.ax", "event")
     found = symgen.sweep(model, {"crank.omega": [1.0, 2.0, 3.0]}, quantities=kept, jobs=1, **asked)
     np.testing.assert_array_equal(found["event.blow.count"], 1.0)
-    assert sorted(calls) == ["carrying_of", "compile_events", "effects_of", "effects_of"]
+    assert sorted(calls) == ["carrying_of", "compile_events", "effects_of"]
