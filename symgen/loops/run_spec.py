@@ -59,6 +59,10 @@ class Switch:
 class Formulas(Protocol):
     """Formulas of a run, evaluated at one state."""
 
+    @property
+    def function(self) -> Any:
+        """The same for loops."""
+
     def __call__(self, t: float, y: Array, p: Array, w: Array, ydot: Array, /) -> Array:
         """Return their values."""
 

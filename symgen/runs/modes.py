@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,9 +21,6 @@ from symgen.starts.assembler import layout_of
 if TYPE_CHECKING:
     from symgen.layout.compiled import Array, CompiledModel
     from symgen.runs.simulation import Simulation
-
-#: Numbers of ``control`` from which a scheme continues: it begins anew.
-_PAST = [abi.KNOWN, abi.POINTS, abi.REFUSED]
 
 
 def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, float, float]]) -> None:
@@ -57,31 +56,46 @@ def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, fl
     begin_in_modes(simulation)
 
 
-def begin_in_modes(simulation: Simulation) -> None:
+def begin_in_modes(simulation: Simulation, follow: Callable[[float], int] | None = None) -> None:
     """Have a run go on in the modes of its rows; the scheme begins anew, the counts and the balance go on.
 
     Parameters
     ----------
     simulation : Simulation
         A run between two entries of its loop.
+    follow : callable, optional
+        ``follow_modes`` of `symgen.runs.choice` at a time.
     """
     compiled, state = simulation.compiled, simulation.state
-    w = state.w
     now = float(state.clock[abi.TIME])
-    geometry = direct(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, w)
-    geometry(now)
-    if _choose(compiled, w):
-        geometry(now)
-        simulation.scheme = simulation.integrator.setup(compiled, simulation.spec, w).scheme
+    if follow is None:
+        follow = partial(_follow, compiled, state)
+    if follow(now):
+        simulation.scheme = simulation.integrator.setup(compiled, simulation.spec, state.w).scheme
     remember_rank(simulation.sizes, state)
-    # angles between other rows: passages of singular positions are looked for anew
-    sine, short = np.sqrt(np.maximum(w[[abi.PIVOT, abi.SHORTEST_ROW]], 0.0))
-    state.gauges[[abi.LAST_SINE, abi.LARGEST_SINE, abi.LAST_SHORT]] = sine, sine, short
-    state.gauges[[abi.FALL, abi.SHORT_FALL, abi.CHOSEN]] = 0.0
+    begin_afresh(state)
+
+
+def begin_afresh(state: Any) -> None:
+    """Have the scheme begin anew, and passages of singular positions be looked for anew: there are other rows."""
+    gauges, w = state.gauges, state.w
+    sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))
+    gauges[abi.LAST_SINE], gauges[abi.LARGEST_SINE], gauges[abi.LAST_SHORT] = sine, sine, short
+    gauges[abi.FALL], gauges[abi.SHORT_FALL], gauges[abi.CHOSEN] = 0.0, 0.0, 0.0
     if state.control[abi.BEGUN] != 0:
         state.control[abi.BEGUN] = abi.AFRESH
-    state.control[_PAST] = 0
+    state.control[abi.KNOWN], state.control[abi.POINTS], state.control[abi.REFUSED] = 0, 0, 0
     state.clock[abi.ALLOWED] = 0.0
+
+
+def _follow(compiled: CompiledModel, state: Any, now: float) -> bool:
+    """Evaluate the geometry in new modes; return whether other redundant rows are left out."""
+    geometry = direct(compiled.model.geometry, abi.MEASURE, now, state.y, state.p, state.w)
+    geometry(now)
+    changed = _choose(compiled, state.w)
+    if changed:
+        geometry(now)
+    return changed
 
 
 def _choose(compiled: CompiledModel, w: Array) -> bool:

@@ -13,21 +13,12 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.describe.friction import JAM
 from symgen.layout import abi
+from symgen.loopcode.exact import compiled_form
+from symgen.runs import choice
 from symgen.runs.box import INSIDE, new_box
+from symgen.runs.choice import AT_BOUND, DEPENDENT, HELD, LIMIT, NO_ACCELERATION
 from symgen.runs.events import Happening
-from symgen.runs.transitions import (
-    AT_BOUND,
-    DEPENDENT,
-    HELD,
-    LIMIT,
-    NO_ACCELERATION,
-    Array,
-    Flags,
-    Integers,
-    Transitions,
-    find_forces,
-    symmetrise,
-)
+from symgen.runs.transitions import Array, Flags, Integers, Transitions, find_forces
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
 _AGREED, _AGREEMENTS = 1e-14, 2000
@@ -57,31 +48,43 @@ class PressedTransitions(Transitions):
         self._refuse_redundant(self.simulation.state.w)
         return super().choose(broken, stopped, left)
 
-    def _solve(
-        self, rest: Integers, signs: Array, static: Array, sliding: Array, loose: Flags
-    ) -> tuple[Array, Array, Array]:
-        """Return the signs of rows at rest, G among all rows, and the forces at rest.
+    def _chosen(self) -> bool:
+        """Choose modes at a state whose rows have been read; return whether they are others."""
+        c, w = self._choice, self.simulation.state.w
+        rest = c.rest[: compiled_form(choice.find_rest)(c, w)].copy()
+        static, sliding = c.static.copy(), c.sliding.copy()
+        self._solve(rest, c.signs, c.static, c.sliding, c.loose != 0)
+        if compiled_form(choice.hold_rows)(c, w) != choice.SAME:
+            self._refuse_undetermined()
+        self._follow_reactions(rest.tolist(), c.after.reshape(len(c.signs), -1))
+        c.static[:], c.sliding[:] = static, sliding
+        return bool(compiled_form(choice.write_modes)(c, w) == choice.OTHERS)
+
+    def _solve(self, rest: Integers, signs: Array, static: Array, sliding: Array, loose: Flags) -> None:
+        """Set the signs of rows at rest, G among all rows, and the forces at rest.
 
         Bounds by reactions follow the forces, which follow the bounds, until both agree; `static` and `sliding` of
         these coordinates become bounds.
         """
-        k, size, pressed = len(rest), len(signs), list(self.rows.pressed)
-        matrix, forces = np.zeros((size, size)), np.zeros(size)
+        c, k, size, pressed = self._choice, len(rest), len(signs), list(self.rows.pressed)
+        matrix, forces = c.matrix.reshape(size, size), c.forces
+        matrix[:], forces[:] = 0.0, 0.0
         moving = [i for i in pressed if signs[i] != 0.0]
         plain = np.where(np.isin(np.arange(size), pressed), 0.0, signs)
         offset, alone = self._accelerations(plain), self._reactions()
+        compiled_form(choice.find_mobility)(c)
         parts = np.zeros((*alone.shape, size))
         for j in (*rest, *moving):
             if sliding[j] > 0.0:
                 probe, force = plain.copy(), 1.0 if j in pressed else sliding[j]
                 probe[j] = 0.0 if j in pressed else 1.0
-                matrix[:, j] = (offset - self._accelerations(probe, j if j in pressed else None)) / force
+                matrix[:, j] = (offset - self._accelerations(probe, j if j in pressed else -1)) / force
                 parts[:, :, j] = (alone - self._reactions()) / force
         for i in pressed:
             self._refuse_jam(i, float((sliding if i in moving else static)[i] * np.linalg.norm(parts[i, :, i])))
         if k == 0:
-            return np.zeros(0), matrix, forces
-        symmetrise(matrix, rest, self._mobility())
+            return
+        compiled_form(choice.symmetrise)(c)
         among = matrix[np.ix_(rest, rest)]
         coefficients, box = np.where(loose, sliding, static)[rest], new_box(k)
         size_of = np.ones(size)
@@ -111,22 +114,10 @@ class PressedTransitions(Transitions):
         moves |= loose[rest] & (np.abs(box.forces) >= AT_BOUND * bounds) & (bounds > 0.0)
         direction = np.sign(np.where(box.forces == 0.0, box.left, box.forces))
         static[pressed], sliding[pressed] = static[pressed] * size_of[pressed], sliding[pressed] * size_of[pressed]
-        return np.where(moves, direction, 0.0), matrix, forces
+        signs[rest] = np.where(moves, direction, 0.0)
 
-    def _hold(
-        self,
-        rest: list[int],
-        signs: Array,
-        matrix: Array,
-        forces: Array,
-        loose: Flags,
-        value: Array,
-        static: Array,
-        before: Array,
-        after: Array,
-    ) -> None:
-        """Put independent rows into force; their largest efforts follow the reaction unless they share a force."""
-        super()._hold(rest, signs, matrix, forces, loose, value, static, before, after)
+    def _follow_reactions(self, rest: Sequence[int], after: Array) -> None:
+        """Have largest efforts follow the reaction, unless rows share a force."""
         taken = [i for i in rest if after[i, HELD] != 0.0]
         sharing = [i for i in rest if after[i, HELD] == 0.0 and after[i, LIMIT] != 0.0]
         pressed = set(rest) & set(self.rows.pressed)
@@ -154,7 +145,7 @@ class PressedTransitions(Transitions):
 
     def _moves(self, taken: Sequence[int]) -> bool:
         """Return whether the mechanism can move with the rows of some coordinates at rest in force."""
-        compiled, w = self.simulation.compiled, self._scratch
+        compiled, w = self.simulation.compiled, self._choice.w
         info = compiled.info
         rows = [i for i in range(info.m) if i not in info.bounded] + [info.bounded[i] for i in taken]
         mass = compiled.section(w, "mass")
@@ -163,10 +154,10 @@ class PressedTransitions(Transitions):
 
     def _reactions(self) -> Array:
         """Return the components of reactions after `_accelerations`, of all coordinates."""
-        rows, state = self.rows, self.simulation.state
+        rows, state, c = self.rows, self.simulation.state, self._choice
         result = np.zeros((len(rows.names), 2))
         if rows.reactions is not None:
             now = float(state.clock[abi.TIME])
-            forces = rows.reactions(now, self._y, state.p, self._scratch, self._rate)
+            forces = rows.reactions(now, c.y, state.p, c.w, c.rate)
             result[list(rows.pressed)] = forces.reshape(-1, 2)
         return result
