@@ -179,6 +179,9 @@ def show_study(study: Study) -> None:
         out.print(study.note)
     cells = [_cells(row, i in study.front) for i, row in enumerate(study.rows)]
     show_rows(out, _HEADINGS, cells, (*_HEADINGS[:3], "status"), first=3, in_parts=False)
+    if any(row.law for row in study.rows):
+        contacts = [(*cell[:3], *_contact(row)) for cell, row in zip(cells, study.rows, strict=True)]
+        show_rows(out, (*_HEADINGS[:3], *_CONTACT), contacts, _HEADINGS[:3], first=3)
     if len(study.rows) > 1:
         out.print(FRONT)
     if any(row.below_reference for row in study.rows):
@@ -236,6 +239,16 @@ _HEADINGS = (
     ),
     *("evaluations", "|D v - nu|", "spread", "error / length", "error [m/s]", "error [N]"),
 )
+
+
+#: Columns of dry friction and stops.
+_CONTACT = "creep [m/s]", "transitions", "impacts", "energy lost [J]"
+
+
+def _contact(row: Row) -> tuple[str, ...]:
+    counts = ("" if x is None else str(x) for x in (row.transitions, row.impacts))
+    lost = "" if row.dissipated is None else f"{row.dissipated:.9g}"
+    return "" if row.creep is None else f"{row.creep:.1e}", *counts, lost
 
 
 def _cells(row: Row, on_front: bool) -> tuple[str, ...]:

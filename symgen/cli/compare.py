@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     metavar="E,E",
     help="Errors [m] at which run times are interpolated between settings; all lines are timed in turn.",
 )
+@click.option("--laws", metavar="A,B", help="Laws of dry friction: exact, tanh:speed=1e-3; the exact one by default.")
 @setting_options(
     *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_step"),
     *("max_attempts", "repeat", "shape"),
@@ -90,6 +91,7 @@ def command(
     steps: str | None,
     rtols: str | None,
     error_at: str | None,
+    laws: str | None,
     states: str | None,
     reference_by: str,
     quantities: tuple[str, ...],
@@ -134,7 +136,8 @@ def command(
             lines.say(f"{name}{what}", reached / total)
 
         runs = Combinations(
-            method_list, integrator_list, step_list, rtol_list, comma_list("--coordinates", states), errors
+            *(method_list, integrator_list, step_list, rtol_list),
+            *(comma_list("--coordinates", states), errors, comma_list("--laws", laws)),
         )
         settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)

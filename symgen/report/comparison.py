@@ -117,7 +117,7 @@ def _one(study: Study) -> Section:
         study.mechanism,
         text,
         findings_of_rows(study),
-        (_summary(study), *_at_table(study), *_cost_table(study)),
+        (_summary(study), *_contact_table(study), *_at_table(study), *_cost_table(study)),
         pictures(study),
         (Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),),
     )
@@ -172,6 +172,29 @@ def _at_table(study: Study) -> tuple[DocumentTable, ...]:
     caption = (
         f"CPU time at an error, interpolated between settings, and as a multiple of that of {first} with the same "
         "integrator: medians and quartiles of rounds in which all runs are timed in turn."
+    )
+    return (DocumentTable(caption, headings, rows, words=3),)
+
+
+def _contact_table(study: Study) -> tuple[DocumentTable, ...]:
+    if not any(row.law for row in study.rows):
+        return ()
+    headings = (
+        *("method", "integrator", "setting", "error [m]", "run time", "creep [m/s]", "transitions", "impacts"),
+        "energy lost [J]",
+    )
+    rows = tuple(
+        (
+            *(row.label, row.integrator, words.setting(row.step, row.rtol), _error_text(row)),
+            *(words.seconds(row.run_seconds), words.rounded(row.creep)),
+            *(words.NONE if x is None else str(x) for x in (row.transitions, row.impacts)),
+            words.rounded(row.dissipated),
+        )
+        for row in study.rows
+    )
+    caption = (
+        "Dry friction and stops. Creep is the largest rate of a coordinate with dry friction at outputs at which it "
+        "rests in the reference, of an angle times the length of the mechanism."
     )
     return (DocumentTable(caption, headings, rows, words=3),)
 

@@ -26,6 +26,8 @@ DEFAULT_METHODS = (
     *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
     *("coordinate-partitioning", "direct-correction"),
 )
+#: Those of them for mechanisms with dry friction or stops.
+MODE_METHODS = tuple(name for name in DEFAULT_METHODS if name != "coordinate-partitioning")
 #: Default integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
 #: Every method or integrator.
@@ -48,9 +50,13 @@ class Combinations:
     rtols: Sequence[float] = ()
     coordinates: Sequence[str] = ()
     error_at: Sequence[float] = ()
+    laws: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        words = {name: arguments.words(name, getattr(self, name)) for name in ("methods", "integrators", "coordinates")}
+        words = {
+            name: arguments.words(name, getattr(self, name))
+            for name in ("methods", "integrators", "coordinates", "laws")
+        }
         for state in words["coordinates"]:
             arguments.one_of("coordinates", state, COORDINATES)
         numbers = {
@@ -64,7 +70,7 @@ class Combinations:
         for name, value in (words | numbers).items():
             object.__setattr__(self, name, value)
 
-    def settings(self, base: Settings, own: float) -> Iterator[Settings]:
+    def settings(self, base: Settings, own: float, modes: bool = False) -> Iterator[Settings]:
         """Return the settings of all runs.
 
         Parameters
@@ -73,6 +79,8 @@ class Combinations:
             Common settings, with the end time.
         own : float
             The mechanism's own step [s].
+        modes : bool
+            Whether rows may be off, which methods that read D of all rows do not take.
 
         Raises
         ------
@@ -81,7 +89,7 @@ class Combinations:
         """
         left_out = self.left_out
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
-            for words in _named(self.methods, DEFAULT_METHODS, METHODS.names):
+            for words in _named(self.methods, MODE_METHODS if modes else DEFAULT_METHODS, METHODS.names):
                 method, variant = variant_of(words)
                 methods = [variant_of(other)[0] for other in self.methods]
                 if method in left_out:

@@ -11,15 +11,20 @@ from msgspec import structs
 
 from symgen.api import Model, load
 from symgen.base import arguments
+from symgen.base.errors import InputError
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import Settings, default
+from symgen.describe.evaluate import parameter_values
+from symgen.describe.friction import without_friction
 from symgen.describe.mechanism import Mechanism, bounded
+from symgen.describe.stops import without_stops
 from symgen.running.outputs import multiples, output_size
 from symgen.running.plan import refuse_events
 from symgen.running.prepare import preparation
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Study, Trace, save_csv
+from symgen.study.comparison.laws import mechanisms_of_laws
 from symgen.study.comparison.model_comparison import PATIENCE, PREPARATION, REPEAT, ModelComparison, compute
 from symgen.study.journal import Journal
 from symgen.study.references.reference import Array
@@ -65,6 +70,7 @@ def compare(
     coordinates: Sequence[str] = (),
     max_step: float | None = None,
     error_at: Sequence[float] = (),
+    laws: Sequence[str] = (),
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -112,6 +118,9 @@ def compare(
     error_at : sequence of float
         Errors [m] at which run times are interpolated, `Study.at`. Lines then have more settings, and all of them are
         timed again in turn.
+    laws : sequence of str
+        Laws of dry friction, each with lines of its own: ``exact``, the default, and ``tanh:speed=1e-3``, the bound
+        times tanh(rate / speed).
 
     Returns
     -------
@@ -136,7 +145,7 @@ def compare(
         repeat=repeat,
         shape=shape,
     )
-    runs = Combinations(methods, integrators, steps, rtols, coordinates, error_at)
+    runs = Combinations(methods, integrators, steps, rtols, coordinates, error_at, laws)
     return compare_all([model], common, runs, reference_by, progress, jobs, journal)[0]
 
 
@@ -185,10 +194,16 @@ def compare_all(
         small = chosen.mechanism.body_coordinates <= LARGEST_STRAIGHT
         shape = "straight" if common.shape == "auto" and small else common.shape
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
-        settings = list(runs.settings(base, chosen.mechanism.defaults.step))
-        runs_of_model = [preparation(chosen.mechanism, s) for s in settings]  # raises errors before the first run
-        measures = (reference_by, records, tuple(runs.error_at))
-        works.append(ModelComparison(chosen, common, end, times, settings, runs_of_model, *measures))
+        values = parameter_values(chosen.mechanism, common.parameters)
+        mechanisms = mechanisms_of_laws(chosen.mechanism, runs.laws, values)
+        if chosen.mechanism.bounded and reference_by != AUTO:
+            expected = "auto, as these solvers have no modes of dry friction or stops"
+            raise InputError("reference", expected, f"'{reference_by}'")
+        step, modes = chosen.mechanism.defaults.step, bool(chosen.mechanism.bounded)
+        cases = [(law, s) for law in mechanisms for s in runs.settings(base, step, modes)]
+        runs_of_model = [preparation(mechanisms[law], s) for law, s in cases]  # raises errors before the first run
+        measures = (reference_by, records, tuple(runs.error_at), tuple(law for law, _ in cases))
+        works.append(ModelComparison(chosen, common, end, times, [s for _, s in cases], runs_of_model, *measures))
     ahead = jobs > 1 and cache_location().persistent  # else the code that another process compiles would be lost
     reached, total = 0.0, sum(work.total(ahead) for work in works)
     report: Progress = progress or (lambda what, reached, of: None)
@@ -219,7 +234,7 @@ def compare_all(
 def _chosen(model: Model, common: Settings) -> Model:
     """Return a model without events that are only recorded, and with the largest step for all; refuse other events."""
     mechanism = model.mechanism
-    refuse_events("compare", mechanism, common)
+    refuse_events("compare", without_stops(without_friction(mechanism)), common)
     plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
     plain = bounded(plain, common.max_step)
     return model if plain is mechanism else Model(plain)

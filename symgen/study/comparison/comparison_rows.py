@@ -34,6 +34,7 @@ YARDSTICK = "lagrange"
 UNITS = {
     **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
     **{"error": "m", "velocity_error": "m/s", "reaction_error": "N", "energy_drift_max": "J"},
+    **{"dissipated": "J", "creep": "m/s"},
     **{
         f"{level}_violation_{kind}": unit
         for level, unit in (("position", "m"), ("velocity", "m/s"), ("acceleration", "m/s^2"))
@@ -70,7 +71,7 @@ class Row:
         Largest difference of the velocities of the same points [m/s].
     reaction_error : float or None
         Largest difference of a joint's reaction [N] that the motion determines; a moment counts as the force
-        that has it at the mechanism's length. None also where no reaction is determined.
+        that has it at the mechanism's length. None also where no reaction is determined, with dry friction and stops.
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
     run_seconds, run_seconds_median : float
@@ -97,6 +98,15 @@ class Row:
         Coordinates of the state. Violations of joint coordinates are violations of the loops.
     variant : str
         Options that distinguish the method from others of the study, such as ``alpha=5, beta=5``.
+    law : str
+        Law of dry friction, such as ``tanh:speed=0.001``; empty without dry friction and stops.
+    transitions, impacts : int or None
+        Changes of modes of dry friction and stops, and impacts; None without these, as the next ones.
+    dissipated : float or None
+        Energy that they have taken at the end [J].
+    creep : float or None
+        Largest rate along a coordinate with dry friction at outputs at which it rests in the reference [m/s]; of an
+        angle times the mechanism's length. None where none rests.
     """
 
     method: str
@@ -131,11 +141,17 @@ class Row:
     relative_error: float | None = None
     velocity_error: float | None = None
     reaction_error: float | None = None
+    law: str = ""
+    transitions: int | None = None
+    impacts: int | None = None
+    dissipated: float | None = None
+    creep: float | None = None
 
     @property
     def label(self) -> str:
         """Method with its variant, and the coordinates unless absolute: ``lagrange, joint``."""
-        parts = self.method, self.variant, "" if self.coordinates == "absolute" else self.coordinates
+        law = "" if self.law == "exact" else self.law
+        parts = self.method, self.variant, law, "" if self.coordinates == "absolute" else self.coordinates
         return ", ".join(filter(None, parts))
 
     @property

@@ -16,6 +16,7 @@ from symgen.result.labelled import Labelled
 from symgen.result.points import Points
 from symgen.result.reactions import Forces, Seat, seats
 from symgen.runs.outcome import PrescribedMotion
+from symgen.study.comparison.laws import rates_of_friction, resting
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -45,9 +46,23 @@ def exact_reactions(
     """
     info, k = compiled.info, len(reference.times)
     lam = np.column_stack([np.zeros((k, 0)), *(reference.lam[row.name] for row in info.rows)])
+    forces = Forces(_prescribed(reference, compiled, start, lam), seats(mechanism, values))
+    reactions = forces.reactions(Labelled(lam, tuple(row.name for row in info.rows), ("N",) * info.m))
+    return {joint: reactions[joint] for joint in forces.seats if joint not in reference.undetermined}
+
+
+def exact_rates(mechanism: Mechanism, reference: Reference, compiled: CompiledModel, start: Start) -> Array:
+    """Return the rates of coordinates with dry friction of a reference motion, shape (k, n)."""
+    lam = np.zeros((len(reference.times), compiled.info.m))
+    return rates_of_friction(mechanism, _prescribed(reference, compiled, start, lam))
+
+
+def _prescribed(reference: Reference, compiled: CompiledModel, start: Start, lam: Array) -> PrescribedMotion:
+    """Return a reference motion with multipliers."""
+    info, k = compiled.info, len(reference.times)
     states = np.zeros((k, info.ny))
     states[:, : info.work] = np.column_stack([reference.q, reference.v])
-    motion = PrescribedMotion(
+    return PrescribedMotion(
         times=reference.times,
         states=states,
         status_columns=np.zeros((k, abi.N_STATUS + info.kept)),
@@ -58,9 +73,6 @@ def exact_reactions(
         prescribed_accelerations=np.zeros((k, info.nv)),
         prescribed_multipliers=lam,
     )
-    forces = Forces(motion, seats(mechanism, values))
-    reactions = forces.reactions(Labelled(lam, tuple(row.name for row in info.rows), ("N",) * info.m))
-    return {joint: reactions[joint] for joint in forces.seats if joint not in reference.undetermined}
 
 
 @dataclass(frozen=True)
@@ -77,12 +89,15 @@ class Distances:
         The reference motion.
     reactions : mapping of str to Array
         Its reactions, `exact_reactions`.
+    rates : Array, optional
+        Rates of coordinates with dry friction, shape (k, n).
     """
 
     mechanism: Mechanism
     parameters: Mapping[str, float]
     reference: Reference
     reactions: Mapping[str, Array]
+    rates: Array | None = None
 
     @cached_property
     def points(self) -> Points:
@@ -124,6 +139,20 @@ class Distances:
         forces, k = Forces(outcome, self._seats), len(outcome.times)
         own = forces.reactions(forces.multipliers())
         return self._largest(own[joint] - exact[:k] for joint, exact in self.reactions.items())
+
+    def creep(self, outcome: Outcome) -> float | None:
+        """Return the largest rate [m/s] along a coordinate with dry friction that rests in the reference.
+
+        Angles count with the mechanism's length. None where none rests.
+        """
+        if self.rates is None or not self.size > 0.0:
+            return None
+        lengths = np.array([self.size if friction.unit == "rad" else 1.0 for friction in self.mechanism.frictions])
+        where = resting(self.rates, self.speed / lengths)
+        if not where.any():
+            return None
+        rates = rates_of_friction(self.mechanism, outcome) * lengths
+        return float(np.abs(rates[where]).max())
 
     @cached_property
     def _values(self) -> dict[str, float]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from symgen.layout import abi
 from symgen.result.judge import judge
 from symgen.study.comparison.comparison_rows import Row, Trace
+from symgen.study.comparison.laws import contact_of
 
 if TYPE_CHECKING:
     from symgen.running.prepare import Prepared
@@ -29,6 +30,7 @@ def measured(
     distances: Distances | None,
     variant: str,
     stopped: Outcome | None = None,
+    law: str = "",
 ) -> tuple[Row, Trace]:
     """Compare one run with the reference and measure it.
 
@@ -44,6 +46,8 @@ def measured(
         Options that distinguish the method from others of the study.
     stopped : Outcome, optional
         The run as one of its limits stopped it, by which it is judged; `runs` then have no limits.
+    law : str
+        Law of dry friction.
     """
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     count = len(outcome.times)
@@ -54,6 +58,7 @@ def measured(
     accelerations = outcome.acceleration_violations if count else np.zeros(0)
     status, adaptive = outcome.status_columns, plan.spec.adaptive
     violations = {"position": status[:, abi.PHI], "velocity": status[:, abi.DRIFT], "acceleration": accelerations}
+    contact = contact_of(plan.mechanism, outcome)
     row = Row(
         method=plan.choice.method.name,
         coordinates=plan.coordinates,
@@ -81,6 +86,11 @@ def measured(
         **{f"{level}_violation_final": float(values[-1]) if count else None for level, values in violations.items()},
         energy_drift_max=outcome.energy_drift_max,
         warnings=(*plan.all_warnings, *outcome.start.warnings, *verdict.warnings),
+        law=law,
+        creep=None if judged is None else judged.creep(outcome),
+        transitions=None if contact is None else contact.transitions,
+        impacts=None if contact is None else contact.impacts,
+        dissipated=None if contact is None else contact.dissipated,
     )
     kinetic, potential = status[:, abi.KINETIC], status[:, abi.POTENTIAL]
     work = outcome.states[:, outcome.compiled.info.work]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any, TypedDict
+from typing import Any, NotRequired, TypedDict
 
 import msgspec
 import numpy as np
@@ -21,7 +21,7 @@ from symgen.running.prepare import Assembled, Preparation, Prepared, prepare
 from symgen.runs.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import Study, check_entry, from_entry, to_entry, with_ratios
-from symgen.study.comparison.distances import Distances, exact_reactions
+from symgen.study.comparison.distances import Distances, exact_rates, exact_reactions
 from symgen.study.comparison.equal_error import ROUNDS, times_at
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
@@ -54,14 +54,15 @@ class ReferenceTask:
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
         try:
-            if self.reference_by == AUTO and any(force.flexures for force in mechanism.forces):
-                # no second derivation has beam elements
+            if self.reference_by == AUTO and (mechanism.bounded or any(force.flexures for force in mechanism.forces)):
+                # no second derivation has beam elements, or modes
                 decay = fastest_decay(mechanism, compiled, start)
                 motion = two_routes(mechanism, values, self.times, decay, settings.start)
             else:
                 motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
         except SimulationError as error:
             return {"unusable": str(error)}
+        rates = exact_rates(mechanism, motion, compiled, start).tolist() if mechanism.frictions else None
         return {
             "how": motion.how,
             "estimated_error": motion.estimated_error,
@@ -70,8 +71,11 @@ class ReferenceTask:
             "v": motion.v.tolist(),
             "reactions": {
                 joint: loads.tolist()
-                for joint, loads in exact_reactions(mechanism, values, motion, compiled, start).items()
+                for joint, loads in (
+                    {} if mechanism.bounded else exact_reactions(mechanism, values, motion, compiled, start)
+                ).items()
             },
+            "rates": rates,
         }
 
 
@@ -118,7 +122,8 @@ class ModelComparison:
     preparations: list[Preparation]
     reference_by: str
     journal: Journal
-    error_at: tuple[float, ...] = ()
+    error_at: tuple[float, ...]
+    laws: tuple[str, ...]
 
     @property
     def plans(self) -> list[Plan]:
@@ -128,8 +133,8 @@ class ModelComparison:
     @cached_property
     def pairs(self) -> set[Any]:
         """Code and integrator of the rows that the journal lacks: each pair is compiled once."""
-        lacking = zip(self.rows, self.plans, strict=True)
-        return {(plan.key, plan.integrator.name) for cell, plan in lacking if cell.key not in self.journal}
+        lacking = zip(self.rows, self.plans, self.laws, strict=True)
+        return {(law, plan.key, plan.integrator.name) for cell, plan, law in lacking if cell.key not in self.journal}
 
     def total(self, ahead: bool) -> float:
         """Return the length of the progress: rows, the reference, and compilation unless it was done ahead."""
@@ -156,16 +161,18 @@ class ModelComparison:
         cells = []
         for i, settings in enumerate(self.settings):
             own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in self._parts}
+            own |= {"law": self.laws[i]} if self.laws[i] else {}
             cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i, check=check_entry))
         return cells
 
     def ahead(self) -> list[Cell]:
         """Return the cells that can be computed before the runs and in parallel."""
-        groups: dict[Any, dict[str, Settings]] = {}
-        for cell, settings, plan in zip(self.rows, self.settings, self.plans, strict=True):
+        groups, mechanisms = dict[Any, dict[str, Settings]](), dict[Any, Mechanism]()
+        for cell, settings, plan, law in zip(self.rows, self.settings, self.plans, self.laws, strict=True):
             if cell.key not in self.journal:
-                groups.setdefault(plan.key, {}).setdefault(plan.integrator.name, settings)
-        tasks = [CodeTask(self.model.mechanism, tuple(group.values())) for group in groups.values()]
+                groups.setdefault((law, plan.key), {}).setdefault(plan.integrator.name, settings)
+                mechanisms[law, plan.key] = plan.mechanism
+        tasks = [CodeTask(mechanisms[key], tuple(group.values())) for key, group in groups.items()]
         codes = [Cell(f"{self.model.name} {i}", self.model.name, task) for i, task in enumerate(tasks)]
         # the reference comes last: it always takes time; cached code takes none, so that no process is started
         return [*codes, self.reference] if groups else []
@@ -180,15 +187,15 @@ class ModelComparison:
         motions, interrupted = run_cells([self.reference], motion, self.journal)
         if interrupted:
             return self.study(True)
-        distances, shared = self._distances(motions[self.reference.key]), dict[Any, Assembled]()
+        distances, shared = self._distances(motions[self.reference.key]), dict[str, dict[Any, Assembled]]()
         compiled = set[Any]()
 
         def begun(i: int) -> Prepared:
-            return self.preparations[i].run(shared)
+            return self.preparations[i].run(shared.setdefault(self.laws[i], {}))
 
         def row(i: int) -> Outcome:
             settings, plan = self.settings[i], self.preparations[i].plan
-            words, pair = f"{settings.method}, {settings.integrator}", (plan.key, plan.integrator.name)
+            words, pair = f"{settings.method}, {settings.integrator}", (self.laws[i], plan.key, plan.integrator.name)
             first = not ahead and pair not in compiled
             if first:
                 show(f"compiling {words}", 1.0 + i + PREPARATION * len(compiled))
@@ -204,7 +211,7 @@ class ModelComparison:
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
             variant = words_of_variant(settings, self.common)
-            return to_entry(*measured(run, runs, distances, variant, stopped))
+            return to_entry(*measured(run, runs, distances, variant, stopped, self.laws[i]))
 
         def in_turn(indices: list[int]) -> Outcome:
             runs, seconds = [unlimited(begun(i)) for i in indices], list[list[float]]()
@@ -234,7 +241,8 @@ class ModelComparison:
         q, v = np.array(entry["q"]), np.array(entry["v"])
         motion = Reference(entry["how"], entry["estimated_error"], self.times, q, v, entry["note"])
         reactions = {joint: np.array(loads) for joint, loads in entry["reactions"].items()}
-        return Distances(self.model.mechanism, self.settings[0].parameters, motion, reactions)
+        rates = None if entry.get("rates") is None else np.array(entry["rates"])
+        return Distances(self.model.mechanism, self.settings[0].parameters, motion, reactions, rates)
 
     def study(self, interrupted: bool) -> Study:
         """Return the study of the finished rows."""
@@ -281,6 +289,7 @@ class _Motion(TypedDict):
     v: list[list[float]]
     reactions: dict[str, list[list[float]]]
     note: str
+    rates: NotRequired[list[list[float]] | None]
 
 
 class _Rounds(TypedDict):

@@ -1,9 +1,10 @@
 """References by compiled code: two formulations of the equations with two integrators.
 
 The second derivation of a mechanism in space (`symgen.study.references.independent`) is interpreted: too slow for the
-many motions of a stress study, and without beam elements. Compiled code can differ in the formulation of the equations
-and in the integrator. The motion is that of `direct-correction` with Runge-Kutta steps at a tight tolerance; its error
-is estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps.
+many motions of a stress study, and without beam elements, dry friction and stops. Compiled code can differ in the
+formulation of the equations and in the integrator. The motion is that of `direct-correction` with Runge-Kutta steps at
+a tight tolerance; its error is estimated from `index1-augmented-lagrangian`, which solves another system for the
+accelerations, with Adams steps.
 """
 
 from __future__ import annotations
@@ -104,7 +105,7 @@ def two_routes(
 def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...], budget: int) -> Reference:
     motions = []
     for method, integrator, options, rtol in routes:
-        shape = "straight" if routes is STIFF_ROUTES else "looped"
+        shape = "straight" if routes is STIFF_ROUTES or mechanism.bounded else "looped"
         settings = replace(common, method=method, integrator=integrator, options=options, shape=shape)
         settings = replace(settings, rtol=rtol, atol=1e-2 * rtol)
         run = prepare(mechanism, settings).with_spec(max_evaluations=budget)
