@@ -78,6 +78,9 @@ class Equilibrium:
         The multipliers.
     notes : tuple of str
         The stops in force, and forces that have no derivative there: stability and frequencies ignore that.
+    band : dict of str to (float, float)
+        With one degree of freedom and dry friction of constant bound, a coordinate and its values between which
+        friction holds.
     """
 
     q: dict[str, float]
@@ -91,10 +94,12 @@ class Equilibrium:
     y: Array = field(repr=False)
     lam: Array = field(repr=False)
     notes: tuple[str, ...] = ()
+    band: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the fields in types of JSON."""
-        return dict(json_form(self))
+        """Return the fields in types of JSON; ends of bands that are infinite are None."""
+        band = {name: [x if np.isfinite(x) else None for x in ends] for name, ends in self.band.items()}
+        return dict(json_form(self)) | {"band": band}
 
     def __repr__(self) -> str:
         squares = ", ".join(f"{x:.4g}" for x in self.omega_squared[:3]) + ", ..." * (len(self.omega_squared) > 3)

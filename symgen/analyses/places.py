@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.band import band_of
 from symgen.analyses.cyclic import steady_motion
 from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion, value_of
 from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
@@ -22,6 +23,7 @@ from symgen.analyses.stopped import refuse_fault
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
+from symgen.describe.evaluate import parameter_values
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -193,7 +195,9 @@ def scanned(
     """Find the equilibria over a range of a coordinate; see `symgen.api.Model.equilibria`."""
     name, values = range_of("scan", scan)
     subject = subject_of(mechanism, settings)
-    return _of_bodies(mechanism, settings, subject, scanned_rests(subject, name, values))
+    rests = scanned_rests(subject, name, values)
+    settled = (Settled(subject.turned(rest.q), rest.y, rest.lam, rest.iterations) for rest in rests)
+    return _with_bands(mechanism, settings, _of_bodies(mechanism, settings, subject, rests), settled)
 
 
 def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
@@ -213,7 +217,21 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     settled = rest_of(subject)
     rest = judged(settled)
     refuse_fault(settled.subject, rest.y, rest.lam)
-    return _of_bodies(mechanism, settings, subject, (rest,))[0]
+    return _with_bands(mechanism, settings, _of_bodies(mechanism, settings, subject, (rest,)), (settled,))[0]
+
+
+def _with_bands(
+    mechanism: Mechanism, settings: Settings, rests: tuple[Equilibrium, ...], settled: Iterable[Settled]
+) -> tuple[Equilibrium, ...]:
+    """Return equilibria with the bands in which dry friction holds."""
+    if not mechanism.frictions:
+        return rests
+    values = parameter_values(mechanism, settings.parameters)
+    bands = [band_of(mechanism, values, each) for each in settled]
+    return tuple(
+        replace(rest, band=dict(band.values), notes=(*rest.notes, band.note))
+        for rest, band in zip(rests, bands, strict=True)
+    )
 
 
 def _of_bodies(

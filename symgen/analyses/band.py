@@ -1,0 +1,162 @@
+"""The band of rests beside an equilibrium: where dry friction holds, in mechanisms with one degree of freedom.
+
+An equilibrium is that without friction; every position beside it is one, too, as long as the forces there are within
+the bounds at rest. The coordinate of a joint with friction is held at one value after the other. Where the force that
+this takes reaches what all bounds together have along the freedom, the band ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from symgen.analyses.equilibrium import value_of
+from symgen.analyses.settle import Settled, settle
+from symgen.analyses.stopped import fault
+from symgen.analyses.subject import Subject
+from symgen.base.errors import AnalysisError
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import Friction, Mechanism
+
+Array = NDArray[np.float64]
+
+#: Part of the expected way to an end that the first step takes, factor of the following ones, and the longest, in
+#: lengths of the mechanism and radians; ways beyond the last one have no end.
+FIRST, GROWING, LONGEST, ENDLESS = 0.25, 1.5, 0.1, 2.0 * math.pi
+#: Way over which the slope of the force is taken, and how well an end is known, in the same unit.
+SLOPE, EXACT = 1e-4, 1e-13
+
+
+@dataclass(frozen=True)
+class Band:
+    """Rests beside an equilibrium.
+
+    Attributes
+    ----------
+    values : mapping of str to (float, float)
+        Coordinate -> its values at both ends; infinite where friction holds on as far as was looked. Empty without
+        friction, and where there is no band.
+    note : str
+        A sentence; empty without friction.
+    """
+
+    values: Mapping[str, tuple[float, float]]
+    note: str
+
+
+def band_of(mechanism: Mechanism, parameters: Mapping[str, float], rest: Settled) -> Band:
+    """Return the band about an equilibrium.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With its dry friction.
+    parameters : mapping
+        Values of all parameters.
+    rest : Settled
+        An equilibrium without friction.
+    """
+    frictions = mechanism.frictions
+    if not frictions:
+        return Band({}, "")
+    subject, left_out = rest.subject, "an equilibrium without dry friction, which holds other positions too"
+    freedom = subject.split(subject.rows(subject.evaluated(rest.y)))[0].shape[1]
+    if freedom != 1:
+        return Band({}, f"{left_out}: no band of them with {freedom} degrees of freedom")
+    pressed = ", ".join(friction.name for friction in frictions if friction.pressed)
+    if pressed:
+        return Band({}, f"{left_out}: no band of them, as friction of {pressed} depends on reactions")
+    names = [_coordinate(mechanism, friction) for friction in frictions]
+    bounds = [evaluate(friction.static, parameters, f"friction of {friction.name}") for friction in frictions]
+    rates = np.abs(_rates(subject, rest.y, names))
+    rates /= [subject.length if friction.unit == "m" else 1.0 for friction in frictions]
+    if not rates.max() > 0.0:
+        return Band({}, f"{left_out}: no band of them, as no joint with friction moves there")
+    leading = int(np.argmax(rates))
+    search = _Search(names[leading], names, bounds, rest)
+    low, high = search.end(-1.0), search.end(1.0)
+    unit = frictions[leading].unit
+    parts = [f"from {low:.9g} {unit}" * (low > -math.inf), f"to {high:.9g} {unit}" * (high < math.inf)]
+    where = f"with {names[leading]} {' '.join(filter(None, parts))}" if any(parts) else "wherever it stands"
+    return Band({names[leading]: (low, high)}, f"{left_out}: it holds {where}")
+
+
+def _coordinate(mechanism: Mechanism, friction: Friction) -> str:
+    joint = mechanism.joint_named(friction.joint)
+    return next(f"{joint.name}.{label}" for label, measure in joint.coordinates if measure == friction.measure)
+
+
+def _rates(subject: Subject, y: Array, names: Sequence[str]) -> Array:
+    """Return the rates of coordinates along the freedom."""
+    e = subject.evaluated(y)
+    basis, motion = subject.split(subject.rows(e))[0], e.by("motion", "v")
+    functions = e.by("functions", "q") @ motion
+    places = [subject.position(name) for name in names]
+    return np.array([float((motion if space == "q" else functions)[at] @ basis[:, 0]) for space, at in places])
+
+
+@dataclass(frozen=True)
+class _Search:
+    """The search for the ends of a band.
+
+    Attributes
+    ----------
+    name : str
+        The coordinate that is held.
+    names, bounds : sequence of str, of float
+        Coordinates with friction, and their bounds.
+    rest : Settled
+        The equilibrium.
+    """
+
+    name: str
+    names: Sequence[str]
+    bounds: Sequence[float]
+    rest: Settled
+
+    @cached_property
+    def start(self) -> float:
+        return value_of(self.rest.subject, self.rest.y, self.name)
+
+    @cached_property
+    def unit(self) -> float:
+        return self.rest.subject.length if self.rest.subject.unit(self.name) == "m" else 1.0
+
+    def beyond(self, value: float, near: Settled) -> tuple[float, Settled]:
+        """Return the force at a value less what friction has; a positive number also where a stop is in the way."""
+        held = settle(near.subject, near.y, [(self.name, value)])
+        if fault(held.subject, held.y, held.lam[: held.subject.m]):
+            return 1.0, held
+        rates = np.abs(_rates(held.subject, held.y, [self.name, *self.names]))
+        if not rates[0] > 0.0:
+            raise AnalysisError(f"{self.name} does not move there")
+        return abs(float(held.lam[-1])) - float(np.dot(self.bounds, rates[1:])) / float(rates[0]), held
+
+    def end(self, way: float) -> float:
+        """Return the value at an end of the band; infinite where there is none."""
+        near, value = self.rest, self.start
+        try:
+            now, held = self.beyond(value + way * SLOPE * self.unit, near)
+            slope = abs(float(held.lam[-1])) / (SLOPE * self.unit)
+            here = -self.beyond(value, near)[0]
+            step = min(LONGEST * self.unit, max(FIRST * here / slope, SLOPE * self.unit) if slope > 0.0 else math.inf)
+            if now >= 0.0:
+                step = SLOPE * self.unit
+            while abs(value - self.start) < ENDLESS * self.unit:
+                further = value + way * step
+                now, held = self.beyond(further, near)
+                if now >= 0.0:
+                    return self._between(value, further, near)
+                near, value, step = held, further, min(GROWING * step, LONGEST * self.unit)
+        except AnalysisError:  # nothing rests further away
+            pass
+        return way * math.inf
+
+    def _between(self, value: float, further: float, near: Settled) -> float:
+        return float(brentq(lambda x: self.beyond(x, near)[0], value, further, xtol=EXACT * self.unit))
