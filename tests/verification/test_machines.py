@@ -23,7 +23,8 @@ from symgen.describe.load import parse_toml
 from symgen.describe.validate import validate
 
 NAMES = (
-    *("belt-oscillator", "bent-arc", "bicycle", "cam-follower", "cantilever", "cart-pole", "engine"),
+    *("belt-oscillator", "bent-arc", "bicycle", "cam-follower", "cantilever", "cart-pole"),
+    *("dry-four-bar", "engine"),
     *(
         "flexible-slider-crank",
         "flying-spaghetti",
@@ -34,7 +35,7 @@ NAMES = (
         "shaper",
         "spin-up",
     ),
-    "wiper",
+    *("toggle-press", "wiper"),
 )
 GRAVITY = 9.81
 
@@ -122,6 +123,79 @@ def test_the_block_on_the_belt_slips_and_sticks() -> None:
     assert_allclose(slips, 0.6 + 0.8068887871591406 * np.arange(5), rtol=0, atol=1e-7)
     places = [event.q["block.x"] for event in result.events]
     assert_allclose(places, [0.06, 0.02] * 4 + [0.06], rtol=0, atol=1e-7)
+
+
+# -- dry-four-bar ------------------------------------------------------------------------------------------------------
+
+
+def dry_four_bar(theta):
+    """Angles of its pins and its potential energy at angles of its crank."""
+    b = polar(2.0, theta)
+    c = meet(b, 8.0, fixed(10.0, 0.0, theta), 5.0, 1)
+    coupler, rocker = (np.unwrap(np.arctan2(*d[::-1])) for d in (c - b, c - fixed(10.0, 0.0, theta)))
+    return np.stack([theta, coupler - theta, rocker - coupler, rocker]), GRAVITY * (5 * b[1] + 6.5 * c[1])
+
+
+def test_dry_pins_take_the_height_between_turns() -> None:
+    """Of each half swing: 4 N m times the ways of all pins, which turn round at dead centres, too."""
+    result = run("dry-four-bar")
+    turns = [event for event in result.events if event.name in ("A.reverse", "A.stick")]
+    assert [event.name for event in turns] == ["A.reverse"] * 14 + ["A.stick"]
+    thetas = [math.pi / 3, *(event.q["crank.theta"] for event in turns)]
+    for before, after in pairwise(thetas):
+        angles, energy = dry_four_bar(np.linspace(before, after, 20_001))
+        assert_allclose(energy[0] - energy[-1], 4.0 * np.abs(np.diff(angles, axis=1)).sum(), rtol=0, atol=1e-4)
+    energy = dry_four_bar(np.array(thetas))[1]
+    assert_allclose(result.outputs["lost"][-1], energy[0] - energy[-1], rtol=0, atol=1e-4)
+    assert abs(thetas[-1] + 2.07596285039) < 1e-6
+    assert_allclose(result["crank.theta"][result.t > turns[-1].t], thetas[-1], rtol=0, atol=1e-12)
+
+
+# -- toggle-press ------------------------------------------------------------------------------------------------------
+
+
+def toggle(p, phi, force):
+    """Inertia of the press about the angle of its links, and the torque of the piston and of weights."""
+    a, m = p["link_length"], p["link_mass"]
+    inertia = m * a**2 * (1 / 4 + 2 / 12 + np.cos(phi) ** 2 / 4 + 9 / 4 * np.sin(phi) ** 2)
+    inertia += p["ram_mass"] * (2 * a * np.sin(phi)) ** 2
+    return inertia, force * a * np.cos(phi) - GRAVITY * 2 * a * np.sin(phi) * (m + p["ram_mass"])
+
+
+def press(p, phi, force, until, event=None):
+    """The press from rest; the change of its inertia by a central difference."""
+    way = math.copysign(1.0, force)
+
+    def rate(t, y):
+        inertia, torque = toggle(p, y[0], force)
+        change = (toggle(p, y[0] + 1e-5, 0.0)[0] - toggle(p, y[0] - 1e-5, 0.0)[0]) / 2e-5
+        rubbing = way * p["rubbing"] * 2 * p["link_length"] * np.sin(y[0])
+        return y[1], (torque - rubbing - change * y[1] ** 2 / 2) / inertia
+
+    return solve_ivp(rate, (0.0, until), (phi, 0.0), method="DOP853", rtol=1e-11, atol=1e-12, events=event)
+
+
+def test_the_press_strikes_the_die_and_is_held_by_it() -> None:
+    result = run("toggle-press")
+    p, a = result.parameters, result.parameters["link_length"]
+
+    def gap(t, y):
+        return y[0] - p["shut"]
+
+    gap.terminal = True
+    down = press(p, p["open"], -p["push"], 1.0, gap)
+    assert [event.name for event in result.events] == [
+        *("guide.lower.hit", "guide.stick", "guide.lower.rest", "guide.slip", "guide.lower.leave")
+    ]
+    assert abs(result.events[0].t - down.t[-1]) < 1e-6
+    assert abs(result.events[3].t - p["back"]) < 1e-12
+    held = np.searchsorted(result.t, 0.2)
+    inertia, torque = toggle(p, p["shut"], -p["push"])
+    assert_allclose(result.outputs["guide.lower.force"][held], -torque / (2 * a * math.sin(p["shut"])), rtol=1e-6)
+    rubbed = p["rubbing"] * 2 * a * (math.cos(p["shut"]) - math.cos(p["open"]))
+    assert_allclose(result.outputs["lost"][held], rubbed + inertia * down.y[1, -1] ** 2 / 2, rtol=1e-6)
+    up = press(p, p["shut"], p["pull"], result.t[-1] - p["back"])
+    assert_allclose(result["upper.theta"][-1] + math.pi / 2, up.y[0, -1], rtol=0, atol=1e-5)
 
 
 # -- wiper -------------------------------------------------------------------------------------------------------------
