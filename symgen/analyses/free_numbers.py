@@ -30,6 +30,21 @@ Bounds = tuple[float | None, float | None]
 _RTOL = _ATOL = 1e-10
 
 
+def exact(where: str, settings: Settings) -> Settings:
+    """Return the settings of a run whose derivatives count: tight tolerances where they are left open.
+
+    Raises
+    ------
+    InputError
+        If it goes on from another run.
+    """
+    if not isinstance(settings.start, Mapping):
+        raise InputError(where, "a run that begins at a start", "one that goes on from another run")
+    if not is_set(settings, "step"):
+        settings = replace(settings, rtol=settings.rtol or _RTOL, atol=settings.atol or _ATOL)
+    return replace(settings, verify=False)
+
+
 class FreeNumbers:
     """Numbers of a model that a search varies.
 
@@ -52,11 +67,7 @@ class FreeNumbers:
 
     def __init__(self, where: str, mechanism: Mechanism, settings: Settings, keys: Mapping[str, str]) -> None:
         self.where, self.mechanism, self.keys, self.names, self.runs = where, mechanism, keys, tuple(keys), 0
-        if not isinstance(settings.start, Mapping):
-            raise InputError(where, "a run that begins at a start", "one that goes on from another run")
-        if not is_set(settings, "step"):
-            settings = replace(settings, rtol=settings.rtol or _RTOL, atol=settings.atol or _ATOL)
-        self.settings = replace(settings, verify=False)
+        self.settings = exact(where, settings)
 
     def settings_at(self, x: Array) -> Settings:
         """Return the settings of a run with values of the numbers."""

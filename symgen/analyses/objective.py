@@ -1,20 +1,22 @@
 """A quantity at the end of a run as a function of numbers of the model, with its gradient, for optimisers.
 
-Derivatives are by forward directions, which a run carries beside its state; there is no adjoint.
+Derivatives are by forward directions, which a run carries beside its state, or by the adjoint, which goes back through
+its steps: whichever costs less.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
+from symgen.analyses.adjoint_gradient import adjoint_gradient, is_cheaper
+from symgen.analyses.free_numbers import Bounds, FreeNumbers, exact, limits, with_bounds
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.inputs import put
@@ -23,6 +25,7 @@ from symgen.describe.mechanism import Mechanism, Output
 from symgen.describe.scope import Context, Scope
 from symgen.layout import abi
 from symgen.result.sensitivities import over, place_of
+from symgen.runs.adjoint import Uncovered
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -47,6 +50,10 @@ class Gradient:
         Their units.
     result : Result
         The run, whose status says how far it can be trusted.
+    way : {"forward", "adjoint"}
+        How the derivatives were found.
+    kept : int
+        Bytes of the steps that the adjoint went back through.
     """
 
     value: float
@@ -54,6 +61,8 @@ class Gradient:
     by: Mapping[str, float]
     units: Mapping[str, str]
     result: Result
+    way: str = "forward"
+    kept: int = 0
 
     def __repr__(self) -> str:
         return f"<Gradient of {self.value:.6g}: " + ", ".join(f"{name} {x:.6g}" for name, x in self.by.items()) + ">"
@@ -161,6 +170,29 @@ class Objective:
         slopes = result.gradient(self._column).row()
         units = {d: over(unit, by) for d, by in zip(self.names, result.sensitivities.units, strict=True)}
         return Gradient(float(getattr(result, table).values[-1, place]), unit, slopes, units, result)
+
+
+def gradient_of(
+    mechanism: Mechanism, settings: Settings, quantity: str, by: Sequence[str], way: str = "auto"
+) -> Gradient:
+    """Return a quantity at the end of a run with its derivatives; arguments as for `gradient` of a model."""
+    way, where = arguments.one_of("way", way, ("auto", "forward", "adjoint")), "gradient"
+    names = tuple(with_bounds(f"{where}: by", by))
+    if way == "adjoint" or (way == "auto" and is_cheaper(len(names))):
+        own = lifted(f"{where}: by", mechanism, names)
+        extended, column = _with_output(where, own.mechanism, quantity)
+        until = float(mechanism.defaults.until if settings.until is None else settings.until)
+        ending = replace(exact(f"{where}: by", settings), times=[until], until=until)
+        try:
+            found = adjoint_gradient(where, extended, ending, column, own.keys, way == "auto")
+        except Uncovered:
+            if way == "adjoint":
+                raise
+        else:
+            slopes = dict(zip(names, found.slopes.tolist(), strict=True))
+            units = {name: over(found.unit, unit) for name, unit in zip(names, found.units, strict=True)}
+            return Gradient(found.value, found.unit, slopes, units, found.result, "adjoint", found.kept)
+    return Objective(where, mechanism, settings, quantity, names).first
 
 
 def _with_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechanism, str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,9 @@ from symgen.runs.directions import Course, Part, run_with_directions
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
+    from symgen.layout.compiled import CompiledModel
     from symgen.result.result import Result
+    from symgen.running.directions import Direction
     from symgen.runs.outcome import Outcome
 
 Array = NDArray[np.float64]
@@ -142,6 +144,17 @@ class Differentiated:
         return replace(result, sensitivities=own, notes=notes, warnings=warnings, status=status, reason=reason)
 
 
+class SeedsOfParameters(Protocol):
+    """Directions by name, with directions of parameters."""
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """The directions."""
+
+    def parameters(self, compiled: CompiledModel) -> Array:
+        """Return the directions of the array of parameters of a model, shape (np, n)."""
+
+
 @dataclass(frozen=True)
 class Evaluated:
     """Evaluates quantities of a run with directions.
@@ -150,14 +163,14 @@ class Evaluated:
     ----------
     run : Prepared
         The run.
-    start : StartDirections
-        Its directions at the start.
+    start : SeedsOfParameters
+        Its directions.
     course : Course
         What its loops left behind.
     """
 
     run: Prepared
-    start: StartDirections
+    start: SeedsOfParameters
     course: Course
 
     @cached_property
@@ -357,11 +370,8 @@ class Sensitivities:
 
     def doubt(self, result: Result) -> str | None:
         """Return why the sensitivities of a run are in doubt, None where they are not."""
-        if result.rank_event_count:
-            first = result.rank_events[0].t_in
-            return f"the motion passes near a singular position at t = {first:.6g} s, where sensitivities may jump"
-        if result.outcome.counters["dense_solves"]:
-            return "accelerations were solved with another rank on the way, which sensitivities do not follow"
+        if doubt := doubt_of_motion(result):
+            return doubt
         if self._evaluated.course.doubts:
             return self._evaluated.course.doubts[0]
         if self.end is not None and not np.all(np.isfinite([*self.end.values()])):
@@ -369,6 +379,16 @@ class Sensitivities:
         if self.violation > CONSISTENT:
             return f"sensitivities leave the constraints by {self.violation:.1g} of their size"
         return None
+
+
+def doubt_of_motion(result: Result) -> str | None:
+    """Return why derivatives of any kind are in doubt because of the motion, None where they are not."""
+    if result.rank_event_count:
+        first = result.rank_events[0].t_in
+        return f"the motion passes near a singular position at t = {first:.6g} s, where sensitivities may jump"
+    if result.outcome.counters["dense_solves"]:
+        return "accelerations were solved with another rank on the way, which sensitivities do not follow"
+    return None
 
 
 def over(unit: str, by: str) -> str:

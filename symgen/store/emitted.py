@@ -136,6 +136,39 @@ class TangentFunction(EmittedFunction):
         return CacheEntry(function.returned, (), compiled(text, symbol))
 
 
+class AdjointFunction(EmittedFunction):
+    """The adjoint of a straight function, by `symgen.native.adjoints`: adjoints of arrays follow its arguments.
+
+    Parameters
+    ----------
+    function : EmittedFunction
+        ``rhs``, or ``accept`` with a number of rounds.
+    rounds : int, optional
+        Rounds of a correction before its last one.
+    """
+
+    def __init__(self, function: EmittedFunction, rounds: int | None = None) -> None:
+        super().__init__(function.py_func)
+        self.origin, self.rounds = function.origin, rounds
+
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+        return f"adjoint {self.rounds} {sources_digest('vocabulary')} {super().identity()}"
+
+    def __reduce__(self) -> Any:
+        raise TypeError("machine code does not travel")
+
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        """Return machine code, made from the source."""
+        from symgen.native.adjoints import correction, module
+        from symgen.native.machine import compiled
+
+        function, ends = self.read(arguments[: self.py_func.__code__.co_argcount]), "ydot"
+        if self.rounds is not None:
+            function, ends = correction(function, self.rounds), "y"
+        return CacheEntry(function.returned, (), compiled(module(function, symbol, ends, _together()), symbol))
+
+
 def plain(function: _Function) -> _Function:
     """Compile a function of symgen like emitted ones: on numbers and flat arrays of plain types.
 

@@ -73,9 +73,11 @@ def test_more_directions_than_loops_take_are_further_runs(tmp_path):
     text = '[mechanism]\nname = "pushed"\n[parameters]\n' + "".join(f"{name} = 0.1\n" for name in names)
     text += '[bodies.p]\ntype = "point"\nmass = 2.0\nvelocity = [0.0, 0.0]\n[forces.f]\ntype = "force"\nbody = "p"\n'
     text += f'force = ["{" + ".join(f"{k + 1}*{name}" for k, name in enumerate(names))}", 0.0]\n'
-    place = model(tmp_path, text).gradient("p.x", by=names, until=2.0, integrator="rk4", step=0.1)
-    assert place.value == pytest.approx(0.1 * 70 * 71 / 2, rel=1e-11)
-    assert [place.by[name] for name in names] == pytest.approx(np.arange(1.0, 71.0), rel=1e-11)
+    for way in ("forward", "adjoint"):
+        place = model(tmp_path, text).gradient("p.x", by=names, until=2.0, integrator="rk4", step=0.1, way=way)
+        assert place.way == way
+        assert place.value == pytest.approx(0.1 * 70 * 71 / 2, rel=1e-11)
+        assert [place.by[name] for name in names] == pytest.approx(np.arange(1.0, 71.0), rel=1e-11)
 
 
 def test_a_search_finds_a_length_again(rod):

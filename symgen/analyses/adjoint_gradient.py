@@ -1,0 +1,165 @@
+"""One number at the end of a run with its derivatives by the adjoint: one run and one way back, for any number of them.
+
+The number is differentiated by the last state with the directions of results, and the way back ends in adjoints of the
+start, the parameters and the scratch. These times the directions of the start are the derivatives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import AnalysisError
+from symgen.layout import abi
+from symgen.result.build import build_result
+from symgen.result.sensitivities import Evaluated, Sensitivities, doubt_of_motion, place_of, prepared
+from symgen.running.directions import Direction, named_directions
+from symgen.running.start_directions import StartDirections
+from symgen.runs.adjoint import Adjoint, Uncovered, run_for_adjoint
+from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
+from symgen.runs.directions import Course, Part
+
+if TYPE_CHECKING:
+    from symgen.base.settings import Settings
+    from symgen.describe.mechanism import Mechanism
+    from symgen.layout.compiled import CompiledModel
+    from symgen.result.result import Result
+
+Array = NDArray[np.float64]
+
+#: Plain runs that an adjoint costs, and a run with L directions beyond one: `docs/measured/sensitivities.md`.
+COST, COST_OF_DIRECTION = 3.5, 0.35
+#: Most operations of a right-hand side whose adjoint is compiled without being wanted: more take ten seconds.
+LARGEST = 5000
+
+
+def is_cheaper(count: int) -> bool:
+    """Whether the adjoint costs less than forward directions for a number of derivatives."""
+    lanes = lanes_of(count)
+    return -(-count // lanes) * (1.0 + COST_OF_DIRECTION * lanes) > COST
+
+
+@dataclass(frozen=True)
+class EndDirections:
+    """Directions of the end of a run: of named numbers with the state as it is, then of each element of the state.
+
+    Parameters
+    ----------
+    start : StartDirections
+        Directions of the start.
+    compiled : CompiledModel
+        Code in the coordinates of the state.
+    """
+
+    start: StartDirections
+    compiled: CompiledModel
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """Names."""
+        states = (Direction(f"state {i}", "", "state", str(i)) for i in range(self.compiled.info.ny))
+        return *self.start.directions, *states
+
+    def parameters(self, compiled: CompiledModel) -> Array:
+        """Return the directions of the array of parameters of a model."""
+        own = self.start.parameters(compiled)
+        return np.hstack([own, np.zeros((len(own), self.compiled.info.ny))])
+
+    def course(self, adjoint: Adjoint) -> Course:
+        """Return the end of a run with these directions."""
+        outcome, ny, n = adjoint.outcome, self.compiled.info.ny, self.start.count
+        seeds = Seeds(np.hstack([np.zeros((ny, n)), np.eye(ny)]), self.parameters(self.compiled))
+        model, parts = DirectedModel(self.compiled, lanes_of(n + ny)), list[Part]()
+        for first in range(0, seeds.count, model.lanes):
+            own = seeds.part(first, model.lanes)
+            p = model.parameters(outcome.p, own.p)
+            state = model.longer(outcome.states[-1], "y", own.y)
+            parts.append(Part(model, replace(outcome, states=state[np.newaxis], p=p, w=model.scratch(p, outcome.w))))
+        return Course(outcome, tuple(parts), seeds.count)
+
+
+@dataclass(frozen=True)
+class AdjointGradient:
+    """A number at the end of a run, and its derivatives.
+
+    Attributes
+    ----------
+    value : float
+        The number.
+    unit : str
+        Its unit.
+    slopes : Array
+        Derivatives, in the order of the names.
+    units : tuple of str
+        Units of what it is differentiated by.
+    kept : int
+        Bytes of the steps that were kept.
+    result : Result
+        The run.
+    """
+
+    value: float
+    unit: str
+    slopes: Array
+    units: tuple[str, ...]
+    kept: int
+    result: Result
+
+
+def adjoint_gradient(
+    where: str, mechanism: Mechanism, settings: Settings, column: str, keys: Mapping[str, str], quick: bool
+) -> AdjointGradient:
+    """Return a column of results at the end of a run with its derivatives.
+
+    Parameters
+    ----------
+    where : str
+        Name of the method, for messages.
+    mechanism, settings : Mechanism, Settings
+        The model and how it runs: its last output is its end.
+    column : str
+        The column.
+    keys : mapping of str to str
+        What it is differentiated by, as typed, each with its name in the mechanism.
+    quick : bool
+        Whether code that takes long to compile is refused.
+
+    Raises
+    ------
+    Uncovered
+        If the run has no adjoint.
+    """
+    run, notes = prepared(mechanism, settings)
+    start = StartDirections(run, named_directions(run, keys))
+    if quick and run.compiled.law.operations.get("rhs", 0) > LARGEST:
+        raise Uncovered("adjoint", f"at most {LARGEST} operations, as more take long to compile", "more")
+    adjoint = run_for_adjoint(run.compiled, run.plan.integrator, run.start, run.spec)
+    result = build_result(run, adjoint.outcome)
+    if result.outcome.code != abi.DONE:
+        raise AnalysisError(f"{where}: the run does not reach its end: {result.reason}")
+    table, place, unit = place_of(result, column)
+    ends = EndDirections(start, run.compiled)
+    own = Sensitivities(Evaluated(run, ends, ends.course(adjoint)), result.outcome)
+    by, n = own.table(table)[-1, place], start.count
+    y_bar, p_bar, w_bar = adjoint.back(by[n:])
+    seeds, slopes = start.seeds(), by[:n].copy()
+    model = DirectedModel(run.compiled, lanes_of(n))
+    for first in range(0, n, model.lanes):
+        part = seeds.part(first, model.lanes)
+        p = model.parameters(run.start.p, part.p)
+        w = model.scratch(p, run.start.w)
+        found = y_bar @ part.y + p_bar @ model.shadow(p, "p") + w_bar @ model.shadow(w, "w")
+        slopes[first : first + model.lanes] += found[: n - first]
+    if not np.all(np.isfinite(slopes)):
+        raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
+    result = replace(result, notes=(*result.notes, *notes))
+    if result.status == "ok" and (doubt := doubt_of_motion(result)):
+        result = replace(result, status="unverified", reason=doubt)
+    units = tuple(d.unit for d in start.directions)
+    return AdjointGradient(
+        float(getattr(result, table).values[-1, place]), unit, slopes, units, adjoint.run.kept, result
+    )

@@ -1,0 +1,246 @@
+"""Adjoints of runs: derivatives of one number at the end by everything that a run begins with.
+
+A run keeps its stages, and is passed through once more, backwards. Its cost does not depend on how many numbers the
+result is differentiated by.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.layout import abi
+from symgen.native.adjoints import Accesses, accesses, correction
+from symgen.native.read_values import Foreign
+from symgen.runs.run import Progress, completed
+from symgen.runs.simulation import Simulation
+from symgen.store.emitted import AdjointFunction, EmittedFunction
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.records import Outputs
+    from symgen.loops.integrator import Integrator, Setup
+    from symgen.loops.run_spec import RunSpec
+    from symgen.runs.outcome import Outcome
+    from symgen.starts.assembly import Start
+
+Array = NDArray[np.float64]
+
+#: Numbers of a part of a run that is kept in one piece, and bytes of all parts together.
+_PIECE, MOST_KEPT = 1 << 16, 4 << 30
+
+
+_HINT = "lagrange and direct-correction have one; forward directions take all methods"
+
+
+class Uncovered(InputError):
+    """A run has no adjoint; says what has one."""
+
+
+def _refusal(expected: str, got: str, hint: str = "") -> Uncovered:
+    return Uncovered("adjoint", expected, got, hint or "forward directions take it")
+
+
+def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec, start: Start) -> None:
+    """Refuse a run that has no adjoint.
+
+    Raises
+    ------
+    Uncovered
+        With what has one.
+    """
+    from symgen.loops.schemes import explicit
+    from symgen.loops.schemes.adjoint import CORRECTION, RATES
+
+    if integrator.loop(spec.adaptive) not in (explicit.constant, explicit.adaptive):
+        raise _refusal("an explicit Runge-Kutta scheme", f"'{integrator.name}'", "take dop853")
+    if spec.events is not None or spec.stops or start.saved is not None:
+        raise _refusal("a run without events, inputs that jump, or a past", "one with some")
+    law = compiled.law_module
+    if not isinstance(law.rhs, EmittedFunction):
+        raise _refusal("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
+    method = f"the method {compiled.law.method}"
+    own, other = _accesses(law.rhs, abi.RHS), _accesses(law.accept, abi.ACCEPT)
+    _compile(AdjointFunction(law.rhs), RATES, f"accelerations of {method}")
+    passing = {place for place in own.stored | other.stored if place[0] == "w"}
+    read = own.read
+    if corrects(compiled):
+        _compile(AdjointFunction(law.accept, 0), CORRECTION, f"corrections of {method}")
+        function = correction(law.accept.read(abi.ACCEPT.signature.arguments), 0)
+        read |= accesses(function.body).read
+    if read & passing or ("w", -1) in own.read | own.stored:
+        raise _refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
+
+
+def corrects(compiled: CompiledModel) -> bool:
+    """Whether a law changes accepted states."""
+    return any(array == "y" for array, _ in _accesses(compiled.law_module.accept, abi.ACCEPT).stored)
+
+
+def _accesses(function: EmittedFunction, kind: Any) -> Accesses:
+    try:
+        return accesses(function.read(kind.signature.arguments).body)
+    except Foreign as foreign:
+        raise _refusal("functions of the state in closed form", str(foreign)) from None
+
+
+def _compile(function: AdjointFunction, kind: Any, what: str) -> None:
+    """Compile an adjoint, or say why there is none."""
+    try:
+        function.address(kind.signature)
+    except InputError as error:
+        raise _refusal("functions of the state in closed form", f"{what} with {error.got}", _HINT) from None
+
+
+@dataclass(frozen=True)
+class Recorder:
+    """An explicit scheme that keeps its stages.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        The scheme.
+    """
+
+    integrator: Integrator
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.integrator, name)
+
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return the arguments of the loop, with room for kept steps."""
+        from symgen.loops.schemes import adjoint
+
+        plain = self.integrator.setup(compiled, spec, w)
+        return replace(
+            plain,
+            loop=adjoint.adaptive if spec.adaptive else adjoint.constant,
+            memory=plain.memory + adjoint.HEAD + _PIECE,
+        )
+
+
+class KeptRun(Simulation):
+    """A run that keeps its stages.
+
+    Attributes
+    ----------
+    pieces : list of Array
+        Records of `symgen.loops.schemes.adjoint`: the start alone, then parts of the run, each behind the last record
+        before it.
+    """
+
+    def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
+        from symgen.loops.schemes.adjoint import HEAD, record_size
+
+        super().__init__(compiled, Recorder(integrator), start, spec)
+        self._first = self.setup.memory - HEAD - _PIECE
+        self.size = record_size(self.sizes.width, int(self.scheme.stages))
+        self._capacity = _PIECE // self.size
+        self.pieces = list[Array]()
+        if self._capacity < 1:
+            raise _refusal("a smaller mechanism", f"one with {self.sizes.ny} numbers in its state")
+
+    def enter(
+        self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
+    ) -> int:
+        """Continue, and keep all steps."""
+        from symgen.loops.schemes.adjoint import CORRECTIONS, HEAD, TIME
+
+        while True:
+            here = self.state.control[abi.STEPS]
+            code = super().enter(outputs, until, min(pause, here + self._capacity * bool(self.pieces)), most)
+            if not self.pieces:  # the start was corrected
+                first = np.zeros(self.size)
+                first[TIME], first[CORRECTIONS] = self.state.clock[abi.TIME], self.state.iw[abi.ITERATIONS]
+                first[HEAD : HEAD + self.sizes.width] = self.state.y
+                self.pieces.append(first)
+            if count := int(self.state.memory[self._first]):
+                piece = np.empty((1 + count) * self.size)
+                piece[: self.size] = self.pieces[-1][-self.size :]
+                piece[self.size :] = self.state.memory[self._first + HEAD :][: count * self.size]
+                self.pieces.append(piece)
+                self.state.memory[self._first] = 0.0
+            if self.kept > MOST_KEPT:
+                raise _refusal(f"stages of at most {MOST_KEPT >> 30} GiB", "more", "take larger tolerances or steps")
+            if code != abi.PAUSED or self.state.control[abi.STEPS] >= pause:
+                return code
+
+    @property
+    def kept(self) -> int:
+        """Bytes of all kept steps."""
+        return sum(piece.nbytes for piece in self.pieces)
+
+
+@dataclass(frozen=True)
+class Adjoint:
+    """A run that was made, and can be passed through backwards.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Of the run.
+    run : KeptRun
+        Its steps.
+    """
+
+    outcome: Outcome
+    run: KeptRun
+
+    def back(self, end: Array) -> tuple[Array, Array, Array]:
+        """Return the adjoints of the state at the start, the parameters and the scratch.
+
+        Parameters
+        ----------
+        end : Array, shape (ny,)
+            Adjoint of the state at the end.
+        """
+        from symgen.loops.schemes.adjoint import CORRECTION, CORRECTIONS, Corrections, back_through
+        from symgen.loops.schemes.adjoint import back_through_corrected as corrected
+
+        run, state = self.run, self.run.state
+        law, width, sizes = run.compiled.law_module, run.sizes.width, (len(state.p), len(state.w))
+        bars, room = np.zeros(width + sum(sizes)), np.zeros((int(run.scheme.stages) + 3) * width)
+        bars[: len(end)] = end
+        parts = bars[:width], bars[width : width + sizes[0]], bars[width + sizes[0] :]
+        p, w, iw = state.p.copy(), state.w.copy(), state.iw.copy()
+        most, own, functions = len(Corrections._fields), corrects(run.compiled), None
+        if own:
+            counts = sorted({int(k) for piece in run.pieces for k in np.unique(piece[CORRECTIONS :: run.size])})
+            if counts[-1] >= most:
+                expected = f"at most {most - 1} rounds of corrections in a step"
+                raise _refusal(expected, f"a step with {counts[-1]}", "take smaller steps or tolerances")
+            made = {k: AdjointFunction(law.accept, k) for k in counts}
+            functions = Corrections(*(made.get(k, made[counts[0]]) for k in range(most)))
+        back = corrected if own else back_through
+        for records in reversed(run.pieces[1:]):
+            count = len(records) // run.size - 1
+            back(AdjointFunction(law.rhs), functions or 0, run.scheme, count, width, records, p, w, iw, bars, room)
+        if functions is not None:
+            first, y = run.pieces[0], np.zeros(width)
+            y[: len(run.start.y)] = run.start.y
+            call = functions[int(first[CORRECTIONS])].caller(CORRECTION.signature.arguments)
+            call(run.start.t, y, p, w, iw, *parts)
+        return parts[0][: run.sizes.ny], parts[1], parts[2]
+
+
+def run_for_adjoint(
+    compiled: CompiledModel,
+    integrator: Integrator,
+    start: Start,
+    spec: RunSpec,
+    progress: Progress | None = None,
+) -> Adjoint:
+    """Integrate and keep all stages; arguments as for `symgen.runs.run.integrate`.
+
+    Raises
+    ------
+    Uncovered
+        If the run has no adjoint.
+    """
+    check_covered(compiled, integrator, spec, start)
+    run = KeptRun(compiled, integrator, start, spec)
+    return Adjoint(completed(run, progress), run)

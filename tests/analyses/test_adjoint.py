@@ -1,0 +1,141 @@
+"""Gradients by the adjoint: against models without symgen, forward directions, and what is refused."""
+
+import pytest
+from running.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, SLIDER_CRANK, model
+
+import symgen
+from symgen import InputError
+from symgen.methods import METHODS
+from symgen.runs import adjoint
+
+TIGHT = {"rtol": 1e-13, "atol": 1e-13, "integrator": "dop853"}
+#: Methods with an adjoint, and those whose iterations have none.
+COVERED = (
+    *("adaptive-baumgarte", "baumgarte", "braun-goldfarb", "compliant-constraints", "controllable-velocity-projection"),
+    *("direct-correction", "invariant-stabilization", "lagrange", "penalty", "post-stabilization"),
+    *("stiffness-scaled-penalty", "udwadia-kalaba", "velocity-projection"),
+)
+
+
+@pytest.fixture(scope="module")
+def four_bar(tmp_path_factory):
+    return model(tmp_path_factory.mktemp("lengths"), FOUR_BAR)
+
+
+def largest_difference(model, quantity, by, **settings):
+    """Return how far the adjoint and forward directions are apart."""
+    one, other = (model.gradient(quantity, by=by, way=way, **settings) for way in ("adjoint", "forward"))
+    assert (one.way, other.way) == ("adjoint", "forward")
+    assert one.units == other.units
+    assert one.value == pytest.approx(other.value, rel=1e-11)
+    return max(abs(one.by[name] - other.by[name]) / abs(other.by[name]) for name in by)
+
+
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinates):
+    settings = {"until": 2.0, "method": method, "coordinates": coordinates, **TIGHT}
+    for place, quantity in enumerate(("crank.theta", "crank.omega")):
+        found = four_bar.gradient(quantity, by=tuple(BY_NAME), way="adjoint", **settings)
+        assert found.by == pytest.approx({name: by[place] for name, by in BY_NAME.items()}, rel=1e-11)
+        assert found.way == "adjoint"
+        assert found.result.ok
+        assert found.kept > 1000
+
+
+@pytest.mark.parametrize("quantity", ["rod.theta", "length**2/3*rod.omega**2", "rod.alpha"])
+def test_the_rod_on_a_pin(tmp_path, quantity):
+    rod = model(tmp_path, ROD)
+    if quantity == "rod.theta":
+        found = rod.gradient(quantity, by=tuple(ROD_BY), way="adjoint", until=3.0, **TIGHT)
+        assert found.by == pytest.approx({name: by[0] for name, by in ROD_BY.items()}, rel=1e-11)
+
+    assert largest_difference(rod, quantity, (*ROD_BY, "rod.omega"), until=1.0, **TIGHT) < 1e-11
+
+
+def test_the_integral_of_idas(tmp_path):
+    energy = model(tmp_path, SLIDER_CRANK).gradient("G", by=("k", "c"), way="adjoint", rtol=1e-12, atol=1e-12)
+    assert energy.by == pytest.approx(G_BY, rel=1e-11)
+
+
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+@pytest.mark.parametrize(
+    ("integrator", "options"),
+    [
+        ("rk4", {"step": 5e-2}),  # with rounds of corrections
+        ("heun", {"step": 1e-2}),
+        ("dop853", {"step": 0.1, "options": {"integrator.adaptive": "false"}}),
+        ("dopri5", {"rtol": 1e-8, "atol": 1e-8}),
+    ],
+)
+def test_schemes(four_bar, method, integrator, options):
+    by, settings = ("a", "d", "m2", "crank.omega"), {"until": 1.0, "max_violation": 1.0, "max_energy_error": 1.0}
+    quantity = "rocker.C.x*coupler.omega"
+    assert (
+        largest_difference(four_bar, quantity, by, method=method, integrator=integrator, **options, **settings) < 1e-11
+    )
+
+
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_motion_in_space(method, coordinates):
+    disc, by = symgen.load("rolling-disc"), ("radius", "lean", "mechanism.gravity[2]")
+    settings = {"until": 0.5, "method": method, "coordinates": coordinates, "integrator": "dop853"}
+    assert largest_difference(disc, "disc.x", by, **settings) < 1e-11
+
+
+def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
+    settings = {"until": 2.0, "method": "direct-correction", "integrator": "rk4", "step": 1e-2, "way": "adjoint"}
+    whole = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
+    monkeypatch.setattr(adjoint, "_PIECE", 1 << 11)
+    parts = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
+    assert parts.by == whole.by
+    assert parts.kept > whole.kept  # the last step before each part stands in front of it
+    monkeypatch.setattr(adjoint, "MOST_KEPT", 1 << 13)
+    with pytest.raises(InputError, match="take larger tolerances or steps"):
+        four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
+
+
+def test_whichever_costs_less_is_taken(four_bar):
+    settings = {"until": 0.2, "integrator": "rk4", "step": 1e-2}
+    assert four_bar.gradient("crank.theta", by=("a", "b"), **settings).way == "forward"
+    many = four_bar.gradient("crank.theta", by=(*BY_NAME, "crank.omega"), **settings)
+    assert many.way == "adjoint"
+    other = four_bar.gradient("crank.theta", by=(*BY_NAME, "crank.omega"), method="null-space", **settings)
+    assert other.way == "forward"
+    assert other.by == pytest.approx(many.by, rel=1e-4, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("settings", "expected"),
+    [
+        ({"integrator": "abm4"}, "an explicit Runge-Kutta scheme, got 'abm4'; take dop853"),
+        ({"stop_when": "crank.theta < 0"}, "a run without events"),
+        ({"method": "null-space"}, "got accelerations of the method null-space .* forward directions take all methods"),
+        ({"method": "energy-projection"}, "got corrections of the method energy-projection"),
+        ({"method": "coordinate-partitioning"}, "got accelerations of the method coordinate-partitioning"),
+        ({"shape": "looped"}, "code of the shape 'straight'"),
+        ({"way": "backward"}, "way: expected"),
+    ],
+)
+def test_what_has_no_adjoint_is_refused(four_bar, settings, expected):
+    usual = {"way": "adjoint", "integrator": "rk4", "step": 1e-2, "until": 0.1}
+    with pytest.raises(InputError, match=expected):
+        four_bar.gradient("crank.theta", by=("a", "b"), **usual | settings)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "method", [n for n in METHODS.names if {"ode", "one-step"} & set(METHODS.get(n, "method").forms)]
+)
+def test_every_method(method):
+    four_bar, by = symgen.load("four-bar"), ("crank_mass", "rocker_mass", "crank.theta")
+    limits = {"max_violation": 1.0, "max_energy_error": 1e3}
+    settings = {"method": method, "integrator": "rk4", "step": 1e-2, "until": 0.5, **limits}
+    if method not in COVERED:
+        with pytest.raises(InputError, match="forward directions take all methods"):
+            four_bar.gradient("rocker.theta", by=by, way="adjoint", **settings)
+        return
+    # penalties multiply the rounding of what they hold back
+    bound = 1e-7 if method == "penalty" else 1e-11
+    assert largest_difference(four_bar, "rocker.theta", by, **settings) < bound
