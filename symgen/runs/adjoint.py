@@ -6,6 +6,7 @@ result is differentiated by.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -54,7 +55,7 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
         With what has one.
     """
     from symgen.loops.schemes import explicit
-    from symgen.loops.schemes.adjoint import CORRECTION, RATES
+    from symgen.loops.schemes.adjoint import ANGLES, CORRECTION, HEAD, RATES
 
     if integrator.loop(spec.adaptive) not in (explicit.constant, explicit.adaptive):
         raise _refusal("an explicit Runge-Kutta scheme", f"'{integrator.name}'", "take dop853")
@@ -65,13 +66,13 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
         raise _refusal("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
     method = f"the method {compiled.law.method}"
     own, other = _accesses(law.rhs, abi.RHS), _accesses(law.accept, abi.ACCEPT)
-    _compile(AdjointFunction(law.rhs), RATES, f"accelerations of {method}")
-    passing = {place for place in own.stored | other.stored if place[0] == "w"}
+    _compile(_adjoint(law.rhs), RATES, f"accelerations of {method}")
+    angles = {("w", abi.WINDING + i) for i in range(min(compiled.info.windings, HEAD - ANGLES))}
+    passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
     read = own.read
     if corrects(compiled):
-        _compile(AdjointFunction(law.accept, 0), CORRECTION, f"corrections of {method}")
-        function = correction(law.accept.read(abi.ACCEPT.signature.arguments), 0)
-        read |= accesses(function.body).read
+        _compile(_adjoint(law.accept, 0), CORRECTION, f"corrections of {method}")
+        read |= _correction_accesses(law.accept).read
     if read & passing or ("w", -1) in own.read | own.stored:
         raise _refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
 
@@ -81,11 +82,23 @@ def corrects(compiled: CompiledModel) -> bool:
     return any(array == "y" for array, _ in _accesses(compiled.law_module.accept, abi.ACCEPT).stored)
 
 
+@functools.lru_cache(maxsize=256)
 def _accesses(function: EmittedFunction, kind: Any) -> Accesses:
     try:
         return accesses(function.read(kind.signature.arguments).body)
     except Foreign as foreign:
         raise _refusal("functions of the state in closed form", str(foreign)) from None
+
+
+@functools.lru_cache(maxsize=256)
+def _correction_accesses(accept: EmittedFunction) -> Accesses:
+    return accesses(correction(accept.read(abi.ACCEPT.signature.arguments), 0).body)
+
+
+@functools.lru_cache(maxsize=256)
+def _adjoint(function: EmittedFunction, rounds: int | None = None) -> AdjointFunction:
+    """Return the adjoint of a function, the same one for all runs."""
+    return AdjointFunction(function, rounds)
 
 
 def _compile(function: AdjointFunction, kind: Any, what: str) -> None:
@@ -148,7 +161,7 @@ class KeptRun(Simulation):
         self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
     ) -> int:
         """Continue, and keep all steps."""
-        from symgen.loops.schemes.adjoint import CORRECTIONS, HEAD, TIME
+        from symgen.loops.schemes.adjoint import ANGLES, CORRECTIONS, HEAD, TIME
 
         while True:
             here = self.state.control[abi.STEPS]
@@ -157,6 +170,8 @@ class KeptRun(Simulation):
                 first = np.zeros(self.size)
                 first[TIME], first[CORRECTIONS] = self.state.clock[abi.TIME], self.state.iw[abi.ITERATIONS]
                 first[HEAD : HEAD + self.sizes.width] = self.state.y
+                own = self.state.w[abi.WINDING :][: HEAD - ANGLES]
+                first[ANGLES : ANGLES + len(own)] = own
                 self.pieces.append(first)
             if count := int(self.state.memory[self._first]):
                 piece = np.empty((1 + count) * self.size)
@@ -198,12 +213,20 @@ class Adjoint:
         end : Array, shape (ny,)
             Adjoint of the state at the end.
         """
-        from symgen.loops.schemes.adjoint import CORRECTION, CORRECTIONS, Corrections, back_through
+        from symgen.loops.schemes.adjoint import (
+            ANGLES,
+            CORRECTION,
+            CORRECTIONS,
+            HEAD,
+            Corrections,
+            back_through,
+            transposed,
+        )
         from symgen.loops.schemes.adjoint import back_through_corrected as corrected
 
         run, state = self.run, self.run.state
         law, width, sizes = run.compiled.law_module, run.sizes.width, (len(state.p), len(state.w))
-        bars, room = np.zeros(width + sum(sizes)), np.zeros((int(run.scheme.stages) + 3) * width)
+        bars, room = np.zeros(width + sum(sizes)), np.zeros((int(run.scheme.stages) + 4) * width)
         bars[: len(end)] = end
         parts = bars[:width], bars[width : width + sizes[0]], bars[width + sizes[0] :]
         p, w, iw = state.p.copy(), state.w.copy(), state.iw.copy()
@@ -213,12 +236,13 @@ class Adjoint:
             if counts[-1] >= most:
                 expected = f"at most {most - 1} rounds of corrections in a step"
                 raise _refusal(expected, f"a step with {counts[-1]}", "take smaller steps or tolerances")
-            made = {k: AdjointFunction(law.accept, k) for k in counts}
+            made = {k: _adjoint(law.accept, k) for k in counts}
             functions = Corrections(*(made.get(k, made[counts[0]]) for k in range(most)))
-        back = corrected if own else back_through
+        back, rates, table = corrected if own else back_through, _adjoint(law.rhs), transposed(run.scheme)
+        angles = min(run.compiled.info.windings, HEAD - ANGLES)
         for records in reversed(run.pieces[1:]):
             count = len(records) // run.size - 1
-            back(AdjointFunction(law.rhs), functions or 0, run.scheme, count, width, records, p, w, iw, bars, room)
+            back(rates, functions or 0, run.scheme, table, count, width, angles, records, p, w, iw, bars, room)
         if functions is not None:
             first, y = run.pieces[0], np.zeros(width)
             y[: len(run.start.y)] = run.start.y

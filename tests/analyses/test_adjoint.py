@@ -139,3 +139,37 @@ def test_every_method(method):
     # penalties multiply the rounding of what they hold back
     bound = 1e-7 if method == "penalty" else 1e-11
     assert largest_difference(four_bar, "rocker.theta", by, **settings) < bound
+
+
+WHEEL = """
+[mechanism]
+name = "wound-wheel"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]
+[parameters]
+k = { value = 2.0, unit = "N m/rad" }
+[bodies.wheel]
+mass = 1.0
+inertia = [0.02, 0.03, 0.05]
+centre_of_mass = [0.1, 0.0, 0.0]
+[joints.axle]
+type = "revolute"
+between = ["ground", "wheel"]
+at = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+axis = [0.0, 1.0, 0.0]
+[forces.spring]
+type = "torsional-spring-damper"
+joint = "axle"
+stiffness = "k"
+damping = 0.01
+free_angle = 12.0
+"""
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+def test_angles_that_count_turns(tmp_path, method, coordinates):
+    wheel, settings = model(tmp_path, WHEEL), {"until": 1.5, "method": method, "coordinates": coordinates, **TIGHT}
+    by = ("k", "bodies.wheel.mass", "forces.spring.free_angle", "forces.spring.damping")
+    assert largest_difference(wheel, "wheel.wy", by, **settings) < 1e-11
+    assert wheel.simulate(verify=False, **settings)["axle.angle"].max() > 12.0

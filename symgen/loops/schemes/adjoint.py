@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from symgen.layout import abi
 from symgen.layout.scheme_records import TABLEAU
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import compiled_loop
-from symgen.loopcode.vectors import copied, follow
+from symgen.loopcode.vectors import copied, follow, total
 from symgen.loops.frame import loop
 from symgen.loops.schemes.explicit import ADAPTIVE_PARTS, CONSTANT_PARTS
 from symgen.loops.schemes.explicit import attempt as adaptive_step
@@ -21,8 +23,8 @@ from symgen.loops.schemes.explicit import attempt_constant as constant_step
 from symgen.loops.schemes.explicit import renew as set_first_stage
 from symgen.native import types
 
-#: Positions in a record: time [s], step [s], counted corrections; then the state.
-TIME, STEP, CORRECTIONS, HEAD = 0, 1, 2, 8
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; then the state.
+TIME, STEP, CORRECTIONS, ANGLES, HEAD = 0, 1, 2, 3, 8
 _F, _I = types.float64, types.int64
 _A, _K = types.float64[::1], types.int64[::1]
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
@@ -41,6 +43,38 @@ class Corrections(NamedTuple):
     three: Any
 
 
+class Transposed(NamedTuple):
+    """Coefficients of a scheme by columns, as the adjoint takes them.
+
+    Attributes
+    ----------
+    start, column, value : Array
+        Row s has the coefficients of the rate at stage s in all later stages, and in the end of the step behind them;
+        then a row of ones for all stages.
+    """
+
+    start: Any
+    column: Any
+    value: Any
+
+
+def transposed(scheme: Any) -> Transposed:
+    """Return the coefficients of a tableau by columns."""
+    stages, start, column, value = int(scheme.stages), [0], list[int](), list[float]()
+    for s in range(stages):
+        for row in range(s + 1, stages + 1):
+            own = slice(int(scheme.start[row]), int(scheme.start[row + 1]))
+            for at, factor in zip(scheme.column[own], scheme.value[own], strict=True):
+                if at == s:
+                    column.append(row)
+                    value.append(float(factor))
+        start.append(len(column))
+    column += range(stages)
+    value += [1.0] * stages
+    start.append(len(column))
+    return Transposed(np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value))
+
+
 def record_size(width: int, stages: int) -> int:
     """Return the length of the record of a step."""
     return HEAD + (1 + stages) * width
@@ -53,6 +87,8 @@ def keep(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any)
     record = part(run.memory, memory + HEAD + count * size, size)
     record[TIME], record[STEP] = t, run.clock[abi.STEP]
     record[CORRECTIONS] = run.iw[abi.ITERATIONS] - run.memory[memory + 1]
+    for i in range(min(HEAD - ANGLES, run.w.shape[0] - abi.WINDING)):
+        record[ANGLES + i] = run.w[abi.WINDING + i]
     copied(width, run.y, part(record, HEAD, width))
     copied(scheme.stages * width, stages, part(record, HEAD + width, scheme.stages * width))
     run.memory[memory] = count + 1.0
@@ -114,9 +150,20 @@ def undo_rounds(
 
 
 def backward(
-    rates: Any, corrections: Any, scheme: Any, count: int, width: int, records: Any, p: Any, w: Any, iw: Any,
-    bars: Any, room: Any,
-) -> int:  # fmt: skip
+    rates: Any,
+    corrections: Any,
+    scheme: Any,
+    table: Any,
+    count: int,
+    width: int,
+    angles: int,
+    records: Any,
+    p: Any,
+    w: Any,
+    iw: Any,
+    bars: Any,
+    room: Any,
+) -> int:
     """Turn the adjoint of the state at the end of a run into adjoints of start, parameters and scratch.
 
     Parameters
@@ -127,8 +174,10 @@ def backward(
         Adjoints of ``accept`` with 0, 1, 2 and 3 rounds before its last one; 0 where it changes no state.
     scheme : TableauRecord
         The scheme.
-    count, width : int
-        Number of steps, and length of a state.
+    table : Transposed
+        Its coefficients by columns.
+    count, width, angles : int
+        Numbers of steps, of elements of a state, and of angles that count turns.
     records : Array
         The start and the steps.
     p, w, iw : Array
@@ -136,53 +185,70 @@ def backward(
     bars : Array
         Adjoints of the state, the parameters and the scratch one behind the other; changed.
     room : Array
-        Working memory of (stages + 3) states.
+        Working memory of (stages + 4) states.
     """
-    scheme, records, p, w, iw, bars, room = (
-        bare(scheme), bare(records), bare(p), bare(w), bare(iw), bare(bars), bare(room)
-    )  # fmt: skip
+    scheme, table, records, p, w, iw, bars, room = (
+        bare(scheme),
+        bare(table),
+        bare(records),
+        bare(p),
+        bare(w),
+        bare(iw),
+        bare(bars),
+        bare(room),
+    )
     stages, start, column, value = scheme.stages, scheme.start, scheme.column, scheme.value
     size = HEAD + (1 + stages) * width
     y_bar, p_bar = part(bars, 0, width), part(bars, width, p.shape[0])
     w_bar = part(bars, width + p.shape[0], w.shape[0])
-    trial, rate, stage_bar = part(room, 0, width), part(room, width, width), part(room, 2 * width, width)
-    ks_bar = part(room, 3 * width, stages * width)
+    trial, rate, rate_bar = part(room, 0, width), part(room, width, width), part(room, 2 * width, width)
+    bars_of_stages = part(room, 3 * width, (stages + 1) * width)
     for back in range(count):
         k = count - back
         h, t = records[k * size + STEP], records[(k - 1) * size + TIME]
         before = part(records, (k - 1) * size + HEAD, width)
         ks = part(records, k * size + HEAD + width, stages * width)
         w[abi.STEP_STATUS] = h
+        for i in range(angles):
+            w[abi.WINDING + i] = records[(k - 1) * size + ANGLES + i]
         follow(width, h, start[stages], start[stages + 1], column, value, ks, before, trial)
         undo(
-            corrections, int(records[k * size + CORRECTIONS]), records[k * size + TIME],
-            trial, p, w, iw, y_bar, p_bar, w_bar,
-        )  # fmt: skip
-        for i in range(stages * width):
-            ks_bar[i] = 0.0
-        for e in range(start[stages], start[stages + 1]):
-            into = column[e] * width
-            for i in range(width):
-                ks_bar[into + i] += h * value[e] * y_bar[i]
+            corrections,
+            int(records[k * size + CORRECTIONS]),
+            records[k * size + TIME],
+            trial,
+            p,
+            w,
+            iw,
+            y_bar,
+            p_bar,
+            w_bar,
+        )
+        copied(width, y_bar, part(bars_of_stages, stages * width, width))
         for last in range(stages):
             s = stages - 1 - last
+            stage_bar = part(bars_of_stages, s * width, width)
             follow(width, h, start[s], start[s + 1], column, value, ks, before, trial)
+            total(width, h, table.start[s], table.start[s + 1], table.column, table.value, bars_of_stages, rate_bar)
             for i in range(width):
                 stage_bar[i] = 0.0
-            rates(
-                t + scheme.nodes[s] * h, trial, p, w, iw, rate,
-                stage_bar, p_bar, w_bar, part(ks_bar, s * width, width),
-            )  # fmt: skip
-            for i in range(width):
-                y_bar[i] += stage_bar[i]
-            for e in range(start[s], start[s + 1]):
-                into = column[e] * width
-                for i in range(width):
-                    ks_bar[into + i] += h * value[e] * stage_bar[i]
+            rates(t + scheme.nodes[s] * h, trial, p, w, iw, rate, stage_bar, p_bar, w_bar, rate_bar)
+        follow(
+            width,
+            1.0,
+            table.start[stages],
+            table.start[stages + 1],
+            table.column,
+            table.value,
+            bars_of_stages,
+            y_bar,
+            y_bar,
+        )
     return 0
 
 
-_ARGUMENTS = TABLEAU, types.int64, types.int64, _A, _A, _A, _K, _A, _A
+_TABLE = types.RecordType((_K, _K, _A), Transposed)
+_ARGUMENTS = TABLEAU, _TABLE, types.int64, types.int64, types.int64, _A, _A, _A, _K, _A, _A
 back_through = compiled_loop(__name__, "back_through", backward, types.int64(RATES, types.int64, *_ARGUMENTS))
 back_through_corrected = compiled_loop(
     __name__,
