@@ -129,7 +129,7 @@ ROLES = {
     "acceleration": ("rhs", "Right-hand side"),
     "metric": ("metric", "Corrections in another metric"),
     "correction": ("accept", "Treatment of accepted states"),
-    "closed": ("rhs_closed", "Right-hand side behind the closure of dependent coordinates"),
+    "closed": ("rhs_closed", "Right-hand side behind the closure of the state"),
     "confirmation": ("confirm", "Second evaluation without rows that come out doubtful"),
     "form": ("form", "Descriptor form"),
 }
@@ -216,15 +216,17 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     if form == "tangent":
         parts.add("choose", "acceleration")
         parts.add("tangent", "acceleration")
-    if law.correction.metric == "independent":
+    partitioned = law.correction.metric == "independent"
+    if partitioned:
         parts.add("choose", "correction")
+    if partitioned or law.closed:
+        parts.values["kept"] = partitioned
         parts.add("close", "correction")
-    if law.closed:
         parts.add("closed", "closed")
     if flagged:
         parts.values["evaluation"] = BY_PIVOTS if BY_PIVOTS in names else "rhs"
         parts.add("confirm", "confirmation")
-    by_metric = "partition" if law.correction.metric == "independent" else accept_kind(law.correction)
+    by_metric = "partition" if partitioned else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")
     return parts.pieces
 

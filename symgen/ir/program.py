@@ -320,6 +320,8 @@ class Correction:
     energy : bool
         Whether the velocities that the constraints leave free are then scaled to the balance of energy. The energy of
         such a run is no measure of its error.
+    stages : bool
+        Whether states are closed in the same way before every evaluation.
     """
 
     position: str = "none"
@@ -327,6 +329,7 @@ class Correction:
     metric: str = "identity"
     share: str = ""
     energy: bool = False
+    stages: bool = False
 
     @property
     def rounds(self) -> int:

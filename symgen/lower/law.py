@@ -92,7 +92,8 @@ def lower_law(
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
     closing = closing or model.plan
-    if closing.loops and not equations.drags and record.form == "direct" and method.integrates != "independent":
+    closed = record.form == "direct" and method.integrates != "independent" and not correction.stages
+    if closing.loops and closed and not equations.drags:
         blocks = [*_with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0]), *blocks[1:]]
     if loose is not None:
         held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
@@ -126,8 +127,7 @@ def lower_law(
         operations=operations | ({} if loose is None else {"rhs": operations[FREE_RHS]}),
         unique_multipliers=method.unique_multipliers,
     )
-    closed = method.integrates == "independent"
-    return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)
+    return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
 
 
 def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool) -> None:

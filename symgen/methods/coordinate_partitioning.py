@@ -36,7 +36,7 @@ class CoordinatePartitioning(MultiplierMethod):
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return the closure of the dependent coordinates."""
-        return Correction("newton", True, "independent")
+        return Correction("newton", True, "independent", stages=True)
 
 
 KIND = CoordinatePartitioning()

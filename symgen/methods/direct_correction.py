@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from symgen.base.errors import InputError
 from symgen.ir.program import Correction
-from symgen.methods._base import SOLVER, TOLERANCE, MethodOption, MultiplierMethod
+from symgen.methods._base import SOLVER, TOLERANCE, Descriptor, MethodOption, MultiplierMethod
+from symgen.methods._formula import System
 
 
 class DirectCorrection(MultiplierMethod):
@@ -13,6 +15,9 @@ class DirectCorrection(MultiplierMethod):
 
     ``D^+ = W^-1 D^T (D W^-1 D^T)^-1``: with weight W = 1 the Moore-Penrose inverse of the source; with W = M the
     mass-orthogonal projection. The minimum-norm metric weighs 1 rad like 1 m: well defined, not unit-invariant.
+
+    Option `when` corrects before every evaluation too: the scheme then integrates the rate at the nearest state that
+    satisfies the constraints, which keeps its order.
     """
 
     name = "direct-correction"
@@ -25,12 +30,20 @@ class DirectCorrection(MultiplierMethod):
     parameters = (TOLERANCE,)
     options = (
         MethodOption("weight", ("identity", "mass", "body"), "metric of the correction; the source's is the identity"),
+        MethodOption("when", ("step", "stage"), "after each step, or before every evaluation too"),
         SOLVER,
     )
 
+    def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
+        """Return the equations of implicit stages, which are corrected after the step alone."""
+        if options["when"] == "stage":
+            expected = "step with an implicit integrator, whose stages are unknowns of one iteration"
+            raise InputError("option direct-correction.when", expected, "'stage'", "--integrator dop853")
+        return super().descriptor(system, options)
+
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return Newton's iteration at position level and one correction at velocity level, in the chosen metric."""
-        return Correction("newton", True, options["weight"])
+        return Correction("newton", True, options["weight"], stages=options["when"] == "stage")
 
 
 KIND = DirectCorrection()

@@ -136,4 +136,4 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
         velocity_correction=correction.velocity,
         energy_correction=correction.energy,
     )
-    return LoopedLaw(info, record.form, method.integrates == "independent", correction, functions)
+    return LoopedLaw(info, record.form, correction.stages, correction, functions)
