@@ -80,15 +80,18 @@ LEFT = {"braun-goldfarb": 2}
 UNSEEN = {(method, "picard"): "order 16 leaves no three halvings above rounding" for method in METHODS.names} | {
     ("braun-goldfarb", "abm"): "minus one is outside of its region of stability",
     ("energy-projection", "abm"): "velocities scaled from rest leave a floor of 1e-10",
-    ("half-explicit", "phem56"): "terms of two orders cancel at some steps: 4.5 to 5.0 by which steps are taken",
 }
-#: What an observed order may fall short of the declared one.
-TOLERANCE = 0.2
+#: What an observed order may fall short of the declared one; and the fitted one, where the finest halving has it: with
+#: `phem56` the error of 2 s in n steps is C / n^5 (1 - (130 / n)^2), whose second term bends the fit.
+TOLERANCE, BENT = 0.2, 0.5
 
 
 @dataclass(frozen=True)
 class Pair:
-    """What one pair shows; `slope` is None where three halvings above the floor were not found."""
+    """What one pair shows.
+
+    `slope` is None where three halvings above the floor were not found; `finest` is that of the finest one.
+    """
 
     method: str
     integrator: str
@@ -98,11 +101,15 @@ class Pair:
     floor: float
     slope: float | None
     halvings: float
+    finest: float
 
     @property
     def is_right(self) -> bool:
         """Whether the declared order is seen."""
-        return self.slope is not None and self.slope >= self.order - TOLERANCE
+        if self.slope is None:
+            return False
+        bent = self.slope >= self.order - BENT and self.finest >= self.order - TOLERANCE
+        return self.slope >= self.order - TOLERANCE or bent
 
 
 def declared_order(method: str, integrator: str) -> int:
@@ -160,8 +167,8 @@ def observe(method: str, integrator: str) -> Pair:
     return Pair(method, integrator, order, tuple(counts), tuple(errors), floor, *fitted(counts, errors, floor))
 
 
-def fitted(counts: list[int], errors: list[float], floor: float) -> tuple[float | None, float]:
-    """Return the slope over the finest steps clear of the floor, and how many halvings they span.
+def fitted(counts: list[int], errors: list[float], floor: float) -> tuple[float | None, float, float]:
+    """Return the slope over the finest steps clear of the floor, the halvings that they span, and the finest slope.
 
     Steps at which a run broke off end the window. Less than one and a half halvings show no order.
     """
@@ -174,21 +181,33 @@ def fitted(counts: list[int], errors: list[float], floor: float) -> tuple[float 
         window.append((n, e))
     span = math.log2(window[0][0] / window[-1][0]) if window else 0.0
     if span < 1.5:
-        return None, span
+        return None, span, math.nan
     logs = np.log([n for n, _ in window]), np.log([e for _, e in window])
-    return -float(np.polyfit(*logs, 1)[0]), span
+    fine = logs[0] > logs[0][0] - 1.05 * math.log(2.0)
+    whole, finest = (-float(np.polyfit(*(x[chosen] for x in logs), 1)[0]) for chosen in (fine | True, fine))
+    return whole, span, finest
 
 
 def table(pairs: list[Pair]) -> Table:
     """Return the orders as a table; pairs that miss theirs are marked."""
     result = Table(title=f"{MODEL}, {UNTIL:g} s: observed orders, constant steps; largest errors of q")
-    for heading in ("method", "integrator", "order", "slope", "halvings", "floor", "coarsest", "finest", ""):
+    for heading in ("method", "integrator", "order", "slope", "halvings", "finest", "floor", "coarsest", "finest", ""):
         result.add_column(heading, justify="left" if heading in ("method", "integrator") else "right")
     for p in pairs:
         ends = [f"{p.errors[i]:.1e} ({p.counts[i]})" for i in (0, -1)]
         slope = "none" if p.slope is None else f"{p.slope:.2f}"
         mark = "" if p.is_right else UNSEEN.get((p.method, p.integrator), "MISSED")
-        result.add_row(p.method, p.integrator, str(p.order), slope, f"{p.halvings:.1f}", f"{p.floor:.1e}", *ends, mark)
+        result.add_row(
+            p.method,
+            p.integrator,
+            str(p.order),
+            slope,
+            f"{p.halvings:.1f}",
+            f"{p.finest:.2f}",
+            f"{p.floor:.1e}",
+            *ends,
+            mark,
+        )
     return result
 
 
