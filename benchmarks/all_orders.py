@@ -61,6 +61,7 @@ STEPS = {
     "half-explicit": (32, 7, 2),
     "phem56": (8, 7, 2),
     "rattle": (64, 6, 2),
+    "discrete-gradient": (64, 6, 2),
     "symplectic-euler": (512, 6, 2),
     "sdirk": (8, 6, 2),
     "radau5": (8, 6, 2),

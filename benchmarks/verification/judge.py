@@ -26,7 +26,7 @@ NEARLY = (
     "baumgarte adaptive-baumgarte penalty augmented-lagrangian augmented-hamiltonian generalized-alpha "
     "index3-augmented-lagrangian lagrange velocity-projection udwadia-kalaba energy-projection compliant-constraints "
     "invariant-stabilization braun-goldfarb hamiltonian-baumgarte controllable-velocity-projection "
-    "stiffness-scaled-penalty half-explicit rattle"
+    "stiffness-scaled-penalty half-explicit rattle discrete-gradient"
 ).split()
 
 

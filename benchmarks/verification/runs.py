@@ -174,6 +174,7 @@ METHODS: dict[str, tuple[str, float | None]] = {
     "stiffness-scaled-penalty": ("rk4", None),
     "half-explicit": ("half-explicit", None),
     "rattle": ("rattle", None),
+    "discrete-gradient": ("discrete-gradient", None),
 }
 #: Methods that have straight code only.
 DENSE = (

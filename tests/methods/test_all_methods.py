@@ -87,6 +87,7 @@ def test_the_error_of_penalty_falls_with_the_penalty():
         ("index3-augmented-lagrangian", "trapezoidal"),
         ("ggl", "radau5"),
         ("rattle", "rattle"),
+        ("discrete-gradient", "discrete-gradient"),
         ("augmented-hamiltonian", "rk4"),
         ("coordinate-partitioning", "rk4"),
         ("coordinate-partitioning", "dop853"),

@@ -38,6 +38,7 @@ LEVELS = {
     "generalized-alpha": "position",
     "index3-augmented-lagrangian": "projected",
     "rattle": "explicit",
+    "discrete-gradient": "explicit",
 }
 STEP = 1e-30
 

@@ -23,6 +23,7 @@ SCHEMES = {
     "picard": ("constant", "adaptive"),
     **dict.fromkeys(("explicit", "adams", "implicit", "partitioned"), ("constant", "adaptive")),
     **dict.fromkeys(("alpha", "lie", "projected", "half_explicit", "rattle", "symplectic", "screw"), ("constant",)),
+    "discrete_gradient": ("constant",),
 }
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
@@ -100,6 +101,7 @@ CASES = {
     "lie": ("heavy-top", "lagrange", "rkmk4", "free-rigid-body", "lagrange", "symplectic-euler"),
     "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
     "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
+    "mean": ("four-bar", "discrete-gradient", "discrete-gradient"),
     "partitioned": ("spatial-slider-crank", "half-explicit", "phem56"),
 }
 #: Integrators whose steps depend on rounding, as errors are estimated.

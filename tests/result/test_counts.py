@@ -12,6 +12,7 @@ import symgen
         ("augmented-hamiltonian", "rk4", 4, 4 * 20),
         ("generalized-alpha", "generalized-alpha", 1, 20),  # of Newton, once a step at least
         ("rattle", "rattle", 1, 100),
+        ("discrete-gradient", "discrete-gradient", 1, 100),
         ("index3-augmented-lagrangian", "trapezoidal", 1, 100),
     ],
 )

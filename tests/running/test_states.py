@@ -306,6 +306,7 @@ SCHEMES = [
     ("generalized-alpha", "generalized-alpha", 2),
     ("index3-augmented-lagrangian", "trapezoidal", 2),
     ("rattle", "rattle", 2),
+    ("discrete-gradient", "discrete-gradient", 2),
     ("half-explicit", "half-explicit", 3),
     ("half-explicit", "phem56", 5),
 ]

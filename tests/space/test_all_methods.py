@@ -15,7 +15,7 @@ TIMES = np.linspace(0.0, 0.3, 7)
 #: Of second order, or with an error of its own as the penalty has: they need more room [m].
 ROUGH = {"generalized-alpha": 3e-5, "index3-augmented-lagrangian": 3e-5, "penalty": 1e-6}
 ROUGH |= {"compliant-constraints": 1e-6, "braun-goldfarb": 1e-5}
-ROUGH |= {"half-explicit": 3e-6, "rattle": 1e-4}
+ROUGH |= {"half-explicit": 3e-6, "rattle": 1e-4, "discrete-gradient": 1e-4}
 #: Their violations are judged and end such a run.
 COARSE = ("implicit-constraint",)
 
