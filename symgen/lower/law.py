@@ -79,9 +79,6 @@ def lower_law(
     apart = _refuse_drags(method, recorded) if equations.drags else frozenset[str]()
     record = recorded.resolved(model.plan.schur, apart)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
-    if method.constant_mass and scalars.mass_entries:
-        expected = f"absolute, whose M is constant, for '{method.name}'"
-        raise InputError("--coordinates", expected, "those of joints", "--coordinates absolute")
     scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]

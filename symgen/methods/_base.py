@@ -200,8 +200,6 @@ class Method(ABC):
     velocities_follow : bool
         Whether every step enforces the positions and derives velocities by the integrator's formula: they violate their
         constraint by its error, which does not grow with time.
-    constant_mass : bool
-        Whether M must not depend on positions.
     unique_multipliers : bool
         Whether the law determines the multipliers of dependent rows; else results have those of minimum norm.
     """
@@ -216,7 +214,6 @@ class Method(ABC):
     integrates: ClassVar[str] = "all"
     dense: ClassVar[str] = ""
     velocities_follow: ClassVar[bool] = False
-    constant_mass: ClassVar[bool] = False
     unique_multipliers: ClassVar[bool] = False
 
     @abstractmethod

@@ -11,9 +11,9 @@ from symgen.methods._formula import System
 class DiscreteGradient(MultiplierMethod):
     """``M (v1 - v0) = h (mean of f - mean of D^T lambda)`` along the step, ``Phi(q1) = 0``, at the mean velocity.
 
-    The energy of motions without damping and drivers is kept to rounding, as are linear momenta, and angular ones of
-    points at distances. Velocities violate their constraint by the error of order two, which does not grow. Multipliers
-    and accelerations of results are those of `lagrange`.
+    The energy of motions without damping and drivers is kept to rounding where M is constant, as in absolute
+    coordinates; so are linear momenta, and angular ones of points at distances. Velocities violate their constraint by
+    the error of order two, which does not grow. Multipliers and accelerations of results are those of `lagrange`.
     """
 
     name = "discrete-gradient"
@@ -25,7 +25,6 @@ class DiscreteGradient(MultiplierMethod):
     forms = ("index-3-mean",)
     default_integrator = "discrete-gradient"
     velocities_follow = True
-    constant_mass = True
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the constraints at position level, with M and D as the only derivatives."""

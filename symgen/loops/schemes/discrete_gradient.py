@@ -7,9 +7,9 @@ space by exponentials, and
 - ``Phi(q1) = 0``.
 
 The mean of ``D V`` is the change of Phi over h, the mean of ``f V`` that of the potential, both exactly, so that the
-kinetic energy ``V M A h`` balances. Means are sums of Gauss with five nodes: exact where D and f are polynomials in s
-of degree 9, to rounding where a step turns bodies by less than half a radian. Rows without Phi hold on the mean of the
-path.
+kinetic energy ``V M A h`` balances if M is constant. Means are sums of Gauss with five nodes: exact where D and f are
+polynomials in s of degree 9, to rounding where a step turns bodies by less than half a radian. Rows without Phi hold on
+the mean of the path.
 
 The memory of a run holds A and lambda, with which the next iteration begins.
 """
