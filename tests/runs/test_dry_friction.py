@@ -317,6 +317,7 @@ OTHERS: dict[str, tuple[str, dict[str, float], float]] = {
     "index3-augmented-lagrangian": ("trapezoidal", {"step": 2e-3}, 0.0),
     "penalty": ("rk4", {"step": 1e-3}, 1e-6),
     "rattle": ("rattle", {"step": 2e-3}, 0.0),
+    "discrete-gradient": ("discrete-gradient", {"step": 2e-3}, 0.0),
 }
 
 
