@@ -265,6 +265,16 @@ def preparation(
     return Preparation(chosen, near, same)
 
 
+def first_rate(mechanism: Mechanism, settings: Settings) -> tuple[float | None, float, float]:
+    """Return rms(v') / rms(v) of a run's first second [1/s], None where nothing moves; its beginning and end [s]."""
+    begin_at = 0.0 if isinstance(settings.start, Mapping) else settings.start.last_state.t
+    until = min(begin_at + FIRST, mechanism.defaults.until if settings.until is None else settings.until)
+    plain: dict[str, Any] = {"step": None, "rtol": 1e-6, "atol": None, "options": {}, "coordinates": "absolute"}
+    short: dict[str, Any] = {"until": until, "times": np.linspace(begin_at, until, 201).tolist(), "output_step": None}
+    first = replace(settings, method="direct-correction", integrator="dop853", **plain, **short)
+    return rate_of_motion(prepare(mechanism, first)), begin_at, until
+
+
 def _gained(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
     """Return the settings with the gains of ``rule=motion``, and a note; others as they are.
 
@@ -275,12 +285,7 @@ def _gained(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[s
     keys = [] if method is None else [f"{owner}.rule" for owner in dict.fromkeys(("method", method.name))]
     if method is None or not rules or MOTION not in (settings.options.get(key) for key in keys):
         return settings, ()
-    begin_at = 0.0 if isinstance(settings.start, Mapping) else settings.start.last_state.t
-    until = min(begin_at + FIRST, mechanism.defaults.until if settings.until is None else settings.until)
-    plain: dict[str, Any] = {"step": None, "rtol": 1e-6, "atol": None, "options": {}, "coordinates": "absolute"}
-    short: dict[str, Any] = {"until": until, "times": np.linspace(begin_at, until, 201).tolist(), "output_step": None}
-    first = replace(settings, method="direct-correction", integrator="dop853", **plain, **short)
-    rate = rate_of_motion(prepare(mechanism, first))
+    rate, begin_at, until = first_rate(mechanism, settings)
     options = {key: value for key, value in settings.options.items() if key not in keys}
     if rate is None:
         return replace(settings, options=options), (f"rule={MOTION}: nothing moves, so that the gains stay",)

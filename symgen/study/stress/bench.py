@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from symgen.base.errors import InputError, SymgenError, quoted
+from symgen.base.settings import Settings
 from symgen.describe.evaluate import evaluate
 from symgen.describe.load import read_raw
 from symgen.describe.mechanism import Mechanism
@@ -150,6 +151,13 @@ class Base:
         """Length of a nominal run [s]."""
         defaults = self.mechanism.defaults
         return min(defaults.until, defaults.predictable_until or math.inf, NOMINAL_STEPS * defaults.step)
+
+    @cached_property
+    def rate(self) -> float | None:
+        """Rate rms(v') / rms(v) of the first second [1/s], None where nothing moves."""
+        from symgen.running.prepare import first_rate
+
+        return first_rate(self.without_events().mechanism, Settings(until=self.nominal))[0]
 
     @property
     def closed(self) -> str | None:

@@ -196,6 +196,20 @@ def baumgarte_gain(base: Base, x: float) -> Level:
     return base.level(f"alpha h = {x:g}", x / base.step, options=gains, methods=("baumgarte",), closed=base.closed)
 
 
+def motion_gain(base: Base, x: float) -> Level:
+    """Return the case of gains alpha = beta = x r with `rk4`, r being the rate rms(v') / rms(v) of the first second."""
+    if base.rate is None:
+        raise NotApplicable(f"nothing moves in the first second of {base.name}")
+    return base.level(
+        f"alpha = {x:.3g} r",
+        x,
+        options={"method.alpha": x * base.rate, "method.beta": x * base.rate},
+        pairs=(("baumgarte", "rk4"),),
+        watched=False,
+        closed=base.closed,
+    )
+
+
 def alpha_beta(base: Base, gains: tuple[float, float]) -> Level:
     """Return the case of both gains times the mechanism's step, with `rk4` at that step."""
     alpha, beta = (x / base.step for x in gains)
@@ -292,6 +306,7 @@ FAMILIES: Mapping[str, Family] = {
     "baumgarte-gain": Family(baumgarte_gain, (1e-3, 1e-2, 1e-1, 1.0, 2.5, 3.0, 1e1), (1e-2, 3.0)),
     "damping": Family(damping, _SPRINGS, _QUICK_SPRINGS),
     "duration": Family(duration, (1e4, 1e5, 2e6), (1e4,)),
+    "gain": Family(motion_gain, np.geomspace(0.01, 31.6, 15).tolist(), np.geomspace(0.01, 31.6, 8).tolist()),
     "gravity": Family(gravity, (0.0, 1e1, 1e2, 1e3, 1e4), (0.0, 1e3)),
     "inconsistent-start": Family(inconsistent_start, (1e-6, 1e-3, 1e-2, 1e-1), (1e-2,)),
     "length-ratio": Family(length_ratio, (1.0, 1e1, 1e2, 1e4, 1e6), (1.0, 1e2), own=True),

@@ -32,6 +32,7 @@ def findings(study: Stress) -> tuple[str, ...]:
         *_extremes("pairs of method and integrator", pairs),
         *_families(shown),
         *_gains(study),
+        *gain_law(study),
         *_penalties(study),
         *_steps(study),
         *_trust(study),
@@ -111,6 +112,29 @@ def _gains(study: Stress) -> Iterator[str]:
             f"Baumgarte's gains on {on}: with real roots the first cell that is not accurate has |root| h = {span}; "
             "rk4 is stable up to 2.785."
         )
+
+
+def gain_law(study: Stress) -> Iterator[str]:
+    """Yield the gain of least violation in units of the motion's rate r, and the slopes of both branches."""
+    rows = [row for row in study.rows if row.family == "gain" and row.position_violation_max]
+    for model in dict.fromkeys(row.model for row in rows):
+        points = sorted((row.values[0], row.position_violation_max or 0.0) for row in rows if row.model == model)
+        gain, least = min(points, key=lambda point: point[1])
+        below = slope([(x, y) for x, y in points if x <= gain / 2.0])
+        above = slope([(x, y) for x, y in points if x >= 2.0 * gain])
+        slopes = [f"{x:.2g} {side}" for x, side in ((below, "below"), (above, "above")) if x is not None]
+        law = f", slopes of log |Phi| {' and '.join(slopes)}" if slopes else ""
+        yield f"Baumgarte's gains on {model} with rk4: least |Phi| {least:.1e} m at {gain:.2g} r{law}."
+
+
+def slope(points: Sequence[tuple[float, float]]) -> float | None:
+    """Return the slope of log y over log x, fitted; None for fewer than three points."""
+    if len(points) < 3:
+        return None
+    x, y = ([math.log(point[k]) for point in points] for k in (0, 1))
+    middle = math.fsum(x) / len(x), math.fsum(y) / len(y)
+    square = math.fsum((a - middle[0]) ** 2 for a in x)
+    return math.fsum((a - middle[0]) * (b - middle[1]) for a, b in zip(x, y, strict=True)) / square
 
 
 def _penalties(study: Stress) -> Iterator[str]:
