@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING
@@ -55,6 +56,13 @@ def html_table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
 def math(box: Box) -> str:
     """Return a formula."""
     return f"<math>{mathml(box)}</math>"
+
+
+def vector_equation(text: str) -> str:
+    """Return an equation of `symgen.reading.row_words` with signs and indices as on paper."""
+    shown = escape(text).replace(" . ", " · ").replace(" - ", " − ").replace(" x ", " × ")
+    shown = re.sub(r"\b(omega|theta)(?=\()", lambda m: {"omega": "ω", "theta": "θ"}[m[1]], shown)
+    return re.sub(r"\b([ervu]|ω|θ)(?:_([xyz]))?\(", r"<b>\1</b><sub>\2</sub>(", shown).replace("<sub></sub>", "")
 
 
 def equation(line: Equation, tail: str = "") -> str:

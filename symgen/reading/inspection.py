@@ -27,6 +27,7 @@ from symgen.player.motion_page import PAGES
 from symgen.reading.jamming import jamming_numbers
 from symgen.reading.page import MOST_STRAIGHT, EquationPage, check_size
 from symgen.reading.quantity_names import input_names
+from symgen.reading.row_words import row_words
 from symgen.reading.structure import element_terms, shared_terms, structure
 from symgen.reading.typeset import LONGEST, texts, texts_by_terms
 from symgen.running.plan import Purpose
@@ -175,11 +176,12 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         tree = [{"body": x.body, "joint": x.joint or None, "on": x.parent if x.joint else None} for x in links]
         of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": tree}
     equations = formulate(mechanism)
-    show = texts(equations)
+    show, words = texts(equations), row_words(mechanism)
     values = parameter_values(whole, settings.parameters)
     parameters = [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters]
     facts: dict[str, Any] = {
         "mechanism": whole.name,
+        "space": whole.space,
         "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
         **of_tree,
         "title": whole.title,
@@ -201,6 +203,8 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
                 "name": row.name,
                 "joint": row.joint,
                 "unit": row.unit,
+                "words": words[row.name].words,
+                "vectors": words[row.name].vectors,
                 "phi": None if row.phi is None else show(row.phi),
                 "nu": show(row.nu),
                 "gamma": show(row.gamma),
@@ -397,6 +401,12 @@ def as_text(facts: dict[str, Any]) -> str:
     if facts["parameters"]:
         section("Parameters")
         lines += [f"{p['name']} = {p['value']:g} [{p['unit']}]" for p in facts["parameters"]]
+    if facts["rows"]:
+        space = facts["space"] == "spatial"  # there rows in Euler parameters show little
+        section("Rows in words" + ", and by vectors of bodies" * space)
+        for r in facts["rows"]:
+            vectors = f"; {r['vectors']}" if space and r["vectors"] else ""
+            lines.append(f"{r['name']}: {r['words']}{vectors}")
     section("Constraints Phi = 0")
     lines += [f"{r['name']} [{r['unit']}]: {r['phi'] or 'none (nonholonomic)'}" for r in facts["rows"]]
     section("Jacobian D: D v = nu")

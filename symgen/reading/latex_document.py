@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import InputError, nearest
 from symgen.base.escapes import latex_text
 from symgen.reading.boxes import latex
+from symgen.reading.row_words import row_words
 from symgen.reading.sheet import LINE, Equation, Sheet
 from symgen.reading.typeset import broken
 
@@ -79,6 +80,10 @@ def document(
         "f": _section(r"Forces $f$", _lines(sheet.forces()) or [r"$f = 0$"]),
         "energies": _section(_POWER if e.driving else "Energies and power", _lines(sheet.energies())),
     }
+    if whole and e.m:
+        held = row_words(mechanism)
+        items = [rf"\item {_words(r.name)}: {_words(held[r.name].words)}" for r in sheet.rows]
+        sections["Phi"] = _section("Rows in words", [r"\begin{itemize}", *items, r"\end{itemize}"]) + sections["Phi"]
     if not e.m:
         for part in ("Phi", "D", "nu", "gamma"):
             del sections[part]

@@ -33,9 +33,11 @@ from symgen.reading.html import (
     section,
     shortened,
     small,
+    vector_equation,
 )
 from symgen.reading.law import law
 from symgen.reading.listing import Computed, code_listing, computed, file_listing, sections
+from symgen.reading.row_words import row_words
 from symgen.reading.sheet import Sheet
 
 if TYPE_CHECKING:
@@ -114,6 +116,7 @@ class EquationPage:
         self.source = emit_model(self.program, self.e)
         self.parts = emit_law(self.law, self.program, self.e, method.summary, method.reference)
         self.places = sections(self.file)
+        self._words = row_words(self.mechanism)
         self.q: list[float] | None = None  # as described
         if self.run is not None:
             compiled, start = self.run.assembled.of_bodies
@@ -251,7 +254,13 @@ class EquationPage:
         for r in rows:
             unit = f'<span class="small">{escape(r.unit)}</span>'
             parts.append(f'<div id="row-{attribute(r.name)}"><h3>row {escape(r.name)} {unit}</h3>')
-            parts.append(equation(phi[r.name], " = 0") if r.name in phi else "<p>nonholonomic: it has no Phi</p>")
+            held = self._words[r.name]
+            parts.append(f"<p>{escape(held.words)}</p>")
+            scalar = equation(phi[r.name], " = 0") if r.name in phi else "<p>nonholonomic: it has no Phi</p>"
+            if self.mechanism.space == "spatial" and held.vectors and r.name in phi:
+                parts.append(f'<p class="vectors">{vector_equation(held.vectors)}</p>')
+                scalar = fold("Phi in coordinates of bodies" if self.mechanism.topology is None else "Phi", scalar)
+            parts.append(scalar)
             parts += [equation(nu[r.name])] if r.name in nu else []
             parts.append(equation(gamma[r.name]))
             parts.append(self._lines_of(r.name) if code else "")
