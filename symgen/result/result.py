@@ -19,7 +19,7 @@ from symgen.base.files import check_path, write_whole
 from symgen.base.memory import require
 from symgen.result.contract import contract
 from symgen.result.export import SAVED, netcdf, to_xarray, with_last_state, write_columns
-from symgen.result.labelled import Array, Labelled
+from symgen.result.labelled import Array, Labelled, columns_at
 from symgen.result.signals import TABLES, acceleration_table
 from symgen.result.tables import MotionTables
 
@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
+#: Errors that are less beside the motion are not drawn by default.
+NEGLIGIBLE = 1e-8
 #: Reason of a run that was stopped from outside.
 INTERRUPTED = "interrupted"
 
@@ -197,6 +199,22 @@ class Result(MotionTables):
         """Title of a plot."""
         status = self.status if self.reason is None else f"{self.status}: {self.reason}"
         return f"{self.mechanism}, {self.method}, {self.integrator} ({status})"
+
+    def overview(self) -> Labelled:
+        """Return coordinates, energies, and errors that are more than `NEGLIGIBLE` beside the motion."""
+        whole = self.whole(self.drawn)
+        if not len(self.t):
+            return whole
+        sizes = dict(zip(whole.names, np.nan_to_num(np.abs(whole.values)).max(axis=0).tolist(), strict=True))
+        lengths = [sizes[name] for name, unit in zip(self.q.names, self.q.units, strict=True) if unit == "m"]
+        scales = {
+            "energy.error": max(sizes[f"energy.{name}"] for name in ("kinetic", "potential", "work")),
+            "violation.position": max(lengths, default=0.0),
+            "violation.velocity": float(np.nan_to_num(np.abs(self.v.values)).max(initial=0.0)),
+        }
+        small = {name for name, scale in scales.items() if sizes[name] <= NEGLIGIBLE * scale}
+        small |= {"violation.acceleration"} if len(small - {"energy.error"}) == 2 else set()
+        return columns_at(whole, [i for i, name in enumerate(whole.names) if name not in small])
 
     # -- derived at the first use --------------------------------------------------------------------------------------
 

@@ -196,6 +196,10 @@ class Tables(ABC):
         chosen = tables or self.names
         return self._stacked([name for name, (table, _) in self._places.items() if table in chosen])
 
+    def overview(self) -> Labelled:
+        """Return the columns that a plot shows by default."""
+        return self.whole(self.drawn)
+
     def _stacked(self, names: Iterable[str]) -> Labelled:
         places = {name: self._places[name] for name in names}
         tables: dict[str, Labelled] = {t: getattr(self, t) for t in dict.fromkeys(t for t, _ in places.values())}
@@ -287,7 +291,7 @@ class Tables(ABC):
         names = words("plot", what)
 
         def draw() -> Any:
-            return drawing(self.along(over), self.select(names) if names else self.whole(self.drawn), self.title)
+            return drawing(self.along(over), self.select(names) if names else self.overview(), self.title)
 
         return plotted(path, draw)
 

@@ -105,3 +105,16 @@ def test_a_table_shows_its_last_row_in_place_of_one_more(capsys):
     assert main(["run", "n-four-bar:6", "--until", "0.002", "--step", "1e-3", "--integrator", "rk4"]) == 0  # 13 bodies
     shown = capsys.readouterr().out
     assert "more" not in shown and shown.count("coupler") == 6
+
+
+def test_a_plot_leaves_out_errors_that_are_rounding() -> None:
+    """Asked for by name they are drawn; errors that count are drawn anyway."""
+    model = symgen.load("slider-crank")
+    fine = model.simulate(until=0.5)
+    assert not {"energy.error", "violation.position", "violation.velocity"} & {*fine.overview().names}
+    assert {"crank.theta", "slider.x", "energy.total"} <= {*fine.overview().names}
+    assert "violation.position" in fine.select(["violations"]).names
+    coarse = model.simulate(
+        until=0.5, method="lagrange", integrator="euler", step=1e-3, max_violation=1.0, max_energy_error=1.0
+    )
+    assert {*coarse.overview().names} == {*coarse.whole(coarse.drawn).names}
