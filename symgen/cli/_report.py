@@ -56,7 +56,7 @@ def study_files(row: str) -> Callable[[F], F]:
     """
     options = (
         click.option(
-            *("-o", "--output"), metavar="FILE", help="Write a report: .html, .md, or .pdf printed by a browser."
+            *("-o", "--output"), metavar="FILE", help="Write a report: .html, .md, or .pdf by a browser or matplotlib."
         ),
         click.option("--csv", metavar="FILE", help=f"Write the {row}s to a CSV file."),
         units_option,

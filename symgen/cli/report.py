@@ -26,7 +26,7 @@ from symgen.cli._report import command_again
 )
 @click.option("--over", metavar="NAME", default="t", help="Draw curves over NAME, such as crank.theta.  [default: t]")
 @click.option(
-    "-o", "--output", metavar="FILE", help="The report: .html, .md, or .pdf printed by a browser.  [MODEL.html]"
+    "-o", "--output", metavar="FILE", help="The report: .html, .md, or .pdf by a browser or matplotlib.  [MODEL.html]"
 )
 def command(model: str, over: str, output: str | None, **values: Any) -> int:
     """Write one document of MODEL: drawing, motion, largest loads with their times, curves, frequencies at rest.
@@ -36,6 +36,7 @@ def command(model: str, over: str, output: str | None, **values: Any) -> int:
     from symgen.api import load
     from symgen.cli._progress import Bar
     from symgen.report.machine import machine
+    from symgen.report.paper import printer
     from symgen.report.write import check_report, write
 
     settings = Settings(**values)
@@ -47,4 +48,7 @@ def command(model: str, over: str, output: str | None, **values: Any) -> int:
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
     document = machine(loaded, result, command_again(), over)
     code = complain(f"failed: {result.reason}", FAILURE) if result.status == "failed" else OK
-    return write_files(code, {path: lambda file: write(document, file)}, lambda file: click.echo(f"written: {file}"))
+    by = f", {printer()}" if path.suffix.lower() == ".pdf" else ""
+    return write_files(
+        code, {path: lambda file: write(document, file)}, lambda file: click.echo(f"written: {file}{by}")
+    )

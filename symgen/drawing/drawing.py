@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -146,6 +147,12 @@ class Drawing:
         kind = file.suffix.lower().removeprefix(".")
         drawn, behind = self._drawn(), self._behind()
         return write_whole(file, lambda stream: write_pixels(stream, kind, drawn, behind, self.labels, self.caption))
+
+    def png(self) -> bytes:
+        """Return the picture as pixels."""
+        stream = io.BytesIO()
+        write_pixels(stream, "png", self._drawn(), self._behind(), self.labels, self.caption)
+        return stream.getvalue()
 
     def _repr_svg_(self) -> str:
         return self.svg

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 
@@ -25,6 +25,8 @@ class Picture:
         ``svg`` or ``png``.
     wide : bool
         Whether it needs the whole width of the page.
+    pixels : callable, optional
+        Returns a picture that is ``svg`` as ``png``, for paper without a browser.
     """
 
     name: str
@@ -33,6 +35,7 @@ class Picture:
     data: bytes
     kind: str
     wide: bool = False
+    pixels: Callable[[], bytes] | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)

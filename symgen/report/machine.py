@@ -99,7 +99,7 @@ def _motion(model: Model, result: Result) -> Iterator[Section]:
 
 
 def _sketch(name: str, caption: str, still: Drawing) -> Picture:
-    return Picture(name, caption, caption, still.svg.encode(), "svg")
+    return Picture(name, caption, caption, still.svg.encode(), "svg", pixels=still.png)
 
 
 def _loads(result: Result, along: Labelled) -> Iterator[DocumentTable]:

@@ -1,4 +1,4 @@
-"""PDF of a document, printed by a browser that is there."""
+"""PDF of a page, printed by a browser that is there."""
 
 from __future__ import annotations
 
@@ -17,25 +17,26 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome", "microsoft-e
 PATIENCE = 120.0
 
 
-def browser(where: str) -> str:
-    """Return the browser that prints.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
-    path = os.environ.get("SYMGEN_BROWSER") or next((p for p in map(shutil.which, NAMES) if p), None)
-    if path is None:
-        raise InputError(where, "Chromium, Chrome or Edge, which prints the PDF", "none; .html can be printed by any")
-    return path
+def browser() -> str | None:
+    """Return the browser that prints; None where there is none, and matplotlib draws the pages."""
+    return os.environ.get("SYMGEN_BROWSER") or next((p for p in map(shutil.which, NAMES) if p), None)
 
 
-def print_pdf(page: str, path: Path) -> Path:
+def printer() -> str:
+    """Return in words what makes a PDF."""
+    program = browser()
+    if program is None:
+        return "drawn by matplotlib, as there is no Chromium, Chrome or Edge (SYMGEN_BROWSER names one elsewhere)"
+    return f"printed by {program}"
+
+
+def print_pdf(program: str, page: str, path: Path) -> Path:
     """Print a page to a PDF file, which appears whole or not at all.
 
     Parameters
     ----------
+    program : str
+        The browser.
     page : str
         HTML without scripts and other files.
     path : Path
@@ -44,9 +45,8 @@ def print_pdf(page: str, path: Path) -> Path:
     Raises
     ------
     InputError
-        If there is no browser, or it does not print.
+        If it does not print.
     """
-    program = browser("report")
     with tempfile.TemporaryDirectory() as folder:
         source, target = Path(folder, "page.html"), Path(folder, "page.pdf")
         source.write_text(page, encoding="utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from symgen.base.files import need
@@ -93,7 +94,7 @@ def drawn(
         figure = Figure(figsize=(WIDTH * (1.9 if wide else 1.0), height), layout="constrained")
         draw(figure)
         data, kind = _file(figure)
-    return Picture(name, caption, alternative, data, kind, wide)
+    return Picture(name, caption, alternative, data, kind, wide, partial(_pixels, figure))
 
 
 def of_figure(name: str, caption: str, alternative: str, make: Callable[[], Figure]) -> Picture:
@@ -102,8 +103,9 @@ def of_figure(name: str, caption: str, alternative: str, make: Callable[[], Figu
     import matplotlib as mpl
 
     with mpl.rc_context(_LOOK):
-        data, kind = _file(make())
-    return Picture(name, caption, alternative, data, kind, True)
+        figure = make()
+        data, kind = _file(figure)
+    return Picture(name, caption, alternative, data, kind, True, partial(_pixels, figure))
 
 
 def _file(figure: Figure) -> tuple[bytes, str]:
@@ -118,9 +120,13 @@ def _file(figure: Figure) -> tuple[bytes, str]:
     data = text[text.index("<svg") :].encode()
     if len(data) <= LARGEST_SVG:
         return data, "svg"
+    return _pixels(figure), "png"
+
+
+def _pixels(figure: Figure) -> bytes:
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
-    return stream.getvalue(), "png"
+    return stream.getvalue()
 
 
 def below(figure: Figure, entries: int, columns: int = 2, handles: Any = None) -> None:

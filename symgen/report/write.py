@@ -18,6 +18,7 @@ from symgen.base.escapes import markdown_text
 from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
 from symgen.report.paper import browser, print_pdf
+from symgen.report.plain_pdf import plain_pdf
 from symgen.study.comparison.comparison_rows import Study
 from symgen.study.saving import REPORTS
 
@@ -39,8 +40,6 @@ def check_report(where: str, path: Path) -> None:
         If the ending is not known, matplotlib is missing, or the file cannot be written.
     """
     check_path(where, path, WRITTEN, "plot")
-    if path.suffix.lower() == ".pdf":
-        browser(where)
     if path.suffix.lower() == ".md" and _folder(path).exists() and not _folder(path).is_dir():
         raise InputError(where, f"'{_folder(path)}' to be a folder, for the pictures", "a file of that name")
 
@@ -53,14 +52,15 @@ def write(document: Document, path: Path) -> Path:
     document : Document
         The report.
     path : Path
-        ``.html``: one file that opens without a network; ``.pdf``: the same, printed by a browser; ``.md``:
-        pictures go into the folder ``NAME-files`` beside it.
+        ``.html``: one file that opens without a network; ``.pdf``: the same, printed by a browser, or drawn by
+        matplotlib where there is none; ``.md``: pictures go into the folder ``NAME-files`` beside it.
     """
     check_report("report", path)
     if path.suffix.lower() == ".html":
         return write_whole(path, html(document))
     if path.suffix.lower() == ".pdf":
-        return print_pdf(html(document), path)
+        program = browser()
+        return write_whole(path, plain_pdf(document)) if program is None else print_pdf(program, html(document), path)
     folder, is_new = _folder(path), False
     files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
     try:

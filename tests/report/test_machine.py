@@ -8,7 +8,9 @@ import pytest
 import symgen
 from symgen.base.errors import InputError
 from symgen.report import paper
+from symgen.report.document import Document, DocumentTable, Section
 from symgen.report.machine import machine
+from symgen.report.plain_pdf import plain_pdf
 from symgen.report.write import html, markdown, write
 
 
@@ -53,13 +55,36 @@ def test_frequencies_at_rest_are_those_of_modes():
     assert frequency == pytest.approx(float(model.modes().frequencies[0]), rel=1e-5)
 
 
-def test_a_pdf_is_refused_where_no_browser_is(driven, tmp_path, monkeypatch):
+@pytest.fixture
+def no_browser(monkeypatch):
     monkeypatch.delenv("SYMGEN_BROWSER", raising=False)
     monkeypatch.setattr(paper.shutil, "which", lambda name: None)
+
+
+@pytest.mark.usefixtures("no_browser")
+def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
+    """Every picture of the report is in it as pixels, on pages of A4."""
     document = machine(*driven)
-    with pytest.raises(InputError, match=r"expected Chromium, Chrome or Edge, which prints the PDF, got none"):
-        write(document, tmp_path / "a.pdf")
-    assert not (tmp_path / "a.pdf").exists()
+    data = write(document, tmp_path / "a.pdf").read_bytes()
+    assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) >= 4
+    assert re.search(rb"/MediaBox \[ 0 0 595\.4\d* 841\.6\d* \]", data)
+    drawn = len(re.findall(rb"/Subtype /Image\b", data)) - len(re.findall(rb"/SMask ", data))
+    assert drawn == len(document.pictures())
+
+
+@pytest.mark.usefixtures("no_browser")
+def test_long_words_and_wide_tables_stay_on_the_paper(tmp_path):
+    wide = DocumentTable("a table", tuple(f"column {i}" for i in range(40)), (("x" * 30,) * 40,) * 200)
+    hostile = Section("$\\frac{$ & <b>", ("word " * 3000, "y" * 900), ("finding",), (wide,), parts=(Section("part"),))
+    pages = len(re.findall(rb"/Type /Page\b", plain_pdf(Document("t", (), (), "c" * 700, (hostile,)))))
+    assert pages > 3
+
+
+@pytest.mark.usefixtures("no_browser")
+def test_the_command_names_what_made_a_pdf(cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = cli("report", "pendulum", "--until", "0.2", "-o", "a.pdf")
+    assert code == 0 and out.startswith("written: a.pdf, drawn by matplotlib, as there is no Chromium")
 
 
 def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
