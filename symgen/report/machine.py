@@ -128,10 +128,12 @@ def _curves(result: Result, along: Labelled) -> Iterator[Picture]:
     loads, joints = result.whole(("elements", "magnitudes")), result.whole(("joint_coordinates", "outputs"))
     loads = columns_at(loads, [i for i, unit in enumerate(loads.units) if unit in LOADS])
     joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
+    errors = result.overview()
+    errors = columns_at(errors, [i for i, name in enumerate(errors.names) if name not in result.q.names])
     parts = [
         ("loads", "Efforts, forces and powers", loads),
         ("joints", "Coordinates of joints, and outputs", joints),
-        ("energy", "Energies, and violations of constraints", result.whole(("energy", "violations"))),
+        ("energy", "Energies, and errors beyond rounding", errors),
     ]
     for name, caption, table in parts:
         if table.names and len(result.t) > 1:
