@@ -9,13 +9,11 @@ from typing import Any
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
 from symgen.describe.formats._frames import (
-    ORIGIN,
     Frame,
     Matrix,
     Vector,
     about,
     across,
-    dot,
     plus,
     quaternion,
     scaled,
@@ -33,6 +31,7 @@ from symgen.describe.formats._robot import (
     Robot,
     turned_inertia,
 )
+from symgen.describe.formats._solids import Solid, together
 from symgen.describe.names import LONGEST, RESERVED
 
 _ANGLE, _SLIDE = "angle", "displacement"
@@ -153,21 +152,13 @@ class _Description:
     def _body(self, name: str, members: list[Link]) -> dict[str, Any]:
         place, back = self.place(name), self.place(name).inverse()
         frames = [back @ link.place for link in members]
-        mass = sum(link.mass for link in members)
-        centres = [frame.point(link.centre) for frame, link in zip(frames, members, strict=True)]
-        centre = ORIGIN
-        if mass > 0.0:
-            for link, at in zip(members, centres, strict=True):
-                centre = plus(centre, scaled(link.mass / mass, at))
-        inertia = [[0.0] * 3 for _ in range(3)]
-        for link, frame, at in zip(members, frames, centres, strict=True):
-            tensor, arm = turned_inertia(link.inertia, frame.rotation), plus(at, scaled(-1.0, centre))
-            for i in range(3):
-                for j in range(3):
-                    inertia[i][j] += tensor[i][j] + link.mass * (dot(arm, arm) * (i == j) - arm[i] * arm[j])
-        table: dict[str, Any] = {"mass": float(f"{mass:.15g}"), "inertia": _tensor(inertia)}
-        if any(centre):
-            table["centre_of_mass"] = _tidy(centre)
+        whole = together(
+            Solid(link.mass, frame.point(link.centre), turned_inertia(link.inertia, frame.rotation))
+            for frame, link in zip(frames, members, strict=True)
+        )
+        table: dict[str, Any] = {"mass": float(f"{whole.mass:.15g}"), "inertia": _tensor(whole.inertia)}
+        if any(whole.centre):
+            table["centre_of_mass"] = _tidy(whole.centre)
         points = dict[str, Any]()
         for link, frame in zip(members, frames, strict=True):
             if link.name != name:
@@ -211,6 +202,9 @@ class _Description:
                 second = turned(about(axis, c.value), first)
             pair = [turned(inner[0].rotation, first), turned(inner[1].rotation, second)]
             table["reference"] = [_tidy(x) for x in pair]
+        if c.kind == "universal":
+            directions = c.axis, c.second or c.axis
+            table["axes"] = [_tidy(turned(f.rotation, unit(x))) for f, x in zip(inner, directions, strict=True)]
         if c.kind == "translational" and c.value:
             table["at"][0] = _tidy(plus(inner[0].origin, turned(inner[0].rotation, scaled(-c.value, unit(c.axis)))))
         if c.rotor and c.kind == "revolute":
@@ -338,7 +332,7 @@ def _tidy(vector: Iterable[float]) -> list[float]:
     return [0.0 if abs(x) <= least else float(f"{x:.15g}") for x in numbers]
 
 
-def _tensor(m: list[list[float]]) -> Any:
+def _tensor(m: Matrix) -> Any:
     """Return the entries of a tensor: three where products are rounding, else six."""
     entries = [m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]]
     least = _ROUNDING * max(map(abs, entries))

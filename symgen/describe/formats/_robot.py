@@ -10,7 +10,9 @@ from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times
 #: The ground among links: a name that no link has.
 GROUND = ""
 
-Kind = Literal["fixed", "floating", "revolute", "translational", "spherical", "cylindrical", "planar", "rigid"]
+Kind = Literal[
+    "fixed", "floating", "revolute", "translational", "spherical", "cylindrical", "planar", "rigid", "universal"
+]
 
 
 @dataclass(frozen=True)
@@ -81,8 +83,8 @@ class Connection:
         The frame of the joint in the ground frame where the motion starts.
     other : Frame or None
         Where the child has it, if the loop that it closes is open there.
-    axis : Vector
-        In that frame.
+    axis, second : Vector, Vector or None
+        In that frame; the second axis of a universal joint.
     value : float
         Coordinate where the motion starts [rad or m].
     damping, stiffness, rest : float
@@ -102,6 +104,7 @@ class Connection:
     at: Frame = field(default_factory=Frame)
     other: Frame | None = None
     axis: Vector = (0.0, 0.0, 1.0)
+    second: Vector | None = None
     value: float = 0.0
     damping: float = 0.0
     stiffness: float = 0.0
@@ -164,6 +167,20 @@ class Robot:
     actuators: list[Actuator] = field(default_factory=list)
     gravity: Vector = (0.0, 0.0, -9.81)
     left_out: list[LeftOut] = field(default_factory=list)
+
+
+#: What drives a joint: its name and unit.
+_EFFORTS: dict[str, tuple[str, str]] = {"revolute": ("torque", "N m"), "translational": ("force", "N")}
+
+
+def actuators_of(connections: list[Connection], followers: list[Follower]) -> list[Actuator]:
+    """Return an input for each joint that turns or slides and follows no other."""
+    led = {f.joint for f in followers}
+    return [
+        Actuator(f"{c.name}_{_EFFORTS[c.kind][0]}", {c.name: 1.0}, unit=_EFFORTS[c.kind][1])
+        for c in connections
+        if c.kind in _EFFORTS and c.name not in led
+    ]
 
 
 def turned_inertia(inertia: Matrix, rotation: Matrix) -> Matrix:

@@ -109,6 +109,12 @@ def triple(where: str, text: str) -> Vector:
     return x, y, z
 
 
+def colour_of(where: str, text: str) -> str:
+    """Return red, green, blue and opacity as ``#rrggbb``."""
+    shares = numbers(where, text, 4)[:3]
+    return "#" + "".join(f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in shares)
+
+
 def origin_of(where: str, element: ET.Element | None) -> Frame:
     """Return the frame of attributes ``xyz`` and ``rpy``; the outer frame itself without an element."""
     if element is None:

@@ -10,16 +10,16 @@ from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.formats._frames import Frame, Matrix, about, scaled
 from symgen.describe.formats._robot import (
     GROUND,
-    Actuator,
     Connection,
     Follower,
     Kind,
     LeftOut,
     Link,
     Robot,
+    actuators_of,
     turned_inertia,
 )
-from symgen.describe.formats._xml import number, numbers, origin_of, read_tree, triple
+from symgen.describe.formats._xml import colour_of, number, origin_of, read_tree, triple
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -31,8 +31,6 @@ _KINDS: dict[str, Kind] = {
     "spherical": "spherical",
     "ball": "spherical",
 }
-#: What drives a joint: its name and unit.
-_EFFORTS: dict[str, tuple[str, str]] = {"revolute": ("torque", "N m"), "translational": ("force", "N")}
 #: Elements beside links and joints, which say nothing about the motion of the mechanism.
 _SILENT = {
     "gazebo": "settings of another program",
@@ -83,19 +81,13 @@ class _Reader:
             if not self.floating:
                 connections.insert(0, Connection(f"base of {root}", "fixed", GROUND, root))
         followers = [f for e, c in joints if (f := self._mimic(e, c, names)) is not None]
-        led = {f.joint for f in followers}
-        actuators = [
-            Actuator(f"{c.name}_{_EFFORTS[c.kind][0]}", {c.name: 1.0}, unit=_EFFORTS[c.kind][1])
-            for c in connections
-            if c.kind in _EFFORTS and c.name not in led
-        ]
         self._leave_out(joints)
         return Robot(
             self.tree.get("name", "robot"),
             links,
             connections + self._loops(links),
             followers,
-            actuators,
+            actuators_of(connections, followers),
             left_out=self.left_out,
         )
 
@@ -290,8 +282,7 @@ def _colour(where: str, element: ET.Element | None) -> str:
     """Return a colour as ``#rrggbb``; empty without one."""
     if element is None:
         return ""
-    shares = numbers(where, element.get("rgba", ""), 4)[:3]
-    return "#" + "".join(f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in shares)
+    return colour_of(where, element.get("rgba", ""))
 
 
 KIND = Urdf

@@ -1,0 +1,73 @@
+"""Mass and inertia of solids of constant density, centred at the origin of their frame, and of several together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from symgen.describe.formats._frames import ORIGIN, Matrix, Vector, dot, plus, scaled
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A solid: its mass [kg], centre of mass [m], and inertia about it [kg m^2]."""
+
+    mass: float
+    centre: Vector
+    inertia: Matrix
+
+    def times(self, factor: float) -> Solid:
+        """Return the solid with another density."""
+        a, b, c = (scaled(factor, row) for row in self.inertia)
+        return Solid(factor * self.mass, self.centre, (a, b, c))
+
+
+def together(solids: Iterable[Solid]) -> Solid:
+    """Return solids as one, by Steiner."""
+    solids = list(solids)
+    mass, centre = sum(solid.mass for solid in solids), ORIGIN
+    if mass > 0.0:
+        for solid in solids:
+            centre = plus(centre, scaled(solid.mass / mass, solid.centre))
+    inertia = [[0.0] * 3 for _ in range(3)]
+    for solid in solids:
+        arm = plus(solid.centre, scaled(-1.0, centre))
+        for i in range(3):
+            for j in range(3):
+                far = dot(arm, arm) * (i == j) - arm[i] * arm[j]
+                inertia[i][j] += solid.inertia[i][j] + solid.mass * far
+    (a, b, c), (d, e, f), (g, h, k) = inertia
+    return Solid(mass, centre, ((a, b, c), (d, e, f), (g, h, k)))
+
+
+def _solid(mass: float, x: float, y: float, z: float) -> Solid:
+    return Solid(mass, ORIGIN, ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)))
+
+
+def box(size: Vector) -> Solid:
+    """Return a box of density 1."""
+    a, b, c = size
+    m = a * b * c
+    return _solid(m, m * (b * b + c * c) / 12.0, m * (a * a + c * c) / 12.0, m * (a * a + b * b) / 12.0)
+
+
+def ellipsoid(radii: Vector) -> Solid:
+    """Return an ellipsoid of density 1."""
+    a, b, c = radii
+    m = 4.0 / 3.0 * math.pi * a * b * c
+    return _solid(m, m * (b * b + c * c) / 5.0, m * (a * a + c * c) / 5.0, m * (a * a + b * b) / 5.0)
+
+
+def cylinder(radius: float, length: float) -> Solid:
+    """Return a cylinder of density 1, along z."""
+    m = math.pi * radius**2 * length
+    across = m * (3.0 * radius**2 + length**2) / 12.0
+    return _solid(m, across, across, m * radius**2 / 2.0)
+
+
+def capsule(radius: float, length: float) -> Solid:
+    """Return a cylinder of density 1 along z with hemispheres at its ends."""
+    middle, m = cylinder(radius, length), 4.0 / 3.0 * math.pi * radius**3
+    across = middle.inertia[0][0] + m * (0.4 * radius**2 + length**2 / 4.0 + 3.0 * length * radius / 8.0)
+    return _solid(middle.mass + m, across, across, middle.inertia[2][2] + 0.4 * m * radius**2)

@@ -1,0 +1,429 @@
+"""SDF: the format of Gazebo, with poses in chains of frames and loops that need no dialect."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.formats._frames import Frame, Vector, of_quaternion, of_rpy, transposed, turned
+from symgen.describe.formats._robot import (
+    GROUND,
+    Connection,
+    Follower,
+    Kind,
+    LeftOut,
+    Link,
+    Robot,
+    actuators_of,
+    turned_inertia,
+)
+from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, together
+from symgen.describe.formats._xml import colour_of, numbers, read_tree, triple
+
+_KINDS: dict[str, Kind] = {
+    "fixed": "fixed",
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "translational",
+    "ball": "spherical",
+    "universal": "universal",
+}
+_MODEL, _WORLD = "__model__", "world"
+#: Density of collisions without one [kg/m^3].
+_DENSITY = 1000.0
+#: Elements of models and links that are left out, with the reason.
+_SILENT = {
+    "plugin": "code of another program",
+    "sensor": "outputs are written by the user",
+    "light": "pictures have their own",
+    "gripper": "contacts are left out",
+}
+
+
+class Sdf:
+    """Reads models, nested ones too: links, joints, frames, inertia from shapes, limits, `dynamics`, `mimic`."""
+
+    SUFFIXES: ClassVar[tuple[str, ...]] = (".sdf", ".world")
+    ROOT: ClassVar[str] = "sdf"
+
+    @staticmethod
+    def read(path: Path, floating: bool) -> Robot:
+        """Return the robot of a file; what no joint holds is free, as in Gazebo, so `floating` changes nothing."""
+        return _Reader(path).robot()
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """A frame of the file: the frame that its pose is in, and the link or frame that it moves with."""
+
+    base: str
+    pose: Frame
+    attached: str
+
+
+class _Reader:
+    """The robot of a file; names have their models before them, ``arm::hand``."""
+
+    def __init__(self, path: Path) -> None:
+        self.source = path.name
+        self.tree = read_tree(path, "sdf")
+        self.version = self._version(self.tree.get("version", ""))
+        self.frames = {_WORLD: _Placed("", Frame(), _WORLD)}
+        self.places = {_WORLD: Frame()}
+        self.links, self.left_out = dict[str, Link](), list[LeftOut]()
+        self.elements = list[tuple[str, ET.Element]]()  # joints, each with the prefix of its model
+        self.static = list[str]()
+
+    def robot(self) -> Robot:
+        worlds = self.tree.findall("world")
+        if len(worlds) > 1:
+            raise InputError(self.source, "one world", f"{len(worlds)} of them")
+        outer = worlds[0] if worlds else self.tree
+        models = outer.findall("model")
+        if not models:
+            raise InputError(self.source, "a file with a model", "none")
+        for element in self.tree.iter("include"):
+            hint = "insert the file: gz sdf -p FILE"
+            raise InputError(f"{self.source}: include", "one file", quoted(_text(element, "uri")), hint)
+        for model in models:
+            own = self._name(model)
+            prefix = "" if len(models) == 1 else f"{own}::"
+            self._model(model, prefix, _WORLD, self._pose(model, "", _WORLD), False)
+        for name, link in self.links.items():
+            link.place = self._place(name)
+        connections, followers = list[Connection](), list[Follower]()
+        for prefix, element in self.elements:
+            connections.append(self._joint(element, prefix))
+        names = [c.name for c in connections]
+        for prefix, element in self.elements:
+            followers += self._mimic(element, prefix, names)
+        connections = self._fixed(connections)
+        self._leave_out()
+        gravity = _text(outer, "gravity")
+        return Robot(
+            self._name(models[0]),
+            self.links,
+            connections,
+            followers,
+            actuators_of(connections, followers),
+            triple(f"{self.source}: gravity", gravity) if gravity else (0.0, 0.0, -9.8),
+            self.left_out,
+        )
+
+    # -- frames ------------------------------------------------------------------------------------------------------
+
+    def _model(self, model: ET.Element, prefix: str, base: str, pose: Frame, static: bool) -> None:
+        """Note the frames of a model, its links and joints, and the models in it."""
+        where = f"{self.source}: model {quoted(self._name(model))}"
+        if model.get("placement_frame"):
+            raise InputError(where, "a model placed by its own frame", "a placement_frame", "write its pose instead")
+        own, static = f"{prefix}{_MODEL}", static or _flag(model, "static")
+        links = [prefix + self._name(link) for link in model.findall("link")]
+        inner = [(nested, f"{prefix}{self._name(nested)}") for nested in model.findall("model")]
+        canonical = model.get("canonical_link", "")
+        attached = prefix + canonical if canonical else next(iter(links), "")
+        if not attached and inner:
+            attached = f"{inner[0][1]}::{_MODEL}"
+        self._add(own, _Placed(base, pose, attached), where)
+        for link in model.findall("link"):
+            name = prefix + self._name(link)
+            self._add(name, _Placed(self._base(link, prefix, own), self._pose(link), name), where)
+            self.links[name] = self._link(link, name)
+            self.static += [name] * static
+        for frame in model.findall("frame"):
+            to = frame.get("attached_to", "")
+            to = prefix + to if to else own
+            self._add(prefix + self._name(frame), _Placed(self._base(frame, prefix, to), self._pose(frame), to), where)
+        for joint in model.findall("joint"):
+            child = _text(joint, "child")
+            to = _WORLD if child == _WORLD else prefix + child
+            self._add(prefix + self._name(joint), _Placed(self._base(joint, prefix, to), self._pose(joint), to), where)
+            self.elements.append((prefix, joint))
+        for nested, name in inner:
+            self._model(nested, f"{name}::", self._base(nested, prefix, own), self._pose(nested), static)
+
+    def _add(self, name: str, placed: _Placed, where: str) -> None:
+        if name in self.frames:
+            raise InputError(where, "a name used once", f"{quoted(name)} twice")
+        self.frames[name] = placed
+
+    def _base(self, element: ET.Element, prefix: str, otherwise: str) -> str:
+        """Return the frame that the pose of an element is in."""
+        pose = element.find("pose")
+        name = "" if pose is None else pose.get("relative_to", pose.get("frame", ""))
+        return prefix + name if name else otherwise
+
+    def _pose(self, element: ET.Element, where: str = "", base: str = "") -> Frame:
+        """Return the pose of an element; at the top of a file it has no other base."""
+        pose = element.find("pose")
+        if pose is None:
+            return Frame()
+        where = f"{self.source}: pose of {quoted(element.get('name', element.tag))}"
+        if base == _WORLD and pose.get("relative_to", _WORLD) != _WORLD:
+            raise InputError(where, "a pose in the world", quoted(pose.get("relative_to", "")))
+        text, factor = pose.text or "", 1.0
+        if not text.strip():
+            return Frame()
+        if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
+            x, y, z, *e = numbers(where, text, 7)
+            if not any(e):
+                raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
+            return Frame((x, y, z), of_quaternion((e[3], *e[:3])))
+        if pose.get("degrees", "false") in ("true", "1"):
+            factor = 0.017453292519943295
+        x, y, z, *angles = numbers(where, text, 6)
+        return Frame((x, y, z), of_rpy([factor * angle for angle in angles]))
+
+    def _frame(self, name: str, where: str) -> str:
+        """Return the name of a frame; a model is its own frame."""
+        if name not in self.frames and f"{name}::{_MODEL}" in self.frames:
+            name = f"{name}::{_MODEL}"
+        if name not in self.frames:
+            raise InputError(where, "the name of a frame", quoted(name), nearest(name, self.frames))
+        return name
+
+    def _place(self, name: str) -> Frame:
+        """Return the place of a frame in the ground frame."""
+        chain, at = list[str](), name
+        while at not in self.places:
+            if at in chain:
+                raise InputError(f"{self.source}: frame {quoted(at)}", "poses in chains", "a ring of them")
+            chain.append(at)
+            at = self._frame(self.frames[at].base, f"{self.source}: pose of {quoted(at)}, relative_to")
+        for at in reversed(chain):
+            base = self._frame(self.frames[at].base, self.source)
+            self.places[at] = self.places[base] @ self.frames[at].pose
+        return self.places[name]
+
+    def _link_of(self, name: str, where: str) -> str:
+        """Return the link that a frame moves with; empty for the ground."""
+        passed, at = set[str](), self._frame(name, where)
+        while at not in self.links:
+            if at == _WORLD:
+                return GROUND
+            if at in passed or not self.frames[at].attached:
+                raise InputError(where, "a frame that a link carries", quoted(name))
+            passed.add(at)
+            at = self._frame(self.frames[at].attached, where)
+        return at
+
+    # -- links -------------------------------------------------------------------------------------------------------
+
+    def _link(self, element: ET.Element, name: str) -> Link:
+        where = f"{self.source}: link {quoted(name)}"
+        link, inertial = Link(name), element.find("inertial")
+        if inertial is not None and inertial.get("auto", "false") in ("true", "1"):
+            solid = self._from_shapes(element, inertial, where)
+        else:  # what a file leaves out is 1 there
+            at = Frame() if inertial is None else self._pose(inertial)
+            mass = _number(where, inertial, "mass", 1.0)
+            inertia = None if inertial is None else inertial.find("inertia")
+            a = {
+                key: _number(where, inertia, f"i{key}", 1.0 if key[0] == key[1] else 0.0)
+                for key in ("xx", "yy", "zz", "xy", "xz", "yz")
+            }
+            tensor = (a["xx"], a["xy"], a["xz"]), (a["xy"], a["yy"], a["yz"]), (a["xz"], a["yz"], a["zz"])
+            solid = Solid(mass, at.origin, turned_inertia(tensor, at.rotation))
+        if solid.mass < 0.0:
+            raise InputError(f"{where}, mass", "a mass of 0 or above", repr(solid.mass))
+        link.mass, link.centre, link.inertia = solid.mass, solid.centre, solid.inertia
+        for visual in element.findall("visual"):
+            link.shapes += self._shape(visual, where)
+        if _text(element, "gravity") in ("false", "0"):
+            self.left_out.append(LeftOut("a link without gravity", name, "gravity acts on all bodies", True))
+        return link
+
+    def _from_shapes(self, element: ET.Element, inertial: ET.Element, where: str) -> Solid:
+        """Return the inertia of the shapes of all collisions."""
+        usual, solids = _number(where, inertial, "density", _DENSITY), list[Solid]()
+        for collision in element.findall("collision"):
+            at = f"{where}, collision {quoted(collision.get('name', ''))}"
+            density = _number(at, collision, "density", usual)
+            solid, pose = self._solid(collision, at), self._pose(collision)
+            tensor = turned_inertia(solid.inertia, pose.rotation)
+            solids.append(Solid(solid.mass, pose.point(solid.centre), tensor).times(density))
+        if not solids:
+            raise InputError(f"{where}, inertial auto", "a link with collisions", "none")
+        whole = together(solids)
+        mass = _number(where, inertial, "mass", whole.mass)
+        return whole.times(mass / whole.mass)
+
+    def _solid(self, collision: ET.Element, where: str) -> Solid:
+        """Return the solid of a collision, of density 1."""
+        for part in collision.iterfind("geometry/*"):
+            at = f"{where}, {part.tag}"
+            if part.tag == "box":
+                return box(_sizes(at, _text(part, "size")))
+            if part.tag == "ellipsoid":
+                return ellipsoid(_sizes(at, _text(part, "radii")))
+            if part.tag in ("sphere", "cylinder", "capsule"):
+                radius = _positive(at, part, "radius")
+                if part.tag == "sphere":
+                    return ellipsoid((radius,) * 3)
+                length = _positive(at, part, "length")
+                return (cylinder if part.tag == "cylinder" else capsule)(radius, length)
+            known = "box, sphere, cylinder, capsule or ellipsoid"
+            raise InputError(f"{where}, inertial auto", known, quoted(part.tag), "write mass and inertia")
+        raise InputError(where, "a collision with a shape", "none")
+
+    def _shape(self, visual: ET.Element, where: str) -> list[dict[str, Any]]:
+        look: dict[str, Any] = {"frame": self._pose(visual)}
+        for key in ("diffuse", "ambient"):
+            if (text := _text(visual, f"material/{key}")) and "colour" not in look:
+                rgb = text.split()[:3]
+                look["colour"] = colour_of(f"{where}, {key}", " ".join([*rgb, "1"]))
+        for part in visual.iterfind("geometry/*"):
+            at = f"{where}, {part.tag}"
+            if part.tag == "box":
+                return [look | {"type": "box", "size": triple(at, _text(part, "size"))}]
+            if part.tag == "sphere":
+                return [look | {"type": "sphere", "radius": _positive(at, part, "radius")}]
+            if part.tag in ("cylinder", "capsule"):
+                sizes = {key: _positive(at, part, key) for key in ("radius", "length")}
+                return [look | {"type": "cylinder"} | sizes]
+        return []
+
+    # -- joints ------------------------------------------------------------------------------------------------------
+
+    def _joint(self, element: ET.Element, prefix: str) -> Connection:
+        name = prefix + self._name(element)
+        where = f"{self.source}: joint {quoted(name)}"
+        sort = element.get("type", "")
+        if sort not in _KINDS:
+            raise InputError(f"{where}, type", f"one of {', '.join(_KINDS)}", quoted(sort), nearest(sort, _KINDS))
+        ends = list[str]()
+        for tag in ("parent", "child"):
+            text = _text(element, tag)
+            ends.append(self._link_of(_WORLD if text == _WORLD else prefix + text, f"{where}, {tag}"))
+        connection = Connection(name, _KINDS[sort], ends[0], ends[1], self._place(name))
+        axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
+        connection.axis, connection.second = axes[0] or (0.0, 0.0, 1.0), axes[1]
+        if connection.kind == "universal" and None in axes:
+            raise InputError(where, "two axes of a universal joint", "less")
+        axis = element.find("axis")
+        if axis is None or connection.kind not in ("revolute", "translational"):
+            return connection
+        dynamics, limit = axis.find("dynamics"), axis.find("limit")
+        connection.damping = _number(where, dynamics, "damping")
+        connection.friction = _number(where, dynamics, "friction")
+        connection.stiffness = _number(where, dynamics, "spring_stiffness")
+        connection.rest = _number(where, dynamics, "spring_reference")
+        lower, upper = (_number(where, limit, key, side) for key, side in (("lower", -1e16), ("upper", 1e16)))
+        if sort != "continuous" and lower < upper:
+            connection.lower = lower if lower > -1e15 else None
+            connection.upper = upper if upper < 1e15 else None
+        return connection
+
+    def _axis(self, element: ET.Element, tag: str, name: str, prefix: str, where: str) -> Vector | None:
+        """Return an axis in the frame of the joint."""
+        axis = element.find(tag)
+        if axis is None:
+            return None
+        xyz, where = axis.find("xyz"), f"{where}, {tag}"
+        direction = triple(where, (xyz.text or "" if xyz is not None else "") or "0 0 1")
+        if not any(direction):
+            raise InputError(where, "an axis other than 0 0 0", "0 0 0")
+        frame = "" if xyz is None else xyz.get("expressed_in", "")
+        if _flag(axis, "use_parent_model_frame") or self.version < (1, 5):
+            frame = frame or _MODEL
+        if not frame:
+            return direction
+        own = self._place(self._frame(prefix + frame, f"{where}, expressed_in"))
+        return turned(transposed(self._place(name).rotation), turned(own.rotation, direction))
+
+    def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[Follower]:
+        mimic = element.find("axis/mimic")
+        if mimic is None or _KINDS[element.get("type", "")] not in ("revolute", "translational"):
+            return
+        name = prefix + self._name(element)
+        where = f"{self.source}: joint {quoted(name)}, mimic"
+        leader = prefix + mimic.get("joint", "")
+        if leader not in names or leader == name:
+            raise InputError(where, "the name of another joint", quoted(leader), nearest(leader, names))
+        ratio, offset, zero = (_number(where, mimic, key) for key in ("multiplier", "offset", "reference"))
+        yield Follower(f"{name}_mimic", name, leader, (offset - ratio * zero, ratio))
+
+    def _fixed(self, connections: list[Connection]) -> list[Connection]:
+        """Return the joints, fixed ones away from the ground: each link has one that holds it; others close a ring."""
+        beside = dict[str, list[Connection]]()
+        fixed = [c for c in connections if c.kind == "fixed"]
+        fixed += [Connection(f"{name} stays", "fixed", GROUND, name) for name in self.static]
+        for c in fixed:
+            for end in (c.parent, c.child):
+                beside.setdefault(end, []).append(c)
+        held, seen = list[Connection](), set[str]()
+        for root in (GROUND, *self.links):
+            waiting = [] if root in seen else [root]
+            seen.add(root)
+            while waiting:
+                link = waiting.pop()
+                for c in beside.get(link, ()):
+                    other = c.child if c.parent == link else c.parent
+                    if other not in seen:
+                        seen.add(other)
+                        waiting.append(other)
+                        held.append(Connection(c.name, "fixed", link, other))
+        return [*held, *(c for c in connections if c.kind != "fixed")]
+
+    # -- the rest ----------------------------------------------------------------------------------------------------
+
+    def _name(self, element: ET.Element) -> str:
+        name = element.get("name", "")
+        if not name.strip() or "::" in name:
+            raise InputError(f"{self.source}: {element.tag}", "an element with a name without '::'", quoted(name))
+        return name
+
+    def _version(self, text: str) -> tuple[int, ...]:
+        parts = text.split(".")
+        if not all(part.isdecimal() for part in parts) or len(parts) != 2:
+            raise InputError(f"{self.source}: sdf, version", "a version such as 1.9", quoted(text))
+        return tuple(map(int, parts))
+
+    def _leave_out(self) -> None:
+        touching = sum(1 for link in self.tree.iter("link") if link.find("collision") is not None)
+        if touching:
+            self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
+        if meshes := sum(1 for visual in self.tree.iter("visual") for _ in visual.iterfind("geometry/mesh")):
+            self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
+        for tag, why in _SILENT.items():
+            if count := sum(1 for _ in self.tree.iter(tag)):
+                self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", why, tag == "plugin"))
+        limited = sum(1 for limit in self.tree.iter("limit") if _text(limit, "effort") or _text(limit, "velocity"))
+        if limited:
+            what = "limits of effort and speed"
+            self.left_out.append(LeftOut(what, f"{limited} joints", "inputs take any value", False))
+
+
+def _text(element: ET.Element, path: str) -> str:
+    """Return the text of an inner element; empty without it."""
+    return (element.findtext(path) or "").strip()
+
+
+def _flag(element: ET.Element, path: str) -> bool:
+    return _text(element, path) in ("true", "1")
+
+
+def _number(where: str, element: ET.Element | None, key: str, default: float = 0.0) -> float:
+    """Return the number of an inner element, or `default` without it."""
+    text = "" if element is None else _text(element, key)
+    if text.lower() in ("inf", "+inf", "-inf"):  # of limits
+        return -1e16 if text[0] == "-" else 1e16
+    return numbers(f"{where}, {key}", text, 1)[0] if text else default
+
+
+def _positive(where: str, element: ET.Element, key: str) -> float:
+    return _sizes(where, " ".join([_text(element, key)] * 3))[0]
+
+
+def _sizes(where: str, text: str) -> Vector:
+    sizes = triple(where, text)
+    if min(sizes) <= 0.0:
+        raise InputError(where, "sizes above 0", quoted(text))
+    return sizes
+
+
+KIND = Sdf
