@@ -259,8 +259,9 @@ class Joint(msgspec.Struct, frozen=True):
 
 
 class Rotor(msgspec.Struct, frozen=True):
-    """A rotor that turns with the angle of a joint: its energy is half of `inertia` times the square of that rate.
+    """A rotor that turns with the coordinate of a joint: its energy is half of `inertia` times the square of that rate.
 
+    The coordinate is an angle, or the displacement of a slide, for which `inertia` is a mass.
     In space `axes` are those of the two bodies that the joint holds parallel, if it does.
     """
 

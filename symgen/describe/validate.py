@@ -393,9 +393,11 @@ class _Validator:
                 raise scope.error("gear_ratio", "the key rotor_inertia beside it", "no such key")
             return
         angles = [measure for label, measure in joint.coordinates if Joint.unit(label) == "rad"]
+        if not angles and len(joint.coordinates) == 1:  # a slide, which the rotor drives by a spindle or a belt
+            angles = [measure for _, measure in joint.coordinates]
         if len(angles) != 1:
             got = f"a {joint.kind} joint with {len(angles) or 'none'}"
-            raise scope.error("rotor_inertia", "a joint with one angle", got)
+            raise scope.error("rotor_inertia", "a joint with one angle, or one displacement alone", got)
         inertia, ratio = (
             scope.constant(key, read_value(Scalar, raw.get(key, 1.0), scope.where(key)), positive=positive)
             for key, positive in (("rotor_inertia", True), ("gear_ratio", False))

@@ -153,13 +153,15 @@ MJCF = """<mujoco model="gripper"><compiler angle="radian"/><option timestep="1e
     <body name="arm" pos="0 0 1" euler="0.3 0 0.2">
       <joint name="yaw" axis="0 0 1" stiffness="3" springref="0.4"/><joint name="pitch" axis="0 1 0.2" pos="0.05 0 0"/>
       <geom type="capsule" fromto="0 0 0 0.4 0 0" size="0.03"/>
-      <body name="slider" pos="0.4 0 0"><joint name="slide" type="slide" axis="1 0 0.5" armature="0"/>
+      <body name="slider" pos="0.4 0 0"><joint name="slide" type="slide" axis="1 0 0.5" armature="0.03"/>
         <geom type="box" size="0.05 0.04 0.03" pos="0 0.02 0"/><site name="tip" pos="0.1 0 0"/>
         <body name="ball" pos="0 0 -0.1"><joint name="socket" type="ball" armature="0"/>
           <geom type="sphere" size="0.04" pos="0.05 0 -0.1"/></body>
       </body></body></worldbody>
   <actuator><motor name="drive" joint="pitch" gear="2"/>
     <position name="servo" joint="slide" kp="50" ctrlrange="-0.1 0.1" forcerange="-20 20"/></actuator>
+  <tendon><fixed name="coil" stiffness="8" damping="0.3" springlength="0.1"><joint joint="yaw" coef="0.5"/>
+    <joint joint="pitch" coef="-1"/></fixed></tendon>
 </mujoco>"""
 
 

@@ -460,11 +460,40 @@ def test_bad_rotors(keys, words):
         validate(raw, "file")
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_rotor_on_a_slide_is_mass_along_it(coordinates):
+    """A spindle turns n rad for 1 m: F = (m + J n^2) a, whether F is applied or a driver's."""
+    raw = {
+        "mechanism": {"name": "axis", "space": "spatial", "gravity": [0.0, 0.0, -9.81]},
+        "bodies": {"table": {"mass": 1.5, "inertia": [0.1] * 3}},
+        "joints": {
+            "rail": {
+                "type": "translational",
+                "between": ["ground", "table"],
+                "at": [[0.0] * 3] * 2,
+                "axis": [1.0, 0.0, 0.0],
+                "rotor_inertia": 0.02,
+                "gear_ratio": 5,
+            }
+        },
+        "forces": {"push": {"type": "force", "body": "table", "force": [4.0, 0.0, 0.0]}},
+    }
+    result = model(raw).simulate(**TIGHT, coordinates=coordinates)
+    assert result["table.vx"][-1] == pytest.approx(4.0 / (1.5 + 0.02 * 25.0) * result.t[-1], rel=1e-10)
+    assert result.energy_drift_max < 1e-9
+    del raw["forces"]
+    raw["joints"]["move"] = {"type": "driver", "joint": "rail", "value": "3*t**2"}
+    raw["outputs"] = {"force": "move.effort"}
+    result = model(raw).simulate(**TIGHT, coordinates=coordinates)
+    assert result.outputs["force"][-1] == pytest.approx(6.0 * (1.5 + 0.02 * 25.0), rel=1e-12)
+
+
 def test_rotors_need_an_angle_and_straight_code():
     raw = spatial_arm("")
     raw["joints"]["A"]["rotor_inertia"] = 0.1
     with pytest.raises(
-        InputError, match=r"joints.A.rotor_inertia: expected a joint with one angle, got a universal joint with 2"
+        InputError,
+        match=r"joints.A.rotor_inertia: expected a joint with one angle, or one displacement alone, got a universal joint with 2",
     ):
         validate(raw, "file")
     with pytest.raises(InputError, match="shape: expected straight code where a file has rotors on joints, got looped"):

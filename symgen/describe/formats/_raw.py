@@ -207,7 +207,7 @@ class _Description:
             table["axes"] = [_tidy(turned(f.rotation, unit(x))) for f, x in zip(inner, directions, strict=True)]
         if c.kind == "translational" and c.value:
             table["at"][0] = _tidy(plus(inner[0].origin, turned(inner[0].rotation, scaled(-c.value, unit(c.axis)))))
-        if c.rotor and c.kind == "revolute":
+        if c.rotor and c.kind in ("revolute", "translational"):
             table["rotor_inertia"] = c.rotor
         elif c.rotor:
             self.left_out.append(LeftOut("armature", c.name, f"a {c.kind} joint has no rotor", True))
@@ -236,7 +236,8 @@ class _Description:
             if not driven:
                 continue
             name = self.names.of("input", actuator.name)
-            inputs[name] = {"default": 0.0} | ({"unit": actuator.unit} if actuator.unit else {})
+            if actuator.gain:
+                inputs[name] = {"default": 0.0} | ({"unit": actuator.unit} if actuator.unit else {})
             for joint, text in self._formulas(actuator, driven, name).items():
                 efforts.setdefault(joint, []).append(text)
         forces = dict[str, Any]()
@@ -263,7 +264,7 @@ class _Description:
         value = name
         if actuator.bounds is not None:
             value = f"min(max({name}, {_text(actuator.bounds[0])}), {_text(actuator.bounds[1])})"
-        terms = [value if actuator.gain == 1.0 else f"{_text(actuator.gain)}*{value}"]
+        terms = [value if actuator.gain == 1.0 else f"{_text(actuator.gain)}*{value}"] if actuator.gain else []
         if actuator.offset:
             terms.append(_text(actuator.offset))
         for factor, suffix in ((actuator.along, ""), (actuator.against, ".rate")):

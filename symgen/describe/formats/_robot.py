@@ -129,6 +129,8 @@ class Follower:
 class Actuator:
     """An effort along joints: weights of joints, and a formula of ``INPUT`` and of coordinates of joints.
 
+    With gain 0 it has no input, as a spring between joints.
+
     Attributes
     ----------
     name : str

@@ -93,6 +93,7 @@ class _Reader:
             self._joints(i, links)
         followers = self._equalities()
         actuators = [a for i in range(model.nu) if (a := self._actuator(i)) is not None]
+        actuators += [a for i in range(model.ntendon) if (a := self._spring(i)) is not None]
         self._leave_out()
         gravity = (0.0, 0.0, 0.0) if self._disabled("GRAVITY") else _vector(model.opt.gravity)
         return Robot(self.name, links, self.connections, followers, actuators, gravity, self.left_out)
@@ -245,11 +246,7 @@ class _Reader:
         if sort in (int(m.mjtTrn.mjTRN_JOINT), int(m.mjtTrn.mjTRN_JOINTINPARENT)):
             weights = {self._name("joint", at): gear} if self._straight(at) else {}
         elif sort == int(m.mjtTrn.mjTRN_TENDON):
-            wraps = range(int(model.tendon_adr[at]), int(model.tendon_adr[at]) + int(model.tendon_num[at]))
-            if all(int(model.wrap_type[w]) == int(m.mjtWrap.mjWRAP_JOINT) for w in wraps):
-                weights = {
-                    self._name("joint", int(model.wrap_objid[w])): gear * float(model.wrap_prm[w]) for w in wraps
-                }
+            weights = {name: gear * w for name, w in self._tendon(at).items()}
         plain = int(model.actuator_dyntype[i]) == int(m.mjtDyn.mjDYN_NONE)
         fixed = int(model.actuator_gaintype[i]) == int(m.mjtGain.mjGAIN_FIXED)
         bias = int(model.actuator_biastype[i])
@@ -264,6 +261,29 @@ class _Reader:
         gain = float(model.actuator_gainprm[i][0])
         return Actuator(name, weights, gain, offset, along, against, bounds, limits)
 
+    def _tendon(self, i: int) -> dict[str, float]:
+        """Return joint -> coefficient of a fixed tendon; empty for another one."""
+        model = self.model
+        wraps = range(int(model.tendon_adr[i]), int(model.tendon_adr[i]) + int(model.tendon_num[i]))
+        if any(int(model.wrap_type[w]) != int(self.mujoco.mjtWrap.mjWRAP_JOINT) for w in wraps):
+            return {}
+        return {self._name("joint", int(model.wrap_objid[w])): float(model.wrap_prm[w]) for w in wraps}
+
+    def _spring(self, i: int) -> Actuator | None:
+        """Return the spring and damper of a fixed tendon, as an effort without an input."""
+        model = self.model
+        stiffness = 0.0 if self._disabled("SPRING") else float(model.tendon_stiffness[i])
+        damping = 0.0 if self._disabled("DAMPER") else float(model.tendon_damping[i])
+        if not stiffness and not damping:
+            return None
+        weights, (low, high) = self._tendon(i), _pair(model.tendon_lengthspring[i])
+        if not weights or (stiffness and low != high):
+            why = "its length is no sum of coordinates" if not weights else "it is slack between two lengths"
+            self.left_out.append(LeftOut("a spring of a tendon", self._name("tendon", i), why, True))
+            return None
+        name = f"{self._name('tendon', i)}_spring"
+        return Actuator(name, weights, 0.0, stiffness * low, -stiffness, -damping)
+
     def _straight(self, joint: int) -> bool:
         sorts = self.mujoco.mjtJoint
         return int(self.model.jnt_type[joint]) in (int(sorts.mjJNT_HINGE), int(sorts.mjJNT_SLIDE))
@@ -275,11 +295,16 @@ class _Reader:
         touching = sum(1 for k in range(model.ngeom) if model.geom_contype[k] or model.geom_conaffinity[k])
         if touching > 1 and not self._disabled("CONTACT"):
             self.left_out.append(LeftOut("contacts", f"{touching} geoms", "bodies pass through each other", True))
-        stiff = sum(1 for k in range(model.ntendon) if model.tendon_stiffness[k] or model.tendon_damping[k])
         limited = sum(1 for k in range(model.ntendon) if model.tendon_limited[k])
-        for what, count in (("springs and dampers of tendons", stiff), ("limits of tendons", limited)):
+        rough = sum(1 for k in range(model.ntendon) if model.tendon_frictionloss[k] or model.tendon_armature[k])
+        for what, count in (("limits of tendons", limited), ("friction and armature of tendons", rough)):
             if count:
                 self.left_out.append(LeftOut(what, f"{count} tendons", "symgen has no tendons", True))
+        for what in ("jnt_stiffness", "dof_damping", "tendon_stiffness", "tendon_damping"):
+            if any(any(row) for row in getattr(model, f"{what}poly", ())):
+                self.left_out.append(
+                    LeftOut("higher powers of springs and dampers", what, "they are linear here", True)
+                )
         if option.density or option.viscosity or any(option.wind):
             self.left_out.append(LeftOut("a fluid", "option", "bodies move in a vacuum", True))
         meshes = sum(1 for k in range(model.ngeom) if int(model.geom_type[k]) == int(self.mujoco.mjtGeom.mjGEOM_MESH))
