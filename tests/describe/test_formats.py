@@ -202,6 +202,38 @@ def test_equalities_of_mjcf(tmp_path: Path) -> None:
     assert np.allclose(end.T, [1.2 * math.cos(np.radians(40)), 0.0], atol=1e-9)
 
 
+def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(tmp_path: Path) -> None:
+    text = """<mujoco model="slider"><compiler angle="radian"/><option timestep="{h}" integrator="RK4" tolerance="1e-14"
+    iterations="200"><flag contact="disable"/></option><default><equality solref="1e-3 1" solimp="{d} {d} 0.001"/>
+    <joint solreflimit="1e-3 1" solimplimit="{d} {d} 0.001" solreffriction="1e-3 1" solimpfriction="{d} {d} 0.001"/>
+    </default><worldbody><body name="crank" euler="0 -0.7 0"><joint name="A" axis="0 1 0"/>
+    <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.02" mass="0.3"/>
+    <body name="rod" pos="0.3 0 0" euler="0 1.2 0"><joint name="B" axis="0 1 0"/>
+    <geom type="capsule" fromto="0 0 0 0.7 0 0" size="0.02" mass="0.7"/></body></body>
+    <body name="slide" pos="0.85 0 0"><joint name="S" type="slide" axis="1 0 0" frictionloss="0.4" range="-0.5 0.08"
+    limited="true"/><geom type="box" size=".05 .05 .05" mass="0.6"/></body></worldbody>
+    <equality><connect body1="rod" body2="slide" anchor="0.7 0 0"/></equality></mujoco>"""
+    path = tmp_path / "slider.xml"
+    path.write_text(text.format(h=1e-4, d=0.9), encoding="utf-8")
+    run = model_of(read_robot(path, "mjcf", stops=True)).simulate(until=0.3, rtol=1e-10, atol=1e-11)
+    assert run.status == "ok" and run.events  # the limit is met
+    violations, apart = [], []
+    for h, d in ((1e-4, 0.9), (5e-5, 0.99), (2.5e-5, 0.9999)):
+        model = mujoco.MjModel.from_xml_string(text.format(h=h, d=d))
+        data = mujoco.MjData(model)
+        largest = 0.0
+        for _ in range(60):
+            mujoco.mj_step(model, data, round(0.3 / h / 60))
+            largest = max(largest, float(np.abs(data.efc_pos[: data.ne]).max()))
+        mujoco.mj_kinematics(model, data)
+        names = ("crank", "rod", "slide")
+        places = [np.array([run[f"{name}.{axis}"][-1] for axis in "xyz"]) - data.body(name).xipos for name in names]
+        violations.append(largest)
+        apart.append(float(np.abs(places).max()))
+    assert violations[2] < 1e-2 * violations[0] and apart[2] < 1e-2 * apart[0]
+    assert apart[1] < 0.1 * apart[0]
+
+
 def test_without_mujoco_a_sentence_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(InputError, match=r"pip install symgen\[import\]"):
