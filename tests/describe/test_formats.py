@@ -202,6 +202,10 @@ def test_equalities_of_mjcf(tmp_path: Path) -> None:
     assert np.allclose(end.T, [1.2 * math.cos(np.radians(40)), 0.0], atol=1e-9)
 
 
+def test_what_mujoco_advises_its_authors_is_no_warning(tmp_path: Path) -> None:
+    assert imported(tmp_path, MJCF.replace("<compiler", '<compiler settotalmass="3"'), "old.xml").raw["bodies"]
+
+
 def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(tmp_path: Path) -> None:
     text = """<mujoco model="slider"><compiler angle="radian"/><option timestep="{h}" integrator="RK4" tolerance="1e-14"
     iterations="200"><flag contact="disable"/></option><default><equality solref="1e-3 1" solimp="{d} {d} 0.001"/>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any, ClassVar
@@ -42,7 +43,9 @@ class Mjcf:
             hint = "pip install symgen[import]"
             raise InputError(path.name, "MuJoCo's compiler, which reads MJCF", "no package 'mujoco'", hint) from None
         try:
-            model = mujoco.MjSpec.from_file(str(path)).compile()
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # advice to the author of the file
+                model = mujoco.MjSpec.from_file(str(path)).compile()
         except (ValueError, RuntimeError) as error:
             slip = " ".join(str(error).replace(str(path.resolve().parent), ".").split())
             raise InputError(path.name, "a file that MuJoCo compiles", quoted(slip)) from None
