@@ -1,5 +1,6 @@
 """SDF: motions beside the same mechanisms in URDF and MJCF, inertia beside MuJoCo's compiler, and what is refused."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -201,6 +202,14 @@ def test_a_wrong_file_is_refused_in_a_sentence(case: str, tmp_path: Path) -> Non
     with pytest.raises(InputError) as caught:
         imported(tmp_path, text)
     assert words in str(caught.value), str(caught.value)
+
+
+def test_hostile_names_become_plain_ones(tmp_path: Path) -> None:
+    read = imported(tmp_path, BAR.replace("crank", "&lt;script&gt;&quot;];import os").replace('"A"', '"lambda"'))
+    mechanism = validate(read.raw, "imported")
+    names = [*(body.name for body in mechanism.bodies), *(joint.name for joint in mechanism.joints), *mechanism.inputs]
+    assert len(names) == 10 and all(re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) for name in names)
+    assert "lambda" not in names
 
 
 def test_what_is_left_out_is_listed(tmp_path: Path) -> None:
