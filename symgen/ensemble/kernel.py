@@ -194,6 +194,7 @@ class RowKernel:
             watched = compile_events(recipe.tree or watch.mechanism, own, watch.events, rtol)
         if on_tree is None:
             return LoopRuns(recipe, compiled, integrator, setup, recipe.picks, watched, other)
+        assert watch is not None and recipe.tree is not None, "runs on a tree have both"
         info, plain = compiled.info, recipe.sources <= PLAIN and recipe.measures is None
         turns = places_of_turns(watch.mechanism, recipe.tree, compiled.shape)
         picks = motion = motion_picks(info, own.info, turns)

@@ -32,11 +32,10 @@ from symgen.starts.tree_start import TURNED_OVER, Carried
 if TYPE_CHECKING:
     from symgen.ensemble.chunks import Results, Rows
     from symgen.ensemble.recipe import Recipe
-    from symgen.layout.compiled import CompiledModel
+    from symgen.layout.compiled import CompiledModel, ModelInfo
     from symgen.layout.records import Span, State
     from symgen.loops.integrator import Integrator, Setup
     from symgen.loops.run_spec import Watched
-    from symgen.vocabulary.infos import ModelInfo
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
