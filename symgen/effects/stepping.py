@@ -10,7 +10,7 @@ import numpy as np
 from symgen.effects.applying import EFFECT_MODEL, EFFECT_WORK, apply_effects
 from symgen.layout import abi
 from symgen.layout.start_records import INSTANT, LAYOUT, record_type
-from symgen.loopcode.exact import exact
+from symgen.loopcode.exact import copy_numbers, exact
 from symgen.native import types
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
@@ -95,14 +95,6 @@ def take_step(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> b
     for i in range(n):
         y[i] += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i])
     return bool(accept(t + h, y, p, w, iw) % 2 == 0 and all_finite(y, n))
-
-
-@exact()
-def copy_numbers(source: Any, copy: Any, count: int) -> int:
-    """Copy the first numbers of an array."""
-    for i in range(count):
-        copy[i] = source[i]
-    return count
 
 
 @exact()

@@ -64,3 +64,10 @@ def plain_form(function: Any) -> Any:
 def compiled_form(function: Any) -> Any:
     """Return an exact function compiled, any other unchanged."""
     return function.compiled if isinstance(function, Exact) else function
+
+
+@exact()
+def copy_numbers(source: Any, copy: Any, count: int) -> None:
+    """Copy the first numbers of an array."""
+    for i in range(count):
+        copy[i] = source[i]

@@ -27,7 +27,7 @@ from symgen.layout.scales import (
 )
 from symgen.layout.start_records import Instant
 from symgen.loopcode.bare import part
-from symgen.loopcode.exact import exact
+from symgen.loopcode.exact import copy_numbers, exact
 from symgen.starts import decisions
 from symgen.starts.decisions import is_dependent, is_poor
 from symgen.starts.joint_starts import fill_further
@@ -311,8 +311,5 @@ def is_light(rhs: Any, closing: Any, layout: Any, now: Any, work: Any) -> bool:
 @exact()
 def _copy(layout: Any, now: Any, other: Any) -> None:
     """Copy state and scratch."""
-    (y, _, w), (other_y, _, other_w) = now, other
-    for i in range(layout.ny):
-        other_y[i] = y[i]
-    for i in range(w.shape[0]):
-        other_w[i] = w[i]
+    copy_numbers(now.y, other.y, layout.ny)
+    copy_numbers(now.w, other.w, now.w.shape[0])

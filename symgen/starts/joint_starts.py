@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from symgen.layout import abi
 from symgen.layout.probe import Ready
 from symgen.layout.start_records import LAYOUT, Layout, record_type
-from symgen.loopcode.exact import exact
+from symgen.loopcode.exact import copy_numbers, exact
 from symgen.native import types
 
 if TYPE_CHECKING:
@@ -103,13 +103,6 @@ def _with_rows(info: ModelInfo, base: Layout, chosen: Sequence[int], nw: int) ->
 
 
 @exact()
-def copied_scratch(w: Any, out: Any, count: int) -> None:
-    """Copy the model's part of a scratch array."""
-    for i in range(count):
-        out[i] = w[i]
-
-
-@exact()
 def fill_further(layout: Any, now: Any, work: Any, further: Any) -> None:
     """Fill Phi, D and nu of all rows; the model's are already in its part of the scratch.
 
@@ -120,7 +113,7 @@ def fill_further(layout: Any, now: Any, work: Any, further: Any) -> None:
     m = layout.m - k
     for i in range(layout.ny):
         other[i], rate[i] = y[i], 0.0
-    copied_scratch(w, work.w, layout.residual)  # ``observe`` writes to it
+    copy_numbers(w, work.w, layout.residual)  # ``observe`` writes to it
     for j in range(n):
         other[nq + j] = 0.0
     further.observe(layout.t, other, now.p, work.w, rate, out)

@@ -14,7 +14,7 @@ from symgen.layout import ensemble_abi as e
 from symgen.layout.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
 from symgen.layout.start_records import INSTANT, MODEL, START_CONDITIONS, WORK, Closing, Instant, StartConditions
 from symgen.loopcode.bare import bare, part
-from symgen.loopcode.exact import exact
+from symgen.loopcode.exact import copy_numbers, exact
 from symgen.native import types
 from symgen.starts import decisions
 from symgen.starts.closing import (
@@ -25,7 +25,7 @@ from symgen.starts.closing import (
     mask_redundant,
     place,
 )
-from symgen.starts.joint_starts import JOINTS, Further, copied_scratch, fill_further
+from symgen.starts.joint_starts import JOINTS, Further, fill_further
 
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
@@ -134,7 +134,7 @@ def _reach(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, join
             joints.goals[c] = goal if k == strides else origin + (k / strides) * (goal - origin)
         if k > 0 and values > 0:
             closed = close_positions(closing, joints.values, state, work, further)
-            copied_scratch(joints.w, now.w, nw)
+            copy_numbers(joints.w, now.w, nw)
         else:
             closed = close_positions(closing, layout, now, work, nothing)
         if not closed:
@@ -154,7 +154,7 @@ def _reach(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, join
                 distance = abs(targets[c] - y[i]) / (length if layout.lengths[i] != 0.0 else 1.0)
                 away = distance if distance > away else away
             if values > 0:
-                copied_scratch(now.w, joints.w, nw)
+                copy_numbers(now.w, joints.w, nw)
                 for c in range(values):
                     joints.goals[c] = 0.0
                 fill_further(joints.values, state, work, further)
@@ -181,7 +181,7 @@ def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: A
     for c in range(rates):
         goals[c] = goal.targets[first + values + c]
     state = Instant(now.y, now.p, joints.w)
-    copied_scratch(now.w, joints.w, now.w.shape[0])
+    copy_numbers(now.w, joints.w, now.w.shape[0])
     further = Further(observe, of, goals, joints.out, layout.residual, layout.nu)
     place(closing, joints.rates, state, work, further)
     return int(complete_velocities(closing, joints.rates, state, work, goal.velocities))
