@@ -211,6 +211,12 @@ def without_stops(mechanism: Mechanism) -> Mechanism:
     return msgspec.structs.replace(mechanism, stops=(), outputs=outputs)
 
 
+def chooses_in_loops(mechanism: Mechanism, events: Sequence[Event]) -> bool:
+    """Return whether compiled loops choose all modes: friction has constant bounds, and nothing changes velocities."""
+    plain = not mechanism.stops and not any(friction.pressed for friction in mechanism.frictions)
+    return plain and not any(event.reset for event in events)
+
+
 def refuse_bounds(where: str, mechanism: Mechanism) -> None:
     """Refuse a mechanism with dry friction or stops where nothing chooses their modes.
 

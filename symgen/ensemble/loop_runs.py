@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.friction import REVERSE, SLIP
 from symgen.effects.accumulation import new_past
 from symgen.ir.program import LANES, lane_bases
 from symgen.layout import abi
@@ -22,8 +23,10 @@ from symgen.loops.event_loop import with_events
 from symgen.loops.searching import decide
 from symgen.loops.stopping import preparing, table_of, with_table
 from symgen.rows.row_events import OfEffects
+from symgen.rows.row_modes import OfModes
 from symgen.rows.row_observers import observe_rows_between_stops, observe_rows_left
 from symgen.rows.rows import observe_nothing, over_rows
+from symgen.runs.choice import first_step, new_choice
 from symgen.runs.events import event_state, forget_steps
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.starts.assembler import layout_of
@@ -35,7 +38,7 @@ if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel, ModelInfo
     from symgen.layout.records import Span, State
     from symgen.loops.integrator import Integrator, Setup
-    from symgen.loops.run_spec import Watched
+    from symgen.loops.run_spec import BoundedRows, Watched
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -107,9 +110,17 @@ class LoopRuns:
         further: tuple[Any, ...] = ()
         if self.watched is not None and self.watched.effects is not None:
             further = (self._effects(self.watched, sizes.width, len(state.w)),)
+        modes = self.watched is not None and self.watched.bounded is not None
+        if self.watched is not None and self.watched.bounded is not None:
+            further = (self._modes(self.watched, self.watched.bounded, span, sizes.width, len(state.w)),)
         examined = self.watched is not None and self.watched.rows is not None
         loop = over_rows(
-            self.integrator.loop(adaptive), self.watched is not None, recipe.stops, bool(further), examined
+            self.integrator.loop(adaptive),
+            self.watched is not None,
+            recipe.stops,
+            bool(further) and not modes,
+            examined,
+            modes,
         )
         if recipe.stops:
             system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
@@ -185,6 +196,13 @@ class LoopRuns:
         past = new_past(events, events + len(watched.switches), width, nw, self.recipe.spec.until)
         chosen, resets = np.zeros(events, dtype=np.int64), effects.chosen(list(effects.effects))
         return OfEffects(effects.model, watched.function, resets, chosen, effects.memory(width, nw), past)
+
+    def _modes(self, watched: Watched, rows: BoundedRows, span: Span, width: int, nw: int) -> Any:
+        """Return dry friction and its events, and memory for one thread."""
+        choice = new_choice(self.compiled, rows, rate_functions(self.compiled.law_module), width, nw)
+        choice.step[0] = first_step(span)
+        places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE))
+        return OfModes(choice, *(np.array([at.get(name, -1) for name in watched.names]) for at in places))
 
     def _series(self) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""

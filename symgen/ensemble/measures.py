@@ -258,6 +258,9 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     if "winding" in side.reads:
         n, at = abi.N_STATUS, abi.WINDING
         reads += [(Signal("", f"angle{i}", "", e.STATUS, n + i), e.OF_W, at + i) for i in range(info.windings)]
+    if "modes" in side.reads:
+        (at, size), behind = info.sections["modes"], abi.N_STATUS + info.windings
+        reads += [(Signal("", f"mode{i}", "", e.STATUS, behind + i), e.OF_W, at + i) for i in range(size)]
     return Measures(
         folder=side.path.parent.name,
         stem=side.path.stem,

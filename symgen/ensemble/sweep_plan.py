@@ -26,10 +26,12 @@ from symgen.describe.events import RECORD
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
+from symgen.describe.stops import chooses_in_loops
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import kernel_of
+from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import first_integral, make_measures
 from symgen.ensemble.names import METHOD, Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
@@ -252,7 +254,9 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    alone = bool(mechanism.bounded)
+    beyond = joint and not {q.source for q in kept} <= PLAIN
+    in_loops = not (examined or driving.jumps or beyond) and chooses_in_loops(mechanism, events)
+    alone = bool(mechanism.bounded) and not in_loops
     watch = EventPlan(mechanism, events, ends, alone) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (

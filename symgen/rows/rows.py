@@ -30,6 +30,7 @@ from symgen.rows.row_events import (
     take_notes_of_events,
     waits_for_examination,
 )
+from symgen.rows.row_modes import OF_MODES, begin_modes, take_modes
 from symgen.runs.observe import observe_rates, observe_rows
 from symgen.store.jit import jit
 
@@ -63,6 +64,11 @@ def begin_run(state: Any, limits: Any) -> None:
 
 def forget(model: Any, state: Any) -> None:
     """Do nothing: a run without switching functions has no data of them."""
+
+
+def begin_choice(model: Any, state: Any) -> int:
+    """Return `DONE`: a run without friction has no modes to choose."""
+    return int(abi.DONE)
 
 
 def take_notes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
@@ -244,7 +250,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
         (`symgen.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these, where
-        events change a run, what they change: `OF_EFFECTS`.
+        events change a run, what they change: `OF_EFFECTS`; where friction has modes, `OF_MODES`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -275,7 +281,9 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
             take(chunk.ps, r * n_p, n_p, state.p)
             take(chunk.ws, r * nw, nw, state.w)
             forget(model, state)
-            code = integrate(system, scheme, span, state, series.outputs)
+            code = begin_choice(model, state)
+            if code == abi.DONE:
+                code = integrate(system, scheme, span, state, series.outputs)
         while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
             if code == abi.CHOOSE:
                 follow_rows(chunk, state, state.w)
@@ -337,13 +345,19 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
+_MODES = {"begin_choice": begin_modes, "take_notes": take_modes, "store_after": store_after_effects}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
 STOPPING = {"take_row": take_stops, "hold": hold_between_stops}
 _loops: dict[Any, Any] = {}
 
 
 def over_rows(
-    loop: Any, events: bool = False, stops: bool = False, effects: bool = False, examined: bool = False
+    loop: Any,
+    events: bool = False,
+    stops: bool = False,
+    effects: bool = False,
+    examined: bool = False,
+    modes: bool = False,
 ) -> Any:
     """Return the loop over many runs around that over a single run, made at the first use.
 
@@ -351,19 +365,22 @@ def over_rows(
     ----------
     loop : compiled loop
         From `symgen.loops.frame.loop`.
-    events, stops, effects, examined : bool
-        Whether rows have switching functions, stops, events that change a run, and constraints that may jump.
+    events, stops, effects, examined, modes : bool
+        Whether rows have switching functions, stops, events that change a run, constraints that may jump, and dry
+        friction, which excludes stops, such events and constraints.
     """
-    key = loop, events, stops, effects, examined
+    key = loop, events, stops, effects, examined, modes
     if key not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
-        name += "_with_effects" * effects + "_examined" * examined
+        name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes
         inner = with_events(loop) if events else loop
         inner = with_stops(inner) if stops else inner
         args = signature_of(inner).arguments
-        model = types.RecordType((*args[:1], OBSERVERS, *([OF_EFFECTS] if effects else [])))
+        further = *([OF_EFFECTS] if effects else []), *([OF_MODES] if modes else [])
+        model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
+        meanings |= _MODES if modes else {}
         meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
         _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are

@@ -36,6 +36,8 @@ TOUCHING = 1e-9
 AT_BOUND = 1.0 - 1e-9
 #: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
 DEPENDENT, NO_FACTOR = 1e-11, 1e-9
+#: Assumed step until an adaptive run has chosen one, as a part of the run.
+FIRST = 1e-3
 #: Places of the numbers of a row.
 HELD, CONSTANT, SIGN, LIMIT = range(4)
 #: Codes: the same modes; others; accelerations that are not finite; no forces found; forces that are not determined;
@@ -108,6 +110,11 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             np.zeros(abi.N_COUNTERS, dtype=np.int64),
         )
     )
+
+
+def first_step(span: Any) -> float:
+    """Return the step that laws assume before the first one [s]."""
+    return float(span.step if span.step > 0.0 else FIRST * span.duration)
 
 
 @exact()
@@ -496,6 +503,18 @@ def follow_modes(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
     if changed != 0:
         c.geometry(t, y, p, w)
     return int(changed)
+
+
+def begin_afresh(state: Any) -> None:
+    """Have the scheme begin anew, and passages of singular positions be looked for anew: there are other rows."""
+    gauges, w = state.gauges, state.w
+    sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))
+    gauges[abi.LAST_SINE], gauges[abi.LARGEST_SINE], gauges[abi.LAST_SHORT] = sine, sine, short
+    gauges[abi.FALL], gauges[abi.SHORT_FALL], gauges[abi.CHOSEN] = 0.0, 0.0, 0.0
+    if state.control[abi.BEGUN] != 0:
+        state.control[abi.BEGUN] = abi.AFRESH
+    state.control[abi.KNOWN], state.control[abi.POINTS], state.control[abi.REFUSED] = 0, 0, 0
+    state.clock[abi.ALLOWED] = 0.0
 
 
 _STATE = (_A, _A, _A)

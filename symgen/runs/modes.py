@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -16,6 +15,7 @@ from symgen.layout.redundancy import choose_rows, farthest, room_of_choice
 from symgen.loopcode.entry import direct
 from symgen.loopcode.exact import compiled_form
 from symgen.loops.watch import remember_rank
+from symgen.runs.choice import begin_afresh
 from symgen.starts.assembler import layout_of
 
 if TYPE_CHECKING:
@@ -74,18 +74,6 @@ def begin_in_modes(simulation: Simulation, follow: Callable[[float], int] | None
         simulation.scheme = simulation.integrator.setup(compiled, simulation.spec, state.w).scheme
     remember_rank(simulation.sizes, state)
     begin_afresh(state)
-
-
-def begin_afresh(state: Any) -> None:
-    """Have the scheme begin anew, and passages of singular positions be looked for anew: there are other rows."""
-    gauges, w = state.gauges, state.w
-    sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))
-    gauges[abi.LAST_SINE], gauges[abi.LARGEST_SINE], gauges[abi.LAST_SHORT] = sine, sine, short
-    gauges[abi.FALL], gauges[abi.SHORT_FALL], gauges[abi.CHOSEN] = 0.0, 0.0, 0.0
-    if state.control[abi.BEGUN] != 0:
-        state.control[abi.BEGUN] = abi.AFRESH
-    state.control[abi.KNOWN], state.control[abi.POINTS], state.control[abi.REFUSED] = 0, 0, 0
-    state.clock[abi.ALLOWED] = 0.0
 
 
 def _follow(compiled: CompiledModel, state: Any, now: float) -> bool:

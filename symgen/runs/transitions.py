@@ -29,7 +29,7 @@ from symgen.loopcode.entry import direct
 from symgen.loopcode.exact import compiled_form
 from symgen.runs import choice
 from symgen.runs.box import solve_box
-from symgen.runs.choice import HELD, LIMIT, SIGN, STILL, TOUCHING, new_choice
+from symgen.runs.choice import HELD, LIMIT, SIGN, STILL, TOUCHING, first_step, new_choice
 from symgen.runs.events import Happening
 from symgen.runs.impacts import Impacts
 from symgen.runs.modes import begin_in_modes
@@ -41,9 +41,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Flags = NDArray[np.bool_]
-
-#: Assumed step until an adaptive run has chosen one, as a part of the run.
-FIRST = 1e-3
 
 
 class Transitions:
@@ -221,7 +218,7 @@ class Transitions:
         simulation, state, span = self.simulation, self.simulation.state, self.simulation.span
         rates = rate_functions(simulation.compiled.law_module)
         c = new_choice(simulation.compiled, self.rows, rates, len(state.y), len(state.w))
-        c.step[0] = span.step if span.step > 0.0 else FIRST * span.duration
+        c.step[0] = first_step(span)
         return c
 
     def _entry(self, name: str) -> Any:

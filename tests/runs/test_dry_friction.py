@@ -366,6 +366,26 @@ def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
     assert rows.tolist() == alone
 
 
+@pytest.mark.parametrize("integrator", ["dop853", "picard"])
+def test_rows_of_a_sweep_choose_modes_in_compiled_loops(monkeypatch: pytest.MonkeyPatch, integrator: str) -> None:
+    """Four dry pins that break loose, turn round and rest: no row is a single run, and each has the bits of one."""
+    raw, source = read_raw("four-bar")
+    raw["parameters"]["grip"] = 4.0
+    for pin in "ABCD":
+        raw["joints"][pin]["friction"] = {"sliding": "grip", "static": "1.1*grip"}
+    model, grips = symgen.Model(validate(raw, source)), (2.0, 4.0, 8.5)
+    settings = {"integrator": integrator, "until": 12.0, "times": [3.0, 12.0], "coordinates": "absolute"}
+    names = ("crank.theta", "A.mode", "D.force")
+    alone = [model.simulate(parameters={"grip": x}, verify=False, **settings) for x in grips]
+    assert [len(run.events) > 10 for run in alone] == [True, True, False]
+    monkeypatch.setattr("symgen.ensemble.singly.SingleRuns", None)
+    rows = model.sweep({"grip": list(grips)}, quantities=names, **settings)
+    for i, run in enumerate(alone):
+        assert rows["crank.theta"][i].tolist() == run["crank.theta"].tolist()
+        assert rows["A.mode"][i].tolist() == run["A.mode"].tolist()
+        np.testing.assert_allclose(rows["D.force"][i], run["D.force"], rtol=1e-12)
+
+
 def test_a_run_goes_on_from_the_last_state_of_another() -> None:
     model = symgen.load(described(PIN))
     settings = {"integrator": "dop853", "rtol": 1e-11, "verify": False, "coordinates": "absolute"}

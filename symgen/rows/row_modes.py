@@ -1,0 +1,75 @@
+"""Dry friction in rows of a sweep: modes are chosen at starts and at their events, without Python.
+
+It is the choice of single runs (`symgen.runs.choice`), so that rows have their bits.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.layout import abi
+from symgen.layout import ensemble_abi as e
+from symgen.layout.start_records import record_type
+from symgen.loopcode.loop_instances import called
+from symgen.loops import search_records as records
+from symgen.loops.event_loop import notes_at
+from symgen.loops.watch import remember_rank
+from symgen.native import types
+from symgen.rows.row_events import take_notes_of_events
+from symgen.runs.choice import CHOICE, OTHERS, SAME, begin_afresh, choose_modes, follow_modes, read_rows
+
+#: Rows with bounds of all runs, and working memory.
+#: - choice: See `symgen.runs.choice`.
+#: - breaks, stops (shapes (functions,)): Row that breaks loose, or whose rate becomes zero, at each function; else -1.
+OF_MODES = record_type("OfModes", __name__, ("choice", CHOICE), ("breaks stops", types.int64[::1]))
+OfModes: Any = OF_MODES.constructor
+
+
+@called
+def chosen(model: Any, state: Any) -> int:
+    """Choose modes at the present state; return `DONE`, or `IMPOSSIBLE`."""
+    _, observers, modes = model
+    c, t = modes.choice, state.clock[abi.TIME]
+    if read_rows(t, c, state.y, state.p, state.w) != SAME:
+        return int(e.IMPOSSIBLE)
+    code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
+    if code > OTHERS:
+        return int(e.IMPOSSIBLE)
+    if code == OTHERS:
+        follow_modes(t, c, state.y, state.p, state.w)
+        remember_rank(observers[0], state)
+        begin_afresh(state)
+    return int(abi.DONE)
+
+
+def begin_modes(model: Any, state: Any) -> int:
+    """Choose modes where a run begins; return `DONE`, or `IMPOSSIBLE`."""
+    c = model[2].choice
+    for i in range(c.count):
+        c.broken[i] = c.stopped[i] = c.left[i] = 0
+    return int(chosen(model, state))
+
+
+@called
+def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
+    """Write the events noted by a run to its row, and choose modes at those of friction.
+
+    Parameters and end code are those of `take_notes_of_events`; `IMPOSSIBLE` where no modes are found.
+    """
+    _, observers, modes = model
+    hunt, c, t, any_of_modes = state.hunt, modes.choice, state.clock[abi.TIME], False
+    width = observers[0].width
+    first = notes_at(int(hunt[records.COUNT]), width, state.w.shape[0])
+    for i in range(c.count):
+        c.broken[i] = c.stopped[i] = c.left[i] = 0
+    for i in range(int(hunt[records.NOTED])):
+        at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
+        if code == abi.MET and at == t and k < modes.breaks.shape[0]:
+            if modes.breaks[k] >= 0:
+                c.broken[modes.breaks[k]], any_of_modes = 1, True
+            if modes.stops[k] >= 0:
+                c.stopped[modes.stops[k]], any_of_modes = 1, True
+    ended = take_notes_of_events(code, r, (model[0], observers), chunk, state)
+    if any_of_modes and chosen(model, state) != abi.DONE:
+        return int(e.IMPOSSIBLE)
+    return int(ended)
