@@ -18,7 +18,7 @@ from symgen.describe.mechanism import EndStop, Joint
 from symgen.describe.stops import gap_of
 from symgen.joints.rows import tied
 from symgen.layout import abi
-from symgen.runs.choice import STILL, TOUCHING
+from symgen.runs.bounded_rows import STILL, TOUCHING
 from symgen.vocabulary.measures import FormulaMeasure, Holonomic
 
 if TYPE_CHECKING:

@@ -26,7 +26,7 @@ from symgen.rows.row_events import OfEffects
 from symgen.rows.row_modes import OfModes
 from symgen.rows.row_observers import observe_rows_between_stops, observe_rows_left
 from symgen.rows.rows import observe_nothing, over_rows
-from symgen.runs.choice import first_step, new_choice
+from symgen.runs.bounded_rows import first_step, new_choice
 from symgen.runs.events import event_state, forget_steps
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.starts.assembler import layout_of

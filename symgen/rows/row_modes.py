@@ -16,10 +16,11 @@ from symgen.loops.event_loop import notes_at
 from symgen.loops.watch import remember_rank
 from symgen.native import types
 from symgen.rows.row_events import take_notes_of_events
-from symgen.runs.choice import CHOICE, OTHERS, SAME, begin_afresh, choose_modes, follow_modes, read_rows
+from symgen.runs.bounded_rows import CHOICE, OTHERS, SAME
+from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, read_rows
 
 #: Rows with bounds of all runs, and working memory.
-#: - choice: See `symgen.runs.choice`.
+#: - choice: See `symgen.runs.bounded_rows`.
 #: - breaks, stops (shapes (functions,)): Row that breaks loose, or whose rate becomes zero, at each function; else -1.
 OF_MODES = record_type("OfModes", __name__, ("choice", CHOICE), ("breaks stops", types.int64[::1]))
 OfModes: Any = OF_MODES.constructor

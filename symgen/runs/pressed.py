@@ -15,9 +15,10 @@ from symgen.describe.friction import JAM
 from symgen.layout import abi
 from symgen.loopcode.exact import compiled_form
 from symgen.runs import choice
+from symgen.runs.bounded_rows import AT_BOUND, DEPENDENT, HELD, LIMIT, NO_ACCELERATION, OTHERS, SAME
 from symgen.runs.box import INSIDE, new_box
-from symgen.runs.choice import AT_BOUND, DEPENDENT, HELD, LIMIT, NO_ACCELERATION
 from symgen.runs.events import Happening
+from symgen.runs.holding import hold_rows
 from symgen.runs.transitions import Array, Flags, Integers, Transitions, find_forces
 
 #: Bounds by reactions agree within this part of them, after so many solutions at most.
@@ -54,11 +55,11 @@ class PressedTransitions(Transitions):
         rest = c.rest[: compiled_form(choice.find_rest)(c, w)].copy()
         static, sliding = c.static.copy(), c.sliding.copy()
         self._solve(rest, c.signs, c.static, c.sliding, c.loose != 0)
-        if compiled_form(choice.hold_rows)(c, w) != choice.SAME:
+        if compiled_form(hold_rows)(c, w) != SAME:
             self._refuse_undetermined()
         self._follow_reactions(rest.tolist(), c.after.reshape(len(c.signs), -1))
         c.static[:], c.sliding[:] = static, sliding
-        return bool(compiled_form(choice.write_modes)(c, w) == choice.OTHERS)
+        return bool(compiled_form(choice.write_modes)(c, w) == OTHERS)
 
     def _solve(self, rest: Integers, signs: Array, static: Array, sliding: Array, loose: Flags) -> None:
         """Set the signs of rows at rest, G among all rows, and the forces at rest.

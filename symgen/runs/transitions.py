@@ -28,8 +28,21 @@ from symgen.layout.probe import rate_functions
 from symgen.loopcode.entry import direct
 from symgen.loopcode.exact import compiled_form
 from symgen.runs import choice
+from symgen.runs.bounded_rows import (
+    HELD,
+    LIMIT,
+    NO_FORCES,
+    NOT_DETERMINED,
+    NOT_FINITE,
+    OTHERS,
+    SAME,
+    SIGN,
+    STILL,
+    TOUCHING,
+    first_step,
+    new_choice,
+)
 from symgen.runs.box import solve_box
-from symgen.runs.choice import HELD, LIMIT, SIGN, STILL, TOUCHING, first_step, new_choice
 from symgen.runs.events import Happening
 from symgen.runs.impacts import Impacts
 from symgen.runs.modes import begin_in_modes
@@ -159,13 +172,13 @@ class Transitions:
     def _chosen(self) -> bool:
         """Choose modes at a state whose rows have been read; return whether they are others."""
         code = self._entry("choose_modes")(self._now)
-        if code == choice.NOT_FINITE:
+        if code == NOT_FINITE:
             self._refuse_accelerations()
-        if code == choice.NO_FORCES:
+        if code == NO_FORCES:
             raise InputError("friction", "forces at rest that can be found", "none after many changes")
-        if code == choice.NOT_DETERMINED:
+        if code == NOT_DETERMINED:
             self._refuse_undetermined()
-        return bool(code == choice.OTHERS)
+        return bool(code == OTHERS)
 
     def _refuse_accelerations(self) -> None:
         raise InputError("friction", "accelerations that are finite", f"others at t = {self._now:.6g} s")
@@ -197,7 +210,7 @@ class Transitions:
             rows = np.flatnonzero(touching)
             c.signs[:], c.sliding[:] = np.where(stops, 0.0, before[:, SIGN]), 0.0
             c.at_rest[0], c.rest[: len(rows)] = len(rows), rows
-            if self._entry("probe")(self._now) != choice.SAME:
+            if self._entry("probe")(self._now) != SAME:
                 self._refuse_accelerations()
             matrix = c.matrix.reshape(len(stops), -1)[np.ix_(rows, rows)]
             modes = self.simulation.compiled.modes(w)
@@ -238,7 +251,7 @@ class Transitions:
         InputError
             With the first number that is out of range.
         """
-        if self._entry("read_rows")(self._now) == choice.SAME:
+        if self._entry("read_rows")(self._now) == SAME:
             return
         c, names, dry, now = self._choice, self.rows.names, self.rows.dry, self._now
         gaps, closed, restitution = c.value[dry:], TOUCHING * self._scales(abi.LENGTH)[dry:], c.restitution[dry:]
@@ -274,7 +287,7 @@ class Transitions:
         c.trial[:], c.pushed[0] = signs, pushed
         code = self._entry("accelerate")(self._now)
         c.pushed[0] = -1
-        if code != choice.SAME:
+        if code != SAME:
             self._refuse_accelerations()
         accelerations: Array = c.out[: len(signs)].copy()
         return accelerations

@@ -1,0 +1,128 @@
+"""Rows with bounds for compiled functions: their record with working memory, constants and scales."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.ir.program import MODE_NUMBERS
+from symgen.layout import abi
+from symgen.layout.redundancy import room_of_choice
+from symgen.layout.start_records import LAYOUT, record_type
+from symgen.loopcode.exact import compiled_form, exact
+from symgen.native import types
+from symgen.runs.box import BOX, new_box
+from symgen.starts.assembler import layout_of
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import BoundedRows
+
+_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
+
+#: Rates below this part of the largest speed are zero; accelerations below it over those of single forces are.
+STILL, NO_ACCELERATION = 1e-10, 1e-10
+#: Gaps below this part of the mechanism's length are closed.
+TOUCHING = 1e-9
+#: A force above this part of its bound is at its bound, where the row has broken loose.
+AT_BOUND = 1.0 - 1e-9
+#: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
+DEPENDENT, NO_FACTOR = 1e-11, 1e-9
+#: Assumed step until an adaptive run has chosen one, as a part of the run.
+FIRST = 1e-3
+#: Places of the numbers of a row.
+HELD, CONSTANT, SIGN, LIMIT = range(4)
+#: Codes: the same modes; others; accelerations that are not finite; no forces found; forces that are not determined;
+#: bounds, gaps or restitutions that are undefined or out of range.
+SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
+
+#: The rows with bounds of a run, k of them, and working memory; friction first, then stops.
+#: - first, count, dry: Place in w of their first number, their number, and that of friction.
+#: - pushed, at_rest (shapes (1,)): A coordinate pushed by a probe, -1 for none; number of rows at rest.
+#: - step (shape (1,)): Step that laws assume before the first one [s].
+#: - angular (shape (k,)): 1 where the measure of a row is an angle.
+#: - place_of (shape (m,)): Number among these of each row, -1 for others.
+#: - broken, stopped, left (shapes (k,)): 1 for coordinates that have just broken loose, or whose rate has just become
+#:   zero; for stops whose force has.
+#: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
+#: - named (shape (k + 1,)): Rows whose forces are not determined, then -1.
+#: - value ... restitution (shapes (k,)): Coordinates and gaps, rates, bounds, restitutions.
+#: - before, after (shape (MODE_NUMBERS k,)): Modes.
+#: - signs, trial, offset, alone, forces (shapes (k,)): Signs of rates; those of a probe; accelerations without forces
+#:   at rest; by a force if no joints held the bodies; forces at rest.
+#: - matrix, rest_of (shapes (k k,)): G, and what is left of it.
+#: - y, w, rate, out, iw: Of emitted functions.
+#: - room: Of the choice of independent rows.
+CHOICE = record_type(
+    "Choice",
+    __name__,
+    ("layout", LAYOUT),
+    ("rates confirm", abi.RHS),
+    ("geometry", abi.MEASURE),
+    ("states accelerations", abi.OBSERVE),
+    ("box", BOX),
+    ("first count dry", _N),
+    ("angular place_of pushed at_rest broken stopped left rest loose taken named", _K),
+    ("step value speed static sliding restitution before after signs trial offset alone forces matrix rest_of", _A),
+    ("y w rate out room", _A),
+    ("iw", _K),
+)
+Choice: Any = CHOICE.constructor
+
+
+def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Any:
+    """Return the rows with bounds of a run for the functions here.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    rows : BoundedRows
+        Rows whose forces have bounds.
+    rates : tuple of function
+        Rates of v and multipliers, and their confirmation.
+    width, nw : int
+        Lengths of the state and of the scratch array.
+    """
+    info, k = compiled.info, len(rows.names)
+    first = info.sections["modes"][0] + MODE_NUMBERS * info.switchable.index(info.bounded[0])
+    places = np.full(info.m, -1, dtype=np.int64)
+    places[list(info.bounded)] = np.arange(k)
+    functions = (*rates, compiled.model.geometry, rows.state.function, rows.accelerations.function)
+    flags = (np.zeros(k, dtype=np.int64) for _ in range(6))
+    numbers = (np.zeros(size * k) for size in (1, 1, 1, 1, 1, MODE_NUMBERS, MODE_NUMBERS, 1, 1, 1, 1, 1, k, k))
+    states = 2 * k + 2 * rows.dry + (k - rows.dry)
+    return Choice._make(
+        (
+            *(layout_of(compiled), *(compiled_form(f) for f in functions), new_box(k), first, k, rows.dry),
+            *(np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64), places),
+            *(np.full(1, -1), np.zeros(1, dtype=np.int64), *flags, np.zeros(k + 1, dtype=np.int64)),
+            *(np.zeros(1), *numbers),
+            *(np.zeros(size) for size in (width, nw, width, max(states, 1), room_of_choice(info.m, info.nv))),
+            np.zeros(abi.N_COUNTERS, dtype=np.int64),
+        )
+    )
+
+
+def first_step(span: Any) -> float:
+    """Return the step that laws assume before the first one [s]."""
+    return float(span.step if span.step > 0.0 else FIRST * span.duration)
+
+
+@exact()
+def scale_of(c: Any, w: Any, i: int, place: int) -> float:
+    """Return the mechanism's scale of speeds or of lengths in the unit of a row."""
+    return float(w[place] / w[abi.LENGTH] if c.angular[i] != 0 else w[place])
+
+
+@exact()
+def usual_of(c: Any, w: Any, i: int) -> float:
+    """Return the mechanism's scale of accelerations in the unit of a row."""
+    return float(scale_of(c, w, i, abi.SPEED) * (w[abi.SPEED] / w[abi.LENGTH]))
+
+
+@exact()
+def sign_of(x: float) -> float:
+    """Return the sign of a number."""
+    return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else 0.0)

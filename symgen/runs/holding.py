@@ -1,0 +1,147 @@
+"""Rows at rest that are put into force, compiled: independent ones, which carry the forces of all others."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.ir.program import MODE_NUMBERS
+from symgen.layout.scales import larger
+from symgen.loopcode.exact import exact
+from symgen.native import types
+from symgen.runs.bounded_rows import (
+    CHOICE,
+    CONSTANT,
+    DEPENDENT,
+    HELD,
+    LIMIT,
+    NO_ACCELERATION,
+    NO_FACTOR,
+    NOT_DETERMINED,
+    SAME,
+    SIGN,
+    usual_of,
+)
+from symgen.runs.box import independent_set, solve_independent
+
+_A, _N = types.float64[::1], types.int64
+
+
+@exact()
+def independence(c: Any, i: int) -> float:
+    """Return the part of a row at rest that rows put into force do not determine."""
+    return float(c.rest_of[i * c.count + i] / c.alone[i]) if c.alone[i] > 0.0 else 0.0
+
+
+@exact()
+def take_rows(c: Any, n: int, pushing: bool, w: Any) -> None:
+    """Put the most independent rows at rest into force, one after the other; `pushing`: only stops that push."""
+    k, left = c.count, c.rest_of
+    while True:
+        best, most = -1, DEPENDENT
+        for r in range(n):
+            i = c.rest[r]
+            free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (i >= c.dry and c.loose[i] != 0)
+            if pushing:
+                least = NO_ACCELERATION * usual_of(c, w, i)
+                free = free and i >= c.dry and -c.forces[i] * c.matrix[i * k + i] > least
+            if free and independence(c, i) > most:
+                best, most = i, independence(c, i)
+        if best < 0:
+            break
+        c.taken[best] = 1
+        pivot = left[best * k + best]
+        for i in range(k):
+            c.trial[i], c.offset[i] = left[i * k + best], left[best * k + i]
+        for i in range(k):
+            for j in range(k):
+                left[i * k + j] -= c.trial[i] * c.offset[j] / pivot
+
+
+@exact(_N(CHOICE, _A))
+def hold_rows(c: Any, w: Any) -> int:
+    """Put independent rows among those at rest into force; set their constants and largest efforts.
+
+    Stops that push come first: a coordinate that they keep at rest does not slide. Returns `SAME`, or
+    `NOT_DETERMINED`.
+    """
+    k, n, after = c.count, c.at_rest[0], c.after
+    for i in range(k * k):
+        c.rest_of[i] = c.matrix[i]
+    kept = 0
+    for r in range(n):
+        i = c.rest[r]
+        if c.matrix[i * k + i] > DEPENDENT * c.alone[i] or c.signs[i] == 0.0:
+            c.rest[kept] = i
+            kept += 1
+    take_rows(c, kept, True, w)
+    for r in range(kept):
+        i = c.rest[r]
+        if i < c.dry and independence(c, i) <= DEPENDENT:
+            c.signs[i] = 0.0
+    take_rows(c, kept, False, w)
+    count = 0
+    for i in range(k):
+        at = MODE_NUMBERS * i
+        if c.taken[i] != 0:
+            c.box.order[count] = i
+            count += 1
+            after[at + HELD] = 1.0
+            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
+            after[at + LIMIT] = 0.0 if i >= c.dry else c.static[i]
+    for r in range(kept):
+        i = c.rest[r]
+        other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.matrix[i * k + i] > DEPENDENT * c.alone[i]
+        if other and not (i >= c.dry and independence(c, i) > DEPENDENT):
+            if share_force(c, i, count) != SAME:
+                return NOT_DETERMINED
+    for i in range(k):
+        after[MODE_NUMBERS * i + SIGN] = 0.0 if i >= c.dry else c.signs[i]
+    return SAME
+
+
+@exact()
+def share_force(c: Any, i: int, count: int) -> int:
+    """Give the effort of a row that rows in force determine to the one that carries it."""
+    k, box, after = c.count, c.box, c.after
+    a = 0
+    for j in range(k):
+        if c.taken[j] != 0:
+            box.offset[a] = c.matrix[j * k + i]
+            b = 0
+            for other in range(k):
+                if c.taken[other] != 0:
+                    box.matrix[a * count + b] = c.matrix[j * k + other]
+                    b += 1
+            a += 1
+    for j in range(count):
+        box.order[j] = j
+    rank, most = independent_set(count, count, box), 0.0
+    for j in range(rank):
+        box.right[j] = box.offset[box.order[j]]
+    solve_independent(count, rank, box)
+    for j in range(count):
+        box.left[j] = 0.0
+    for j in range(rank):
+        box.left[box.order[j]] = box.right[j]
+        most = larger(most, abs(box.right[j]))
+    owners, stops, owner, a, factor = 0, 0, -1, 0, 0.0
+    c.named[0] = i
+    for j in range(k):
+        if c.taken[j] != 0:
+            if abs(box.left[a]) > NO_FACTOR * most:
+                owners += 1
+                stops += 1 if j >= c.dry else 0
+                owner, factor = j, abs(box.left[a])
+                c.named[owners] = j
+            a += 1
+    at = MODE_NUMBERS * i
+    if i >= c.dry or stops == owners:
+        after[at + CONSTANT], after[at + LIMIT] = -1.0, 1.0
+        return SAME
+    if owners != 1:
+        for j in range(owners + 1, k + 1):
+            c.named[j] = -1
+        return NOT_DETERMINED
+    after[at + CONSTANT], after[at + LIMIT] = float(owner), factor * c.static[i]
+    after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
+    return SAME
