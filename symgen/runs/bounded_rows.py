@@ -46,6 +46,7 @@ SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
 #: - broken, stopped, left (shapes (k,)): 1 for coordinates that have just broken loose, or whose rate has just become
 #:   zero; for stops whose force has.
 #: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
+#: - passing (shape (k,)): 1 for coordinates whose rate only passes zero, as no force within bounds stops them.
 #: - named (shape (k + 1,)): Rows whose forces are not determined, then -1.
 #: - value ... restitution (shapes (k,)): Coordinates and gaps, rates, bounds, restitutions.
 #: - before, after (shape (MODE_NUMBERS k,)): Modes.
@@ -63,7 +64,7 @@ CHOICE = record_type(
     ("states accelerations", abi.OBSERVE),
     ("box", BOX),
     ("first count dry", _N),
-    ("angular place_of pushed at_rest broken stopped left rest loose taken named", _K),
+    ("angular place_of pushed at_rest broken stopped left rest loose taken passing named", _K),
     ("step value speed static sliding restitution before after signs trial offset alone forces matrix rest_of", _A),
     ("y w rate out room", _A),
     ("iw", _K),
@@ -90,7 +91,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
     places = np.full(info.m, -1, dtype=np.int64)
     places[list(info.bounded)] = np.arange(k)
     functions = (*rates, compiled.model.geometry, rows.state.function, rows.accelerations.function)
-    flags = (np.zeros(k, dtype=np.int64) for _ in range(6))
+    flags = (np.zeros(k, dtype=np.int64) for _ in range(7))
     numbers = (np.zeros(size * k) for size in (1, 1, 1, 1, 1, MODE_NUMBERS, MODE_NUMBERS, 1, 1, 1, 1, 1, k, k))
     states = 2 * k + 2 * rows.dry + (k - rows.dry)
     return Choice._make(

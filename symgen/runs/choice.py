@@ -229,6 +229,7 @@ def solve_rest(c: Any, n: int, w: Any) -> int:
     for r in range(n):
         i = c.rest[r]
         bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
+        c.passing[i] = 1 if moves else 0
         if i >= c.dry:
             moves = moves and box.left[r] > 0.0
         elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:

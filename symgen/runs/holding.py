@@ -61,8 +61,8 @@ def take_rows(c: Any, n: int, pushing: bool, w: Any) -> None:
 def hold_rows(c: Any, w: Any) -> int:
     """Put independent rows among those at rest into force; set their constants and largest efforts.
 
-    Stops that push come first: a coordinate that they keep at rest does not slide. Returns `SAME`, or
-    `NOT_DETERMINED`.
+    Stops that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
+    a dead centre, does. Returns `SAME`, or `NOT_DETERMINED`.
     """
     k, n, after = c.count, c.at_rest[0], c.after
     for i in range(k * k):
@@ -76,7 +76,7 @@ def hold_rows(c: Any, w: Any) -> int:
     take_rows(c, kept, True, w)
     for r in range(kept):
         i = c.rest[r]
-        if i < c.dry and independence(c, i) <= DEPENDENT:
+        if i < c.dry and c.passing[i] == 0 and independence(c, i) <= DEPENDENT:
             c.signs[i] = 0.0
     take_rows(c, kept, False, w)
     count = 0
