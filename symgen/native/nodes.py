@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from msgspec.structs import replace
+
 from symgen.native import language as lang
 from symgen.native import sines
 from symgen.native.llvm import FunctionPrinter, declarations, head, is_copied, reached
@@ -52,7 +54,7 @@ def node_module(
     Foreign
         If the function is not straight code.
     """
-    printer = NodesPrinter(function, symbol, name)
+    printer = NodesPrinter(with_choice_outside(function), symbol, name)
     texts = [printer.text()]
     copied, declared = dict[object, lang.Function](), dict[object, lang.Function]()
     for each in printer.calls.values():
@@ -65,6 +67,22 @@ def node_module(
     texts += [FunctionPrinter(f, symbol, "available_externally ", False).text() for f in copied.values()]
     texts += [f"declare {head(f, symbol(f), named=False)}" for key, f in declared.items() if key not in copied]
     return "\n".join([*texts, *sorted(printer.declared), *declarations(texts), ""])
+
+
+def with_choice_outside(function: lang.Function) -> lang.Function:
+    """Return a function whose first call chooses among results with that choice around all of its statements.
+
+    A function around a right-hand side, as of integrals, calls first what has a choice.
+    """
+    first = function.body[0]
+    if not (isinstance(first, lang.Assign) and isinstance(first.value, lang.FunctionCall)):
+        return function
+    match first.value.function.body:
+        case (lang.If(test=test, then=(lang.Return(value=yes),), otherwise=()), lang.Return(value=no)):
+            rest = function.body[1:]
+            then = lang.Assign(first.name, yes), *rest
+            return replace(function, body=(lang.If(test, then, ()), lang.Assign(first.name, no), *rest))
+    return function
 
 
 class NodesPrinter(ValuePrinter):
