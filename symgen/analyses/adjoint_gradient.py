@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from symgen.base.errors import AnalysisError
 from symgen.layout import abi
 from symgen.result.build import build_result
-from symgen.result.sensitivities import Evaluated, Sensitivities, doubt_of_motion, place_of, prepared
+from symgen.result.evaluated import Evaluated
+from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of, prepared
 from symgen.running.directions import Direction, named_directions
 from symgen.running.start_directions import StartDirections
 from symgen.runs.adjoint import Adjoint, Uncovered, run_for_adjoint

@@ -20,6 +20,7 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.layout import abi
 from symgen.layout.probe import Ready
+from symgen.running.shortest_changes import NONE, shortest, turned
 from symgen.running.starts import held_of
 from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.vocabulary.rotations import composed_rotation
@@ -32,10 +33,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Part of the largest direction that a row may be violated by at the closed start: rounding of the solution.
-_ROUNDING = 1e-8
-#: Part of the largest singular value below which a direction is none.
-_NONE = 1e-10
 #: Rates of Euler parameters in unit orientation by unit angular velocities.
 _HALVES = (0.0, 0.5, 0.0, 0.0), (0.0, 0.0, 0.5, 0.0), (0.0, 0.0, 0.0, 0.5)
 #: Part of the largest velocity by which a described one may differ from that of the start.
@@ -235,7 +232,7 @@ class StartDirections:
             violated = np.vstack([violated, at[list(held)] - np.array(list(held.values()))])
         names = [info.rows[i].name for i in holonomic] + [info.joint_coordinates[k].name for k in held]
         scales = np.sqrt(self.compiled.section(self.start.w, "gauge"))
-        change = self._shortest(rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales)
+        change = shortest(rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales, self.directions)
         return np.asarray(motion @ (along + change))
 
     @cached_property
@@ -274,9 +271,9 @@ class StartDirections:
         apart = np.abs(v - kept)[list(fixed)].max(initial=0.0)
         fits = apart <= _KEPT * np.abs(v).max(initial=0.0)
         if fits:
-            more = self._turned(rows, slopes, v, free, scales, np.zeros((info.nv, n)), bool(rates))
+            more = turned(rows, slopes, v, free, scales, np.zeros((info.nv, n)), bool(rates))
             try:
-                return self._shortest(rows, right, fixed, names, more, scales)
+                return shortest(rows, right, fixed, names, more, scales, self.directions)
             except InputError:
                 if np.any(np.abs(v[free]) > _KEPT * np.abs(v).max(initial=0.0)):
                     raise
@@ -284,12 +281,12 @@ class StartDirections:
         change, free = v - kept, [j for j in range(info.nv) if j not in held]
         masses = np.maximum(self.compiled.section(self.start.w, "mass"), 1e-300)
         scales = 1.0 / np.sqrt(masses)
-        more = self._turned(rows, slopes, change, free, scales, self._masses(p) * change[:, np.newaxis], bool(rates))
+        more = turned(rows, slopes, change, free, scales, self._masses(p) * change[:, np.newaxis], bool(rates))
         own = np.zeros((info.nv, n))
         for j, target in fixed.items():
             own[j] = target
         still = {j: np.zeros(n) for j in held}
-        return own + self._shortest(rows, right - rows @ own, still, names, more, scales)
+        return own + shortest(rows, right - rows @ own, still, names, more, scales, self.directions)
 
     def _masses(self, p: Array) -> Array:
         """Return the directions of the masses of velocities, shape (nv, n)."""
@@ -308,87 +305,6 @@ class StartDirections:
             if slot is not None:
                 slopes[row, column] = derived[first + slot]
         return slopes
-
-    def _turned(
-        self, rows: Array, slopes: Array, x: Array, free: list[int], scales: Array, loads: Array, rates: bool
-    ) -> Array:
-        """Return how the shortest solution x of rows turns with these, scaled; what they determine is not read.
-
-        Parameters
-        ----------
-        rows, slopes : Array, shapes (k, nv), (k, nv, n)
-            The rows and their directions.
-        x : Array, shape (nv,)
-            The solution.
-        free : list of int
-            Its unknowns.
-        scales : Array, shape (nv,)
-            Scales of the unknowns.
-        loads : Array, shape (nv, n)
-            Directions of the metric times x.
-        rates : bool
-            Whether rates of joints are among the rows, whose directions are not known.
-        """
-        result, own = np.zeros((self.info.nv, self.count)), scales[free]
-        a = rows[:, free] * own
-        if not np.any(x[free]) or np.linalg.matrix_rank(a, tol=_NONE * np.linalg.norm(a)) == len(free):
-            return result
-        if rates:
-            expected = "a start whose velocities follow from what it holds"
-            raise InputError("sensitivities", expected, "one that leaves some to the smallest ones")
-        pulls = np.linalg.pinv(a, rcond=_NONE).T @ (x[free] / own)
-        result[free] = own[:, np.newaxis] * (np.einsum("ijk,i->jk", slopes[:, free], pulls) - loads[free])
-        return result
-
-    def _shortest(
-        self,
-        rows: Array,
-        right: Array,
-        fixed: dict[int, Array],
-        names: Sequence[str],
-        more: Array,
-        scales: Array,
-    ) -> Array:
-        """Return the shortest solution of linear equations in which some unknowns have values, shape (nv, n).
-
-        Parameters
-        ----------
-        rows, right : Array, shapes (k, nv), (k, n)
-            The equations.
-        fixed : dict of int to Array
-            Unknowns with values.
-        names : sequence of str
-            Names of the equations.
-        more : Array, shape (nv, n)
-            Scaled change, of which the part that the equations leave free is added.
-        scales : Array, shape (nv,)
-            Scales of the unknowns.
-        """
-        info, result = self.info, np.zeros((self.info.nv, self.count))
-        for j, target in fixed.items():
-            result[j] = target
-        free = [j for j in range(info.nv) if j not in fixed]
-        own = scales[free]
-        scaled, rest = rows[:, free] * own, right - rows @ result
-        inverse = np.linalg.pinv(scaled, rcond=_NONE)
-        solution = inverse @ rest
-        left = np.abs(rest - scaled @ solution)
-        sizes = np.maximum(np.abs(rest).max(initial=0.0, axis=0), np.abs(right).max(initial=0.0, axis=0))
-        wrong = left > _ROUNDING * np.maximum(sizes, 1e-300)
-        if np.any(wrong):
-            i, k = map(
-                int,
-                np.unravel_index(int(np.argmax(np.where(wrong, left / np.maximum(sizes, 1e-300), 0.0))), left.shape),
-            )
-            raise InputError(
-                f"sensitivities '{self.directions[k].name}'",
-                "a number in whose direction the mechanism stays closed",
-                f"one by which the row {names[i]} cannot be met",
-                "rows that depend on others, or held quantities, leave no room for it",
-            )
-        solution += more[free] - inverse @ (scaled @ more[free])
-        result[free] = own[:, np.newaxis] * solution
-        return result
 
     def _states(self) -> Array:
         """Return the directions of the file's own states."""
@@ -428,7 +344,7 @@ class StartDirections:
         by = moved(Seeds(unit, np.zeros((len(start.p), own.work))))
         rest = bodies[: info.work] - moved(Seeds(np.zeros((own.ny, n)), self.parameters(tree.compiled)))
         result = np.zeros((own.ny, n))
-        result[: own.work] = np.linalg.lstsq(by, rest, rcond=_NONE)[0]
+        result[: own.work] = np.linalg.lstsq(by, rest, rcond=NONE)[0]
         result[own.own_states] = bodies[info.own_states]
         return result
 

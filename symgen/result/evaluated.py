@@ -1,0 +1,137 @@
+"""Quantities of a run with directions, at its outputs: directions of states, rates and functions of bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.events import STOP
+from symgen.layout import abi
+from symgen.running.prepare import Prepared
+from symgen.runs.directed_model import DirectedModel
+from symgen.runs.directed_observer import Observer
+from symgen.runs.directions import Course, Part
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+    from symgen.running.directions import Direction
+
+Array = NDArray[np.float64]
+
+
+class SeedsOfParameters(Protocol):
+    """Directions by name, with directions of parameters."""
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """The directions."""
+
+    def parameters(self, compiled: CompiledModel) -> Array:
+        """Return the directions of the array of parameters of a model, shape (np, n)."""
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """Evaluates quantities of a run with directions.
+
+    Parameters
+    ----------
+    run : Prepared
+        The run.
+    start : SeedsOfParameters
+        Its directions.
+    course : Course
+        What its loops left behind.
+    """
+
+    run: Prepared
+    start: SeedsOfParameters
+    course: Course
+
+    @cached_property
+    def observers(self) -> tuple[Observer, ...]:
+        """The motion of bodies with directions, one for each loop."""
+        parts = self.course.parts
+        if self.run.tree is None:
+            return tuple(self._own(part) for part in parts)
+        return tuple(self._carried(part, k * part.model.lanes) for k, part in enumerate(parts))
+
+    def _own(self, part: Part) -> Observer:
+        outcome, info = part.outcome, part.model.plain.info
+        windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        pieces = (*outcome.held, (np.inf, outcome.p))
+        return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w)
+
+    def _carried(self, part: Part, first: int) -> Observer:
+        """Return the motion of bodies that joints carry."""
+        tree = self.run.tree
+        assert tree is not None, "the state is that of joints"
+        info, own, lanes = tree.bodies.info, part.model.plain.info, part.model.lanes
+        values, slopes = self._own(part).observed(tree.compiled.model.bodies, info.nq + 2 * info.nv)
+        model, k = DirectedModel(tree.bodies, lanes), len(values)
+        states, directions = np.zeros((k, info.ny)), np.zeros((k, info.ny, lanes))
+        states[:, : info.work], directions[:, : info.work] = values[:, : info.work], slopes[:, : info.work]
+        states[:, : info.nq] *= tree.signs
+        directions[:, : info.nq] *= tree.signs[:, np.newaxis]
+        behind = part.model.sizes["y"]
+        states[:, info.work :] = part.outcome.states[:, own.work : behind]
+        directions[:, info.work :] = part.states[:, own.work :]
+        carried = tree.carried(self.course.outcome)
+        seeds = self.start.parameters(tree.bodies)[:, first : first + lanes]
+        room = np.zeros((len(seeds), lanes))
+        room[:, : seeds.shape[1]] = seeds
+        pieces = tuple((t, model.parameters(p, room)) for t, p in (*carried.held, (np.inf, carried.p)))
+        longer = np.concatenate([states, directions.reshape(k, -1)], axis=1)
+        windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        w = model.scratch(pieces[-1][1], carried.w)
+        return Observer(model, part.outcome.times, longer, windings, pieces, w)
+
+    def gathered(self, of: Callable[[Observer], Array]) -> Array:
+        """Return directions of all loops beside each other, along the last axis."""
+        return np.concatenate([of(x) for x in self.observers], axis=-1)[..., : self.course.count]
+
+    def states(self) -> Array:
+        """Return the directions of the states of bodies at the outputs, shape (k, ny, n)."""
+        return self.gathered(lambda x: x.model.shadow(x.states, "y"))
+
+    def rates(self) -> Array:
+        """Return the directions of the rates of these states."""
+        return self.gathered(lambda x: x.model.shadow(x.rates[0], "y"))
+
+    def function(self, function: Any, length: int) -> Array:
+        """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
+        return self.gathered(lambda x: x.observed(function, length)[1])
+
+    def end(self) -> Array | None:
+        """Return the directions of the time at which an event ended the run, shape (n,); None where none did."""
+        watched, outcome = self.run.spec.events, self.course.outcome
+        stops = [x.name for x in outcome.happened if x.action == STOP and x.t == outcome.end]
+        if watched is None or not stops or outcome.code != abi.DONE:
+            return None
+        count, at = len(watched.names) + len(watched.switches), watched.names.index(stops[0])
+        found = list[Array]()
+        for part in self.course.parts:
+            state, info = part.outcome.simulation.state, part.model.whole.info
+            windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.windings]
+            here = np.array([outcome.end]), state.y[np.newaxis, : info.ny], windings
+            observer = Observer(part.model, *here, ((np.inf, state.p),), state.w)
+            values, slopes = observer.observed(watched.function, 3 * count)
+            # at an event that grazes, its time has no derivative
+            with np.errstate(divide="ignore", invalid="ignore"):
+                found.append(-slopes[0, at] / values[0, count + at])
+        return np.concatenate(found)[: self.course.count]
+
+    def apart(self) -> Array:
+        """Return by how much directions leave the constraints, over their size, shape (n,)."""
+        parts = [(part.model, self._own(part)) for part in self.course.parts]
+        found = list[Array]()
+        for model, observer in parts:
+            sizes = np.abs(model.shadow(observer.states, "y")[:, : model.plain.info.nq]).max(axis=(0, 1), initial=0.0)
+            largest = observer.violations().max(axis=0, initial=0.0)
+            found.append(largest / np.where(sizes > 0.0, sizes, 1.0))
+        return np.concatenate(found)[: self.course.count]
