@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.layout.compiled import CompiledModel
     from symgen.result.result import Result
+    from symgen.running.prepare import Prepared
 
 Array = NDArray[np.float64]
 
@@ -95,19 +96,20 @@ class AdjointGradient:
         Its unit.
     slopes : Array
         Derivatives, in the order of the names.
-    units : tuple of str
-        Units of what it is differentiated by.
     kept : int
         Bytes of the steps that were kept.
-    result : Result
-        The run.
+    directions : tuple of Direction
+        What it is differentiated by.
+    run, result : Prepared, Result
+        The run before and after it was made.
     """
 
     value: float
     unit: str
     slopes: Array
-    units: tuple[str, ...]
     kept: int
+    directions: tuple[Direction, ...]
+    run: Prepared
     result: Result
 
 
@@ -160,7 +162,5 @@ def adjoint_gradient(
     result = replace(result, notes=(*result.notes, *notes))
     if result.status == "ok" and (doubt := doubt_of_motion(result)):
         result = replace(result, status="unverified", reason=doubt)
-    units = tuple(d.unit for d in start.directions)
-    return AdjointGradient(
-        float(getattr(result, table).values[-1, place]), unit, slopes, units, adjoint.run.kept, result
-    )
+    value = float(getattr(result, table).values[-1, place])
+    return AdjointGradient(value, unit, slopes, adjoint.run.kept, start.directions, run, result)

@@ -21,6 +21,8 @@ from symgen.result.sensitivities import Differentiated
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
+    from symgen.running.directions import Direction
+    from symgen.running.prepare import Prepared
 
 Array = NDArray[np.float64]
 #: Bounds of a number.
@@ -90,16 +92,15 @@ class FreeNumbers:
         self.runs += 1
         return run, run.result(build_result(run.run, run.integrate()))
 
-    def values(self, run: Differentiated, result: Result) -> Array:
+    def values(self, directions: Sequence[Direction], run: Prepared, result: Result) -> Array:
         """Return the values of the numbers in a run that was made without `x`."""
-        return np.array([self._value(run, result, i) for i in range(len(self.names))])
+        return np.array([self._value(d, run, result) for d in directions])
 
-    def _value(self, run: Differentiated, result: Result, i: int) -> float:
-        d = run.directions[i]
+    def _value(self, d: Direction, run: Prepared, result: Result) -> float:
         if d.kind == "parameter":
             return float(parameter_values(self.mechanism, self.settings.parameters)[d.key])
         if d.kind == "method":
-            p, law = run.run.start.p, run.run.compiled.law
+            p, law = run.start.p, run.compiled.law
             return float(p[law.parameter_offset + [name for name, _ in law.parameters].index(d.key)])
         if d.key in self.settings.start:
             return float(self.settings.start[d.key])

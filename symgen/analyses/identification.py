@@ -130,7 +130,7 @@ class Identification:
         self.free = FreeNumbers("identify: free", own.mechanism, settings, own.keys)
         self._last: tuple[bytes, Array, Array] | None = None
         first, result = self.free.run(data[0].t.tolist())
-        self.start = np.array([*self.free.values(first, result), *(0.0 for _ in bias)])
+        self.start = np.array([*self.free.values(first.directions, first.run, result), *(0.0 for _ in bias)])
         self.units = {d.name: d.unit for d in first.directions}
         self.quantities = self._chosen(result, quantities)
         self.scales = {name: weights.get(name) or 1.0 / self._deviation(name) for name in self.quantities}

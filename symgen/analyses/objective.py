@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symgen.analyses.adjoint_gradient import adjoint_gradient, is_cheaper
-from symgen.analyses.free_numbers import Bounds, FreeNumbers, exact, limits, with_bounds
+from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.inputs import put
@@ -30,6 +30,8 @@ from symgen.runs.adjoint import Uncovered
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.result.result import Result
+    from symgen.running.directions import Direction
+    from symgen.running.prepare import Prepared
 
 Array = NDArray[np.float64]
 
@@ -84,6 +86,8 @@ class Objective:
         A column of results, or a formula as in ``[outputs]``.
     by : mapping of str to (float or None, float or None), or sequence of str
         The numbers, with their bounds.
+    way : {"auto", "forward", "adjoint"}
+        How derivatives are found: whichever costs less and covers the run, or one of them.
 
     Attributes
     ----------
@@ -108,6 +112,7 @@ class Objective:
         settings: Settings,
         quantity: str,
         by: Mapping[str, Bounds | None] | Sequence[str],
+        way: str = "auto",
     ) -> None:
         self._where, self.quantity, pairs = where, quantity, with_bounds(f"{where}: by", by)
         own = lifted(f"{where}: by", mechanism, tuple(pairs))
@@ -116,12 +121,11 @@ class Objective:
         until = mechanism.defaults.until if settings.until is None else settings.until
         self.mechanism = mechanism
         self.names, self.bounds, self._times = self._free.names, list(pairs.values()), (float(until),)
-        run, result = self._free.run(self._times)
-        self.x0 = self._free.values(run, result)
+        self._quick = arguments.one_of(f"{where}: way", way, ("auto", "forward", "adjoint")) == "auto"
+        self._way = way if not self._quick else "adjoint" if is_cheaper(len(self.names)) else "forward"
+        self.first, directions, prepared = self._run(None)
+        self.x0 = self._free.values(directions, prepared, self.first.result)
         limits(f"{where}: by", self.names, self.bounds, self.x0)
-        if result.outcome.code != abi.DONE:
-            raise AnalysisError(f"{where}: the run does not reach its end: {result.reason}")
-        self.first = self._gradient(result)
         self._last: tuple[bytes, tuple[float, Array]] | None = None
 
     def __repr__(self) -> str:
@@ -153,10 +157,35 @@ class Objective:
 
     def _at(self, x: Array) -> tuple[float, Array]:
         try:
-            _, result = self._free.run(self._times, x)
-        except (InputError, AssemblyError):
+            return self._pair(self._run(x)[0])
+        except Uncovered:
+            raise
+        except (InputError, AssemblyError, AnalysisError):
             return np.inf, np.zeros(len(x))
-        return self._pair(self._gradient(result)) if result.outcome.code == abi.DONE else (np.inf, np.zeros(len(x)))
+
+    def _run(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
+        """Make a run with the values `x`, or those of the settings; return it with its derivatives."""
+        if self._way == "adjoint":
+            try:
+                return self._by_adjoint(x)
+            except Uncovered:
+                if not self._quick:
+                    raise
+                self._way = "forward"
+        run, result = self._free.run(self._times, x)
+        if result.outcome.code != abi.DONE:
+            raise AnalysisError(f"{self._where}: the run does not reach its end: {result.reason}")
+        return self._gradient(result), run.directions, run.run
+
+    def _by_adjoint(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
+        settings = self._free.settings if x is None else self._free.settings_at(x)
+        self._free.runs += 1
+        ending = replace(settings, times=[*self._times], until=self._times[-1])
+        found = adjoint_gradient(self._where, self.mechanism, ending, self._column, self._free.keys, self._quick)
+        slopes = dict(zip(self.names, found.slopes.tolist(), strict=True))
+        units = {name: over(found.unit, d.unit) for name, d in zip(self.names, found.directions, strict=True)}
+        gradient = Gradient(found.value, found.unit, slopes, units, found.result, "adjoint", found.kept)
+        return gradient, found.directions, found.run
 
     def _pair(self, gradient: Gradient) -> tuple[float, Array]:
         return gradient.value, np.array([gradient.by[name] for name in self.names])
@@ -170,29 +199,6 @@ class Objective:
         slopes = result.gradient(self._column).row()
         units = {d: over(unit, by) for d, by in zip(self.names, result.sensitivities.units, strict=True)}
         return Gradient(float(getattr(result, table).values[-1, place]), unit, slopes, units, result)
-
-
-def gradient_of(
-    mechanism: Mechanism, settings: Settings, quantity: str, by: Sequence[str], way: str = "auto"
-) -> Gradient:
-    """Return a quantity at the end of a run with its derivatives; arguments as for `gradient` of a model."""
-    way, where = arguments.one_of("way", way, ("auto", "forward", "adjoint")), "gradient"
-    names = tuple(with_bounds(f"{where}: by", by))
-    if way == "adjoint" or (way == "auto" and is_cheaper(len(names))):
-        own = lifted(f"{where}: by", mechanism, names)
-        extended, column = _with_output(where, own.mechanism, quantity)
-        until = float(mechanism.defaults.until if settings.until is None else settings.until)
-        ending = replace(exact(f"{where}: by", settings), times=[until], until=until)
-        try:
-            found = adjoint_gradient(where, extended, ending, column, own.keys, way == "auto")
-        except Uncovered:
-            if way == "adjoint":
-                raise
-        else:
-            slopes = dict(zip(names, found.slopes.tolist(), strict=True))
-            units = {name: over(found.unit, unit) for name, unit in zip(names, found.units, strict=True)}
-            return Gradient(found.value, found.unit, slopes, units, found.result, "adjoint", found.kept)
-    return Objective(where, mechanism, settings, quantity, names).first
 
 
 def _with_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mechanism, str]:

@@ -173,3 +173,17 @@ def test_angles_that_count_turns(tmp_path, method, coordinates):
     by = ("k", "bodies.wheel.mass", "forces.spring.free_angle", "forces.spring.damping")
     assert largest_difference(wheel, "wheel.wy", by, **settings) < 1e-11
     assert wheel.simulate(verify=False, **settings)["axle.angle"].max() > 12.0
+
+
+def test_objectives(four_bar):
+    settings = {"until": 0.5, "method": "lagrange", "integrator": "rk4", "step": 1e-2, "start": {"crank.omega": 0.3}}
+    by = (*BY_NAME, "crank.omega", "bodies.coupler.angle")
+    one, other = (four_bar.objective("rocker.theta**2", by=by, way=way, **settings) for way in ("auto", "forward"))
+    assert (one.first.way, other.first.way) == ("adjoint", "forward")
+    assert one.x0.tolist() == other.x0.tolist()
+    at = one.x0 * 1.01
+    values, slopes = zip(one(at), other(at), strict=True)
+    assert values[0] == pytest.approx(values[1], rel=1e-12)
+    assert slopes[0] == pytest.approx(slopes[1], rel=1e-11)
+    at[by.index("a")] = 100.0
+    assert one(at)[0] == float("inf")

@@ -78,12 +78,13 @@ def objective(
     settings: Settings | None = None,
     *,
     by: Mapping[str, Bounds | None] | Sequence[str],
+    way: str = "auto",
     **changes: Unpack[RunKeywords],
 ) -> Objective:
     """Return a quantity at the end of the run as a function of chosen numbers, for ``scipy.optimize.minimize``.
 
-    Derivatives are by forward directions, as in runs with ``sensitivities``. Their number is
-    not limited: those that one loop does not take are further runs of the same steps.
+    The number of derivatives is not limited: few are carried along, as in runs with ``sensitivities``, and for many the
+    adjoint goes back through the run.
 
     Parameters
     ----------
@@ -94,6 +95,8 @@ def objective(
         All settings at once. Tolerances are 1e-10 where they are left open.
     by : mapping of str to (float, float), or sequence of str
         The numbers: parameters, values of the start such as ``crank.omega``, ``method.NAME``. Their bounds may be None.
+    way : {"auto", "forward", "adjoint"}
+        As for `gradient`.
     **changes
         Single settings by name, as listed above.
 
@@ -113,7 +116,8 @@ def objective(
     """
     from symgen.analyses.objective import Objective
 
-    return Objective("objective", model.mechanism, settings_of("objective", settings, changes, OF_ENDS), quantity, by)
+    own = settings_of("objective", settings, changes, OF_ENDS)
+    return Objective("objective", model.mechanism, own, quantity, by, way)
 
 
 def gradient(
@@ -138,7 +142,7 @@ def gradient(
         Parameters, numbers of the file by their paths, values of the start such as ``crank.omega``, ``method.NAME``.
     way : {"auto", "forward", "adjoint"}
         How derivatives are found: whichever costs less and covers the run, or one of them. The adjoint takes explicit
-        Runge-Kutta schemes without events, and methods in closed form that do not correct the state.
+        Runge-Kutta schemes without events, and laws in closed form, with or without corrections of the state.
     **changes
         Single settings by name, as listed above.
 
@@ -152,10 +156,10 @@ def gradient(
     InputError, AssemblyError, AnalysisError
         As for `objective`, and where the adjoint is wanted and does not cover the run.
     """
-    from symgen.analyses.objective import gradient_of
+    from symgen.analyses.objective import Objective
 
     own = settings_of("gradient", settings, changes, OF_ENDS)
-    return gradient_of(model.mechanism, own, quantity, by, way)
+    return Objective("gradient", model.mechanism, own, quantity, by, way).first
 
 
 def command(
