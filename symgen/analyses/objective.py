@@ -164,7 +164,7 @@ class Objective:
             return np.inf, np.zeros(len(x))
 
     def _run(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
-        """Make a run with the values `x`, or those of the settings; return it with its derivatives."""
+        """Make a run with the values `x`, by default as the settings are; return it with its derivatives."""
         if self._way == "adjoint":
             try:
                 return self._by_adjoint(x)

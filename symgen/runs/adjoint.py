@@ -241,8 +241,7 @@ class Adjoint:
         back, rates, table = corrected if own else back_through, _adjoint(law.rhs), transposed(run.scheme)
         angles = min(run.compiled.info.windings, HEAD - ANGLES)
         for records in reversed(run.pieces[1:]):
-            count = len(records) // run.size - 1
-            back(rates, functions or 0, run.scheme, table, count, width, angles, records, p, w, iw, bars, room)
+            back(rates, functions or 0, run.scheme, table, width, angles, records, p, w, iw, bars, room)
         if functions is not None:
             first, y = run.pieces[0], np.zeros(width)
             y[: len(run.start.y)] = run.start.y

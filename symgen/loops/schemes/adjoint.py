@@ -154,7 +154,6 @@ def backward(
     corrections: Any,
     scheme: Any,
     table: Any,
-    count: int,
     width: int,
     angles: int,
     records: Any,
@@ -176,8 +175,8 @@ def backward(
         The scheme.
     table : Transposed
         Its coefficients by columns.
-    count, width, angles : int
-        Numbers of steps, of elements of a state, and of angles that count turns.
+    width, angles : int
+        Numbers of elements of a state, and of angles that count turns.
     records : Array
         The start and the steps.
     p, w, iw : Array
@@ -203,6 +202,7 @@ def backward(
     w_bar = part(bars, width + p.shape[0], w.shape[0])
     trial, rate, rate_bar = part(room, 0, width), part(room, width, width), part(room, 2 * width, width)
     bars_of_stages = part(room, 3 * width, (stages + 1) * width)
+    count = records.shape[0] // size - 1
     for back in range(count):
         k = count - back
         h, t = records[k * size + STEP], records[(k - 1) * size + TIME]
@@ -248,7 +248,7 @@ def backward(
 
 
 _TABLE = types.RecordType((_K, _K, _A), Transposed)
-_ARGUMENTS = TABLEAU, _TABLE, types.int64, types.int64, types.int64, _A, _A, _A, _K, _A, _A
+_ARGUMENTS = TABLEAU, _TABLE, types.int64, types.int64, _A, _A, _A, _K, _A, _A
 back_through = compiled_loop(__name__, "back_through", backward, types.int64(RATES, types.int64, *_ARGUMENTS))
 back_through_corrected = compiled_loop(
     __name__,
