@@ -185,7 +185,7 @@ def fitted(counts: list[int], errors: list[float], floor: float) -> tuple[float 
         return None, span, math.nan
     logs = np.log([n for n, _ in window]), np.log([e for _, e in window])
     fine = logs[0] > logs[0][0] - 1.05 * math.log(2.0)
-    whole, finest = (-float(np.polyfit(*(x[chosen] for x in logs), 1)[0]) for chosen in (fine | True, fine))
+    whole, finest = (-float(np.polyfit(x, y, 1)[0]) for x, y in (logs, (logs[0][fine], logs[1][fine])))
     return whole, span, finest
 
 
