@@ -30,6 +30,7 @@ FORMULATIONS: tuple[tuple[str, str, str, Mapping[str, str | float]], ...] = (
     ("`index3-augmented-lagrangian`", "index3-augmented-lagrangian", "trapezoidal", {}),
     ("`generalized-alpha`", "generalized-alpha", "generalized-alpha", {}),
     ("`rattle`", "rattle", "rattle", {}),
+    ("`discrete-gradient`", "discrete-gradient", "discrete-gradient", {}),
 )
 
 
