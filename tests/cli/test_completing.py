@@ -44,7 +44,7 @@ def folder(tmp_path, monkeypatch):
     ("line", "values"),
     [
         ("run four", ["four-bar"]),
-        ("run four-bar --method di", ["direct-correction"]),
+        ("run four-bar --method di", ["direct-correction", "discrete-gradient"]),
         ("compare four-bar --methods rattle,baum", ["rattle,baumgarte"]),
         ("run four-bar --integrator dop", ["dop853", "dopri5"]),
         ("view four-bar --coordinates j", ["joint"]),

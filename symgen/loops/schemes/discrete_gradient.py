@@ -6,7 +6,7 @@ space by exponentials, and
 - ``M A = mean of f(q(s), V) - mean of D(q(s))^T lambda`` over s from 0 to 1, ``v1 = v0 + h A``;
 - ``Phi(q1) = 0``.
 
-The mean of ``D V`` is the change of Phi over h, the mean of ``f V`` that of the potential, both exactly, so that the
+The mean of ``D V`` is the change of Phi over h, the mean of ``f V`` the fall of the potential, exactly, so that the
 kinetic energy ``V M A h`` balances if M is constant. Means are sums of Gauss with five nodes: exact where D and f are
 polynomials in s of degree 9, to rounding where a step turns bodies by less than half a radian. Rows without Phi hold on
 the mean of the path.
@@ -50,7 +50,7 @@ def gauss_weight(g: int) -> Any:
 
 @called
 def follow_path(system: Any, run: Any, share: float, h: float, moved: Any, rates: Any, y: Any) -> None:
-    """Set positions and auxiliary states of `y` to those of a share of the step, whose mean velocity `y` has."""
+    """Move positions and auxiliary states of `y` by a share of the step, whose mean velocity `y` has."""
     sizes = system.sizes
     first = sizes.nq + sizes.nv
     for i in range(sizes.nv):
