@@ -202,6 +202,16 @@ def test_equalities_of_mjcf(tmp_path: Path) -> None:
     assert np.allclose(end.T, [1.2 * math.cos(np.radians(40)), 0.0], atol=1e-9)
 
 
+def test_armature_between_links_without_mass_is_left_out(tmp_path: Path) -> None:
+    text = """<mujoco><worldbody><body name="torso"><joint name="x" type="slide" axis="1 0 0" armature="0.2"/>
+      <joint name="z" type="slide" axis="0 0 1" armature="0.3"/><geom type="box" size="0.1 0.1 0.1" mass="2"/></body>
+      </worldbody></mujoco>"""
+    read = imported(tmp_path, text, "float.xml")
+    assert [item.where for item in read.left_out if item.what == "armature"] == ["x", "z"]
+    run = model_of(read).simulate(until=0.1, coordinates="joint")
+    assert run.status == "ok" and run["torso.z"][-1] == pytest.approx(-0.5 * 9.81 * 0.1**2, rel=1e-6)
+
+
 def test_what_mujoco_advises_its_authors_is_no_warning(tmp_path: Path) -> None:
     assert imported(tmp_path, MJCF.replace("<compiler", '<compiler settotalmass="3"'), "old.xml").raw["bodies"]
 

@@ -145,6 +145,9 @@ class _Description:
             members[top].insert(0 if name == top else len(members[top]), link)
         return members
 
+    def _mass(self, body: str) -> float:
+        return sum(self.robot.links[link].mass for link, top in self.carriers.items() if top == body and link != GROUND)
+
     def place(self, body: str) -> Frame:
         """Return the frame of a body in the ground frame."""
         return Frame() if body == GROUND else self.robot.links[body].place
@@ -207,7 +210,10 @@ class _Description:
             table["axes"] = [_tidy(turned(f.rotation, unit(x))) for f, x in zip(inner, directions, strict=True)]
         if c.kind == "translational" and c.value:
             table["at"][0] = _tidy(plus(inner[0].origin, turned(inner[0].rotation, scaled(-c.value, unit(c.axis)))))
-        if c.rotor and c.kind in ("revolute", "translational"):
+        light = c.kind == "translational" and any(end != GROUND and self._mass(end) == 0.0 for end in ends)
+        if c.rotor and light:
+            self.left_out.append(LeftOut("armature", c.name, "it slides a link without mass", True))
+        elif c.rotor and c.kind in ("revolute", "translational"):
             table["rotor_inertia"] = c.rotor
         elif c.rotor:
             self.left_out.append(LeftOut("armature", c.name, f"a {c.kind} joint has no rotor", True))
