@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from symgen.api import load
+from symgen.api import Model, load
 from symgen.base.errors import AssemblyError, InputError
+from symgen.describe.validate import validate
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -160,3 +161,31 @@ def test_dark_as_the_system_is_and_by_the_button(wiper: Path, chromium: Chromium
     finally:
         prefer("light")
     assert chromium.said == []
+
+
+#: A script that notes what canvases write: text, width, place, alignment, and whether it stands upright.
+WRITTEN = """(() => {
+  const given = CanvasRenderingContext2D.prototype.fillText;
+  window.written = [];
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, ...rest) {
+    window.written.push([text, this.measureText(text).width, x, this.textAlign, this.getTransform().b !== 0]);
+    return given.call(this, text, x, ...rest);
+  };
+})();"""
+
+
+def test_numbers_and_titles_of_plots_have_room(chromium: Chromium, tmp_path: Path) -> None:
+    names = [f"a_body_whose_name_is_as_long_as_names_of_robots_are_{i}" for i in range(3)]
+    bodies = {name: {"mass": 1.0, "inertia": 1.0, "velocity": [-1.7e-10, 0.0]} for name in names}
+    raw = {"mechanism": {"name": "slow", "gravity": [0.0, 0.0]}, "bodies": bodies}
+    path = Model(validate(raw, "slow")).simulate(until=1.0).view().save(tmp_path / "slow.html")
+    chromium.open(path, scripts=(WRITTEN,))
+    chromium.frame()
+    written = chromium.run("window.written")
+    numbers = [(width, x) for _, width, x, align, turned in written if align == "right" and not turned]
+    titles = [(text, width) for text, width, _, _, turned in written if turned]
+    assert len(numbers) > 2 and titles
+    assert min(x - width for width, x in numbers) > 16.0  # beside the title
+    height = chromium.run("document.querySelector('#plots canvas').getBoundingClientRect().height")
+    assert max(width for _, width in titles) < height
+    assert any("e-1" in text for text, *_ in written)

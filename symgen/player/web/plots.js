@@ -55,22 +55,24 @@ function makePlot(canvas, key, chosen) {
     }
     if (!(high >= low)) [low, high] = [0, 1];
     if (high - low < 1e-12 * Math.max(Math.abs(high), 1e-300)) [low, high] = [low - 0.5 * (Math.abs(low) || 1), high + 0.5 * (Math.abs(high) || 1)];
-    const left = 58, right = 8, top = 10, bottom = 30;
+    context.font = "11px system-ui, sans-serif";
+    const marks = ticks(low, high, 5).map((v) => [v, group.log ? `1e${short(v)}` : short(v)]);
+    const left = Math.max(58, 22 + Math.max(0, ...marks.map(([, text]) => context.measureText(text).width)));
+    const right = 8, top = 10, bottom = 30;
     let [begin, end] = over.ends;
     if (!(end > begin)) [begin, end] = [begin - 0.5, begin + 0.5];
     const x = (value) => left + ((value - begin) / (end - begin)) * (width - left - right);
     const y = (value) => height - bottom - ((value - low) / (high - low)) * (height - top - bottom);
-    context.font = "11px system-ui, sans-serif";
     context.fillStyle = palette.soft;
     context.strokeStyle = palette.line;
     context.lineWidth = 1;
     context.textAlign = "right";
-    for (const v of ticks(low, high, 5)) {
+    for (const [v, text] of marks) {
       context.beginPath();
       context.moveTo(left, y(v));
       context.lineTo(width - right, y(v));
       context.stroke();
-      context.fillText(group.log ? `1e${short(v)}` : short(v), left - 5, y(v) + 4);
+      context.fillText(text, left - 5, y(v) + 4);
     }
     context.textAlign = "center";
     for (const v of ticks(begin, end, width < 320 ? 4 : 6)) context.fillText(short(v), x(v), height - bottom + 14);
@@ -78,7 +80,10 @@ function makePlot(canvas, key, chosen) {
     context.save();
     context.translate(11, (height - bottom + top) / 2);
     context.rotate(-Math.PI / 2);
-    context.fillText(`${group.title}${group.unit ? ` [${group.unit}]` : ""}`, 0, 0);
+    const unit = group.unit ? ` [${group.unit}]` : "", room = height - top - bottom;
+    let title = group.title;
+    while (title.length > 4 && context.measureText(title + unit).width > room) title = `${title.slice(0, -2)}…`;
+    context.fillText(title + unit, 0, 0);
     context.restore();
     group.columns.forEach((column, i) => {
       if (!shown(i)) return;
