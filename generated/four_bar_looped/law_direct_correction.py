@@ -5,6 +5,7 @@ Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s110
 format 3, generator of-golden-trees
 option solver = elimination
 option weight = identity
+option when = step
 parameter 0: tolerance (default 1e-13)
 """
 
