@@ -14,6 +14,7 @@ from symgen.analyses.actuators import WHERE, actuated, balance
 from symgen.analyses.kinematics import Kinematics, driven_motion
 from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
+from symgen.base.digits import cleaned
 from symgen.base.errors import InputError
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
@@ -114,7 +115,8 @@ class Inverse(Tables):
             entries[name] = {"unit": unit, "max": float(abs(values[at])), "at": float(t[at]), "rms": square**0.5}
             if name in self.power:
                 power = self.power[name]
-                energy = float(np.trapezoid(power, t))
+                # a turn gives back what it takes: what is left of that is rounding
+                energy = float(cleaned(np.trapezoid(power, t), np.trapezoid(np.abs(power), t)))
                 entries[name] |= {"peak_power": float(np.abs(power).max()), "energy": energy}
         return entries
 

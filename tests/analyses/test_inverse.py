@@ -351,3 +351,11 @@ def test_a_driver_that_repeats_another_exerts_nothing_beside_it(tmp_path):
     swept = symgen.sweep(model, {"rod.omega": [0.7]}, **asked, quantities=["elements"])
     np.testing.assert_allclose(swept["motor.effort"][0], needed, rtol=1e-6)
     assert not swept["twin.power"].any() and run.save(tmp_path / "run.csv").exists()
+
+
+def test_a_turn_gives_back_what_it_takes():
+    """Without losses the energy over a turn is 0: what is left of the sum is no value."""
+    whole = symgen.load("driven-four-bar").inverse(times=np.linspace(0.0, 1.0, 361))
+    assert whole.summary()["motor"]["energy"] == 0.0
+    part = symgen.load("driven-four-bar").inverse(times=np.linspace(0.0, 0.3, 181))
+    assert part.summary()["motor"]["energy"] == pytest.approx(np.trapezoid(part.power["motor"], part.t))
