@@ -116,7 +116,7 @@ class Inverse(Tables):
             if name in self.power:
                 power = self.power[name]
                 # a turn gives back what it takes: what is left of that is rounding
-                energy = float(cleaned(np.trapezoid(power, t), np.trapezoid(np.abs(power), t)))
+                energy = float(cleaned(np.trapezoid(power, t), float(np.trapezoid(np.abs(power), t))))
                 entries[name] |= {"peak_power": float(np.abs(power).max()), "energy": energy}
         return entries
 
