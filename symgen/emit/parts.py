@@ -79,6 +79,7 @@ class Parts:
             "number": SimpleNamespace(**NUMBERS, newton=correction.position == "newton", rounds=correction.rounds),
             "turning": layout.turning,
             "evaluation": "rhs",
+            "kept": False,
         }
 
     def add(self, part: str, role: str = "", **roles: str) -> None:
@@ -222,6 +223,7 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     if partitioned or law.closed:
         parts.values["kept"] = partitioned
         parts.add("close", "correction")
+    if law.closed:
         parts.add("closed", "closed")
     if flagged:
         parts.values["evaluation"] = BY_PIVOTS if BY_PIVOTS in names else "rhs"

@@ -227,7 +227,7 @@ class DeviceRuns:
             return 1 << 30
         context, device = cuda.current_context(), cuda.get_current_device()
         # local memory is there for every thread that could be resident
-        threads = device.MULTIPROCESSOR_COUNT * device.MAX_THREADS_PER_MULTI_PROCESSOR
+        threads = device.MULTIPROCESSOR_COUNT * device.MAX_THREADS_PER_MULTIPROCESSOR
         free = _SHARE * context.get_memory_info().free - threads * self.need.local_bytes
         most = int(free / self.run_bytes)
         if most < 1:

@@ -300,6 +300,7 @@ class TreeRuns:
         scratch = np.zeros((runs, len(self.loop.compiled.scratch())))
         now, count = Instant(np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), scratch), len(info.parameters)
         now.p[:, :count] = starts.p[:, :count]
+        now.y[:, own.work :] = starts.y[:, info.work :]  # work and the file's own states, which no joint maps
         rows.put_method(self.loop.compiled.law, now.p)
         alike = self.carried.settle(starts, now, selected, control)
         over = np.abs(alike[selected]) < TURNED_OVER

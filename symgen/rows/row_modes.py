@@ -53,9 +53,17 @@ def begin_modes(model: Any, state: Any) -> int:
 
 @called
 def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
-    """Write the events noted by a run to its row, and choose modes at those of friction.
+    """Write the events noted by a run to its row, and choose modes where friction or a stop has one.
 
-    Parameters and end code are those of `take_notes_of_events`; `IMPOSSIBLE` where no modes are found.
+    Parameters
+    ----------
+    code, r, model, chunk, state
+        As for `take_notes_of_events`; the model has modes besides.
+
+    Returns
+    -------
+    int
+        Its end code, or `IMPOSSIBLE` where no modes are consistent.
     """
     _, observers, modes = model
     hunt, c, t, any_of_modes = state.hunt, modes.choice, state.clock[abi.TIME], False

@@ -417,6 +417,8 @@ def rows():
     yield from each("set", NO_MAPPING, lambda x, v: x.sim.set(v), numbers)
     yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
     yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
+    yield "meter", lambda x: x.sim.meter(3), "meter: expected "
+    yield "meter name", lambda x: x.sim.meter(["bob.xx"]), "meter"
     starts = {"3": 3, "[1.0]": [1.0]}
     yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
     yield "reset name", lambda x: x.sim.reset({"bob.vxx": 1.0}), "did you mean 'bob.vx'?"
@@ -495,7 +497,7 @@ def test_no_function_with_arguments_is_left_out():
         *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
-        *(f"SteppedRun.{n}" for n in "step run every set restore reset".split()),
+        *(f"SteppedRun.{n}" for n in "step run every set meter restore reset".split()),
         *(
             f"MechanismBuilder.{n}"
             for n in "run parameter input table body beam joint force state output event".split()

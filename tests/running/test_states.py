@@ -186,6 +186,8 @@ def test_rows_of_sweeps_are_single_runs(coordinates):
             one = Model(motor()).simulate(parameters={"R": resistance}, start={"i": current}, **settings)
             assert swept["i"][k, j, -1] == pytest.approx(one.outputs["i"][-1], rel=1e-13)
             assert swept["wheel.omega"][k, j, -1] == pytest.approx(one.v["wheel.omega"][-1], rel=1e-13)
+    plain = symgen.sweep(motor(), {"R": [1.2, 2.0], "i": [0.1, 0.4]}, quantities=["wheel.omega"], **settings)
+    np.testing.assert_allclose(plain["wheel.omega"], swept["wheel.omega"], rtol=1e-13)
 
 
 def test_inputs_and_events_read_states():
