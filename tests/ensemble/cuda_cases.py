@@ -63,7 +63,7 @@ CASES = {
     "momenta": ("four-bar", MASSES, {**SHORT, "method": "augmented-hamiltonian", "quantities": ("crank.ax",)}),
     "redundant": ("bricard", {"rod1.wx": [0.0]}, {"until": 0.02, "step": 0.01, "quantities": ("q", "lam")}),
     "rolling": ("rolling-disc", {"disc.wz": [1.0, 2.0]}, {**SHORT, "method": "baumgarte"}),
-    "light": ("four-bar", {"coupler_mass": [1e-14, 8.0]}, SHORT),
+    "light": ("four-bar", {"coupler_mass": [1e-14, 8.0]}, {**SHORT, "method": "coordinate-partitioning"}),
     "passage": ("n-four-bar:1", {"coupler0.omega": [0.0]}, {"until": 1.3, "step": 0.01, "quantities": ("energy",)}),
     "violated": ("slider-crank", {"crank.omega": [0.0, 20.0]}, {"until": 0.6, "step": 0.01, "method": "lagrange"}),
     "explicit-fine": (
