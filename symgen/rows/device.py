@@ -241,6 +241,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     width, n_p, nw, n_room, n_stored = need.width, max(1, need.n_p), need.nw, need.working, need.stored
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
     n_passages, n_memory, n_rows = N_PASSAGES, max(1, need.memory), need.rows
+    n_metric = 2 * need.width  # a device takes sizes of arrays as they are, no expressions
     wants_rates, wants_joints = need.rates, need.joints
 
     def kernel(scheme: Any, sizes: Any, span: Any, starts: Any, results: Any) -> None:
@@ -251,7 +252,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         stored, room = cuda.local.array(n_stored, float64), cuda.local.array(n_room, float64)
         clock, gauges = cuda.local.array(n_clock, float64), cuda.local.array(n_gauges, float64)
         passages, memory = cuda.local.array(n_passages, float64), cuda.local.array(n_memory, float64)
-        metric, scales = cuda.local.array(2 * width, float64), cuda.local.array(2 * width, float64)
+        metric, scales = cuda.local.array(n_metric, float64), cuda.local.array(n_metric, float64)
         iw, control = cuda.local.array(n_counters, int64), cuda.local.array(n_control, int64)
         for j in range(width):
             y[j] = starts.ys[j, i] if j < sizes.ny else 0.0

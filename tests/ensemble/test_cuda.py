@@ -102,6 +102,14 @@ def test_the_cases_are_what_they_are_called(interpreted):
     assert steps[0] != steps[1]  # threads of one block with steps of their own
 
 
+def test_sizes_of_memory_of_a_thread_are_names():
+    """A device's compiler takes a constant there and no expression; the simulator takes both."""
+    source = Path(symgen.__file__).with_name("rows") / "device.py"
+    tree = ast.parse(source.read_text(encoding="utf-8"))
+    calls = [x for x in ast.walk(tree) if isinstance(x, ast.Call) and ast.unparse(x.func) == "cuda.local.array"]
+    assert len(calls) > 10 and all(isinstance(call.args[0], ast.Name) for call in calls)
+
+
 def test_folders_belong_to_a_target(tmp_path):
     """What one target began, another must not continue: last digits differ."""
     script = f"""
