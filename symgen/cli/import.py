@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -27,7 +28,8 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     from symgen.base.errors import InputError, quoted
     from symgen.base.files import check_writable, write_whole
     from symgen.describe.builder import to_toml
-    from symgen.describe.formats import FORMATS, format_of, read_robot
+    from symgen.describe.formats import FORMATS, LeftOut, format_of, read_robot
+    from symgen.describe.mesh_files import moved
     from symgen.describe.validate import validate
 
     path = Path(file)
@@ -36,15 +38,19 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
         ends = ", ".join(sorted({end for _, kind in FORMATS.items() for end in kind.SUFFIXES}))
         raise InputError("FILE", f"a file of another program ({ends})", quoted(file))
     read = read_robot(path, name, floating=floating, stops=stops)
-    mechanism = validate(read.raw, path.name)
+    target = Path(f"{read.raw['mechanism']['name']}.toml" if output in (None, "-") else str(output))
+    raw, lost = moved(read.raw, path.parent, target.parent)
+    if lost:
+        why = f"their files are not in the folder of {'the output' if output == '-' else target.name}"
+        read = replace(read, left_out=(*read.left_out, LeftOut("meshes", f"{lost} in pictures", why, False)))
+    mechanism = validate(raw, path.name)
     lines = [f"left out, and the motion may depend on it: {item}" for item in read.left_out if item.moves]
     lines += [f"left out: {item}" for item in read.left_out if not item.moves]
     if output == "-":
-        click.echo("".join(f"# {line}\n" for line in lines) + to_toml(read.raw), nl=False)
+        click.echo("".join(f"# {line}\n" for line in lines) + to_toml(raw), nl=False)
         return OK
-    target = Path(f"{read.raw['mechanism']['name']}.toml" if output is None else output)
     check_writable("-o", target)
-    write_whole(target, "".join(f"# {line}\n" for line in lines) + to_toml(read.raw), replace=False)
+    write_whole(target, "".join(f"# {line}\n" for line in lines) + to_toml(raw), replace=False)
     if as_json:
         left_out = [{"what": x.what, "where": x.where, "why": x.why, "moves": x.moves} for x in read.left_out]
         counts = {"bodies": len(mechanism.bodies), "joints": len(mechanism.joints), "inputs": len(mechanism.inputs)}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import nearest, quoted
 from symgen.describe.fields import read_table, words_of
 from symgen.describe.mechanism import Body, Shape, SpatialBody, Vec
+from symgen.describe.mesh_files import SUFFIXES, is_inner
 from symgen.describe.names import check_identifier
 from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
@@ -142,12 +143,7 @@ def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec,
     """Return the tensor about the centre of mass in body axes."""
     tensor = _entries(scope, section.inertia or ())
     if section.inertia_axes is not None:
-        axes = _orientation(scope, "inertia_axes", section.inertia_axes)
-        if not axes.is_numeric:
-            raise scope.error("inertia_axes", "numbers, no expressions of parameters", "an expression")
-        numbers = Scalars(lambda x, _: scope.value(x, "inertia_axes"))
-        e = euler_parameters(axes, numbers, scope.where("inertia_axes"))
-        tensor = turned(tensor, matrix(e))
+        tensor = turned(tensor, matrix(_numeric(scope, "inertia_axes", section.inertia_axes)))
     if section.inertia_at is not None:
         ends = zip(_point(scope, section.inertia_at, points, centre), centre, strict=True)
         tensor = shifted(tensor, mass, tuple(call("sub", x, y) for x, y in ends))
@@ -190,6 +186,14 @@ def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str,
     return centre if point == CENTRE else points[point]
 
 
+def _numeric(scope: Scope, key: str, section: OrientationSection | None) -> tuple[float, float, float, float]:
+    """Return the Euler parameters of an orientation that is given in numbers."""
+    axes = _orientation(scope, key, section)
+    if not axes.is_numeric:
+        raise scope.error(key, "numbers, no expressions of parameters", "an expression")
+    return euler_parameters(axes, Scalars(lambda x, _: scope.value(x, key)), scope.where(key))
+
+
 def turned(tensor: Tensor, a: Matrix) -> Tensor:
     """Return A I A^T."""
     xx, yy, zz, xy, xz, yz = tensor
@@ -225,6 +229,7 @@ KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "box": (("size",), ("at",)),
     "cylinder": (("radius",), ("at", "length", "axis")),
     "sphere": (("radius",), ("at",)),
+    "mesh": (("file",), ("at", "scale", "orientation")),
 }
 #: Maximum number of shapes of a body, and of points of a polyline.
 MOST, MOST_POINTS = 100, 2000
@@ -257,6 +262,12 @@ def _shape(scope: Scope, raw: object, key: str) -> Shape:
         raise scope.error(f"{key}.{name}", f"no such key for a {section.type} here", words_of(getattr(section, name)))
     if section.colour and not _COLOUR.fullmatch(section.colour):
         raise scope.error(f"{key}.colour", "a colour such as '#3a7bd5'", quoted(section.colour))
+    if section.type == "mesh":
+        if not scope.spatial:
+            raise scope.error(f"{key}.type", "another shape, as meshes are drawn in space", quoted(section.type))
+        if not is_inner(section.file):
+            expected = f"a relative path of a {' or '.join(SUFFIXES)} file below the folder of the mechanism file"
+            raise scope.error(f"{key}.file", expected, quoted(section.file))
     points = section.points or ()
     if section.type == "polyline" and not 2 <= len(points) <= MOST_POINTS:
         raise scope.error(f"{key}.points", f"2 to {MOST_POINTS} points", str(len(points)))
@@ -273,4 +284,8 @@ def _shape(scope: Scope, raw: object, key: str) -> Shape:
         sizes=tuple(scope.constant(f"{key}.{name}", e, positive=True) for name, e in numbers if e is not None),
         axis=up if section.axis is None else scope.direction(f"{key}.axis", scope.name, section.axis).vector,
         colour=section.colour.lower(),
+        file=section.file,
+        folder=getattr(scope.context.source, "folder", "") if section.file else "",
+        scale=() if section.scale is None else scope.vector(f"{key}.scale", section.scale),
+        turn=_numeric(scope, f"{key}.orientation", section.orientation),
     )

@@ -18,6 +18,7 @@ from typing import Any
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.origins import Source
 from symgen.describe.parser import LONGEST_TEXT
 from symgen.describe.validate import DEEPEST, validate
 
@@ -98,7 +99,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return catalogue.raw(match.group("name"), None if size is None else int(size)), text
     path = Path(text)
     if _is_file(path):
-        return (read_toml(path) if path.suffix == ".toml" else _read_other(path)), path.name
+        return (read_toml(path) if path.suffix == ".toml" else _read_other(path)), Source.of(path)
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
     entries = catalogue.all_names()

@@ -147,8 +147,9 @@ AnyBody = Body | SpatialBody
 class Shape(msgspec.Struct, frozen=True):
     """Shape of a body in pictures, in its own frame.
 
-    `kind` is ``polyline``, ``box``, ``cylinder`` or ``sphere``; `sizes` holds the edges of a box, the radius of a
-    sphere, radius and length of a cylinder [m].
+    `kind` is ``polyline``, ``box``, ``cylinder``, ``sphere`` or ``mesh``; `sizes` holds the edges of a box, the radius
+    of a sphere, radius and length of a cylinder [m]. A mesh is a `file` below `folder`, that of the mechanism file,
+    stretched by `scale` along its axes, then turned by the Euler parameters `turn`.
     """
 
     kind: str
@@ -158,6 +159,10 @@ class Shape(msgspec.Struct, frozen=True):
     sizes: tuple[Expr, ...] = ()
     axis: Vec = ()
     colour: str = ""
+    file: str = ""
+    folder: str = ""
+    scale: Vec = ()
+    turn: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
 
 class Articulation(msgspec.Struct, frozen=True):

@@ -4,9 +4,23 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from symgen.describe.mechanism import Mechanism
+
+
+class Source(str):
+    """The name of a file for messages, with the folder that it is in."""
+
+    folder: str = ""
+
+    @classmethod
+    def of(cls, path: Path) -> Source:
+        """Return the source of a file."""
+        source = cls(path.name)
+        source.folder = str(path.absolute().parent)
+        return source
 
 
 class Origin(NamedTuple):

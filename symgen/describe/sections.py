@@ -163,13 +163,13 @@ class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     Parameters
     ----------
     type : str
-        ``"polyline"``, ``"box"``, ``"cylinder"`` or ``"sphere"``.
+        ``"polyline"``, ``"box"``, ``"cylinder"``, ``"sphere"`` or ``"mesh"``.
     points : list of vectors
         Of a polyline [m].
     closed : bool
         Whether a polyline is an area.
     at : point
-        Middle of a box, cylinder or sphere; the centre of mass by default.
+        Middle of a box, cylinder or sphere, origin of a mesh; the centre of mass by default.
     size : vector
         Edges of a box along the body's axes [m].
     radius : scalar
@@ -178,11 +178,17 @@ class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         Of a cylinder in space [m]; in the plane it is seen from its end.
     axis : vector
         Direction of a cylinder in space; z by default.
+    file : str
+        STL or OBJ file of a mesh in space, in or below the folder of the mechanism file.
+    scale : vector
+        Factors of a mesh along its axes; 1 by default.
+    orientation : table
+        How a mesh is turned in the body's frame, in numbers; not at all by default.
     colour : str
         ``"#rrggbb"``; one of its own for each body by default.
     """
 
-    type: Literal["polyline", "box", "cylinder", "sphere"]
+    type: Literal["polyline", "box", "cylinder", "sphere", "mesh"]
     points: tuple[Vector, ...] | None = None
     closed: Flag = False
     at: Point = "centre"
@@ -190,6 +196,9 @@ class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     radius: Scalar | None = None
     length: Scalar | None = None
     axis: Vector | None = None
+    file: Text = ""
+    scale: Vector | None = None
+    orientation: OrientationSection | None = None
     colour: Text = ""
 
 

@@ -14,6 +14,7 @@ from symgen.describe.mechanism import AnyBody, Mechanism, Shape, SpatialBody, Ve
 from symgen.describe.start import described_start
 from symgen.drawing.force_parts import force_item
 from symgen.drawing.joint_parts import along_of
+from symgen.drawing.meshes import mesh_faces
 from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across
 from symgen.drawing.scene import (
     GROUNDED,
@@ -133,7 +134,9 @@ def _unit(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
     places += [numbers.now.out(-1, [m.at]) for m in grounded]
     places.append(numbers.now.centres[:-1])
     for name, shape in numbers.mechanism.shapes:
-        corners = [numbers.place(Marker(name, point)).at for point in shape.points]
+        corners: Sequence[Point] | Array = [numbers.place(Marker(name, point)).at for point in shape.points]
+        if shape.kind == "mesh":
+            corners = mesh_faces(numbers, name, shape)
         places.append(numbers.now.out(numbers.index[name], np.array(corners).reshape(-1, 3)))
     everything = np.concatenate(places)
     whole = float(np.linalg.norm(np.ptp(everything, axis=0)))
@@ -207,6 +210,9 @@ def _shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mar
     if shape.kind == "polyline":
         points = tuple(place(point).at for point in shape.points)
         return [Line(index, points, look, shape.closed)]
+    if shape.kind == "mesh":
+        faces_of = tuple(_tuples(face) for face in mesh_faces(numbers, body.name, shape))
+        return [Solid(index, faces_of, replace(look, ink=colour, width=0.4, opacity=1.0), convex=False)]
     sizes = [numbers.number(e) for e in shape.sizes]
     middle = place(shape.at)
     at, turned = numbers.out(middle), numbers.now.turns[index]

@@ -107,11 +107,12 @@ class Tube:
 
 @dataclass(frozen=True)
 class Solid:
-    """A convex solid of a body by its faces, each seen counter-clockwise from outside."""
+    """A solid of a body by its faces, each seen counter-clockwise from outside; one that is not convex hides itself."""
 
     body: int
     faces: tuple[tuple[Point, ...], ...]
     look: Look
+    convex: bool = True
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ def viewpoint(scene: Scene, q: Array) -> View:
     """
     if not scene.spatial:
         return USUAL
+    scene = replace(scene, items=tuple(replace(x, marks=tuple(map(_boxed, x.marks))) for x in scene.items))
     poses, clouds = scene.poses(q), dict[str, Array]()
     for item in scene.items:
         points = [p for mark in item.marks for p in _points(mark, poses)] if item.role == "body" else []
@@ -44,6 +45,23 @@ def viewpoint(scene: Scene, q: Array) -> View:
         return round(_least_shown(bodies, q, clouds, view), 9)  # views that differ by rounding are alike
 
     return USUAL if least(USUAL) >= ENOUGH else max(starmap(View, product(TURNS, TILTS)), key=least)
+
+
+def _boxed(mark: Mark) -> Mark:
+    """Return a mesh as the box around it, which is seen from the same sides; another mark as it is."""
+    if not isinstance(mark, Solid) or mark.convex:
+        return mark
+    points = np.array(mark.faces).reshape(-1, 3)
+    low, high = points.min(axis=0), points.max(axis=0)
+    faces = []
+    for k in range(3):
+        for end in (low, high):
+            turn = ((0, 0), (1, 0), (1, 1), (0, 1))[:: 1 if end is high else -1]
+            face = np.tile(end, (4, 1))
+            for axis, way in zip(((k + 1) % 3, (k + 2) % 3), zip(*turn, strict=True), strict=True):
+                face[:, axis] = np.where(way, high[axis], low[axis])
+            faces.append(tuple((float(x), float(y), float(z)) for x, y, z in face))
+    return Solid(mark.body, tuple(faces), mark.look)
 
 
 def _points(mark: Mark, poses: Poses) -> list[Array]:

@@ -32,6 +32,8 @@ CANARIES = (
 )
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
+#: Keys that a shape has for a mesh alone.
+_MESH = {"file", "scale"}
 #: Sections whose entries are all of one kind.
 _ALIKE = ("parameters", "inputs", "states", "tables", "bodies", "beams", "stops", "outputs", "events")
 
@@ -115,6 +117,9 @@ def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
     if section == "joints" and kind in BESIDE:
         yield copy.deepcopy(BESIDE[kind])
         return
+    if _MESH & set(path[1:]) and kind == "SpatialBodySection":
+        shape = {"type": "mesh", "file": "x.stl"}
+        yield _IN_SPACE | {"bodies": {"rod": _BOX | {"shape": [shape] if 0 in path[:6] else shape}}}
     if section not in ("joints", "forces") or kind is None:
         spatial = _SPACES.get(str(kind)) == "spatial"
         yield make(np.random.default_rng(1), ["revolute"])[0] if spatial else copy.deepcopy(SMALL)

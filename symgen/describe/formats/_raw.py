@@ -8,6 +8,7 @@ from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
+from symgen.describe.bodies import MOST
 from symgen.describe.formats._frames import (
     Frame,
     Matrix,
@@ -174,8 +175,10 @@ class _Description:
         if (e := quaternion(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
             table["orientation"] = {"quaternion": _tidy(e)}
         shapes = [shape for link, frame in zip(members, frames, strict=True) for shape in _shapes(link, frame)]
+        if len(shapes) > MOST:
+            self.left_out.append(LeftOut("looks", f"{len(shapes) - MOST} of {name}", f"a body has {MOST}", False))
         if shapes:
-            table["shape"] = shapes
+            table["shape"] = shapes[:MOST]
         return table
 
     # -- joints ------------------------------------------------------------------------------------------------------
@@ -370,6 +373,9 @@ def _shapes(link: Link, frame: Frame) -> list[dict[str, Any]]:
             axis = _tidy(transposed(own.rotation)[2])
             sizes = {"radius": shape["radius"], "length": shape["length"], "axis": axis}
             shapes.append({"type": "cylinder"} | sizes | at | colour)
+        elif shape["type"] == "mesh":
+            turn = {"orientation": {"quaternion": _tidy(quaternion(own.rotation))}}
+            shapes.append({"type": "mesh", "file": shape["file"], "scale": _tidy(shape["scale"])} | at | turn | colour)
         else:
             shapes.append(_box(shape["size"], own) | colour)
     return shapes

@@ -23,6 +23,7 @@ from symgen.describe.formats._robot import (
 )
 from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, together
 from symgen.describe.formats._xml import colour_of, numbers, read_tree, triple
+from symgen.describe.mesh_files import mesh_name
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -69,7 +70,7 @@ class _Reader:
     """The robot of a file; names have their models before them, ``arm::hand``."""
 
     def __init__(self, path: Path) -> None:
-        self.source = path.name
+        self.source, self.folder, self.meshes = path.name, path.parent, 0
         self.tree = read_tree(path, "sdf")
         self.version = self._version(self.tree.get("version", ""))
         self.frames = {_WORLD: _Placed("", Frame(), _WORLD)}
@@ -285,6 +286,12 @@ class _Reader:
             if part.tag in ("cylinder", "capsule"):
                 sizes = {key: _positive(at, part, key) for key in ("radius", "length")}
                 return [look | {"type": "cylinder"} | sizes]
+            if part.tag == "mesh":
+                file = None if part.find("submesh") is not None else mesh_name(self.folder, _text(part, "uri"))
+                if file is None:
+                    self.meshes += 1
+                    return []
+                return [look | {"type": "mesh", "file": file, "scale": triple(at, _text(part, "scale") or "1 1 1")}]
         return []
 
     # -- joints ------------------------------------------------------------------------------------------------------
@@ -387,8 +394,9 @@ class _Reader:
         touching = sum(1 for link in self.tree.iter("link") if link.find("collision") is not None)
         if touching:
             self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
-        if meshes := sum(1 for visual in self.tree.iter("visual") for _ in visual.iterfind("geometry/mesh")):
-            self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
+        if self.meshes:
+            why = "they are no STL or OBJ files in the folder"
+            self.left_out.append(LeftOut("meshes", f"{self.meshes} in pictures", why, False))
         for tag, why in _SILENT.items():
             if count := sum(1 for _ in self.tree.iter(tag)):
                 self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", why, tag == "plugin"))

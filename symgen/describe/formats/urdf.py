@@ -20,6 +20,7 @@ from symgen.describe.formats._robot import (
     turned_inertia,
 )
 from symgen.describe.formats._xml import colour_of, number, origin_of, read_tree, triple
+from symgen.describe.mesh_files import mesh_name
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -61,6 +62,7 @@ class _Reader:
             for m in self.tree.findall("material")
         }
         self.left_out = list[LeftOut]()
+        self.folder, self.meshes = path.parent, 0
 
     def robot(self) -> Robot:
         links = {}
@@ -135,6 +137,11 @@ class _Reader:
             if part.tag in ("cylinder", "capsule"):
                 sizes = {key: number(at, part.attrib, key) for key in ("radius", "length")}
                 return [look | {"type": "cylinder"} | sizes]
+            if part.tag == "mesh":
+                if (file := mesh_name(self.folder, part.get("filename", ""))) is None:
+                    self.meshes += 1
+                    return []
+                return [look | {"type": "mesh", "file": file, "scale": triple(at, part.get("scale", "1 1 1"))}]
         return []
 
     # -- joints ------------------------------------------------------------------------------------------------------
@@ -257,12 +264,12 @@ class _Reader:
         for element in self.tree:
             counts[element.tag] = counts.get(element.tag, 0) + 1
         links = self.tree.findall("link")
-        meshes = sum(1 for link in links for _ in link.iterfind("visual/geometry/mesh"))
         touching = sum(1 for link in links if link.find("collision") is not None)
         if touching:
             self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
-        if meshes:
-            self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
+        if self.meshes:
+            why = "they are no STL or OBJ files in the folder"
+            self.left_out.append(LeftOut("meshes", f"{self.meshes} in pictures", why, False))
         for tag, why in _SILENT.items():
             if counts.pop(tag, 0):
                 self.left_out.append(LeftOut(f"<{tag}>", "the file", why, False))
