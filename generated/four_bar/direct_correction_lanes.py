@@ -10,7 +10,7 @@ p[27] tolerance (default 1e-13)
 
 All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of
 arrays that they do not overlap: element i of a lane is z[8*i + lane], with y from i = 0 on, y' from 20, p
-from 40, w from 68, and counters of the lanes from 182. How many lanes there are is computed, since a loop of
+from 40, w from 70, and counters of the lanes from 184. How many lanes there are is computed, since a loop of
 known length would be unrolled before it could become vector instructions.
 """
 
@@ -20,12 +20,12 @@ from numba import njit
 
 from .model_lanes import cosine, sine
 
-NUMBERS = 187  # places in z
-SUSPECTS = 1456
-FAILURES = 1464
-ITERATIONS = 1472
-LAST = 1480
-OPEN = 1488
+NUMBERS = 189  # places in z
+SUSPECTS = 1472
+FAILURES = 1480
+ITERATIONS = 1488
+LAST = 1496
+OPEN = 1504
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -41,11 +41,11 @@ def geometry(t, z, lanes):
         q6 = z[48 + lane]
         q7 = z[56 + lane]
         q8 = z[64 + lane]
-        mask_4 = z[792 + lane]
-        mask_5 = z[800 + lane]
-        gauge_2 = z[1240 + lane]
-        gauge_5 = z[1264 + lane]
-        gauge_8 = z[1288 + lane]
+        mask_4 = z[808 + lane]
+        mask_5 = z[816 + lane]
+        gauge_2 = z[1256 + lane]
+        gauge_5 = z[1280 + lane]
+        gauge_8 = z[1304 + lane]
         s0 = cosine(q2)
         s1 = sine(q2)
         s2 = -s0
@@ -89,33 +89,33 @@ def geometry(t, z, lanes):
         s40 = math.sqrt(s3*s3 + s4*s4 + s9*s9 + s11*s11 + s15*s15 + s17*s17 + s18*s18 + s19*s19)
         s41 = s36/s20
         s42 = s39/s21
-        z[888 + lane] = s3
-        z[896 + lane] = s4
-        z[904 + lane] = s9
-        z[912 + lane] = s11
-        z[920 + lane] = s15
-        z[928 + lane] = s17
-        z[936 + lane] = s18
-        z[944 + lane] = s19
-        z[544 + lane] = s40
-        z[608 + lane] = s40
-        z[1360 + lane] = s1
-        z[1368 + lane] = s2
+        z[904 + lane] = s3
+        z[912 + lane] = s4
+        z[920 + lane] = s9
+        z[928 + lane] = s11
+        z[936 + lane] = s15
+        z[944 + lane] = s17
+        z[952 + lane] = s18
+        z[960 + lane] = s19
+        z[560 + lane] = s40
+        z[624 + lane] = s40
         z[1376 + lane] = s1
-        z[1384 + lane] = s10
-        z[1392 + lane] = s2
-        z[1400 + lane] = s8
-        z[1408 + lane] = s10
-        z[1416 + lane] = -s16
-        z[1424 + lane] = s8
-        z[1432 + lane] = s14
-        z[1440 + lane] = s16
-        z[1448 + lane] = -s14
-        z[1048 + lane] = s41
-        z[1056 + lane] = s42
-        z[584 + lane] = 1.0 + 1.0 + 1.0*(s39 > mask_5 + 1e-12*s21) + 4.0 + s38
-        z[576 + lane] = min(min(1.0, mask_4 + s41), mask_5 + s42)
-        z[624 + lane] = 1.0
+        z[1384 + lane] = s2
+        z[1392 + lane] = s1
+        z[1400 + lane] = s10
+        z[1408 + lane] = s2
+        z[1416 + lane] = s8
+        z[1424 + lane] = s10
+        z[1432 + lane] = -s16
+        z[1440 + lane] = s8
+        z[1448 + lane] = s14
+        z[1456 + lane] = s16
+        z[1464 + lane] = -s14
+        z[1064 + lane] = s41
+        z[1072 + lane] = s42
+        z[600 + lane] = 1.0 + 1.0 + 1.0*(s39 > mask_5 + 1e-12*s21) + 4.0 + s38
+        z[592 + lane] = min(min(1.0, mask_4 + s41), mask_5 + s42)
+        z[640 + lane] = 1.0
     return 0
 
 
@@ -123,30 +123,30 @@ def geometry(t, z, lanes):
 def spread(t, z, lanes):
     """The correction -D^+ times the section `residual`, of v, or of q by N: 147 operations a lane."""
     for lane in range(lanes):
-        mask_4 = z[792 + lane]
-        mask_5 = z[800 + lane]
-        residual_0 = z[888 + lane]
-        residual_1 = z[896 + lane]
-        residual_2 = z[904 + lane]
-        residual_3 = z[912 + lane]
-        residual_4 = z[920 + lane]
-        residual_5 = z[928 + lane]
-        residual_6 = z[936 + lane]
-        residual_7 = z[944 + lane]
-        jacobian_0 = z[1360 + lane]
-        jacobian_1 = z[1368 + lane]
-        jacobian_2 = z[1376 + lane]
-        jacobian_3 = z[1384 + lane]
-        jacobian_4 = z[1392 + lane]
-        jacobian_5 = z[1400 + lane]
-        jacobian_6 = z[1408 + lane]
-        jacobian_7 = z[1416 + lane]
-        jacobian_8 = z[1424 + lane]
-        jacobian_9 = z[1432 + lane]
-        jacobian_10 = z[1440 + lane]
-        jacobian_11 = z[1448 + lane]
-        pivot_4 = z[1048 + lane]
-        pivot_5 = z[1056 + lane]
+        mask_4 = z[808 + lane]
+        mask_5 = z[816 + lane]
+        residual_0 = z[904 + lane]
+        residual_1 = z[912 + lane]
+        residual_2 = z[920 + lane]
+        residual_3 = z[928 + lane]
+        residual_4 = z[936 + lane]
+        residual_5 = z[944 + lane]
+        residual_6 = z[952 + lane]
+        residual_7 = z[960 + lane]
+        jacobian_0 = z[1376 + lane]
+        jacobian_1 = z[1384 + lane]
+        jacobian_2 = z[1392 + lane]
+        jacobian_3 = z[1400 + lane]
+        jacobian_4 = z[1408 + lane]
+        jacobian_5 = z[1416 + lane]
+        jacobian_6 = z[1424 + lane]
+        jacobian_7 = z[1432 + lane]
+        jacobian_8 = z[1440 + lane]
+        jacobian_9 = z[1448 + lane]
+        jacobian_10 = z[1456 + lane]
+        jacobian_11 = z[1464 + lane]
+        pivot_4 = z[1064 + lane]
+        pivot_5 = z[1072 + lane]
         s0 = jacobian_0 + jacobian_2
         s1 = jacobian_1 + jacobian_4
         s2 = jacobian_7 - jacobian_10
@@ -180,15 +180,15 @@ def spread(t, z, lanes):
         s30 = s7*s26 - (s5*s22 + s6*s27)
         s31 = residual_0 + jacobian_0*s29
         s32 = residual_1 + jacobian_1*s29
-        z[1080 + lane] = -s31
-        z[1088 + lane] = -s32
-        z[1096 + lane] = s29
-        z[1104 + lane] = -(residual_2 + s31 + jacobian_2*s29 + jacobian_3*s28)
-        z[1112 + lane] = -(residual_3 + s32 + jacobian_4*s29 + jacobian_5*s28)
-        z[1120 + lane] = s28
-        z[1128 + lane] = -(residual_6 + jacobian_10*s30)
-        z[1136 + lane] = -(residual_7 + jacobian_11*s30)
-        z[1144 + lane] = s30
+        z[1096 + lane] = -s31
+        z[1104 + lane] = -s32
+        z[1112 + lane] = s29
+        z[1120 + lane] = -(residual_2 + s31 + jacobian_2*s29 + jacobian_3*s28)
+        z[1128 + lane] = -(residual_3 + s32 + jacobian_4*s29 + jacobian_5*s28)
+        z[1136 + lane] = s28
+        z[1144 + lane] = -(residual_6 + jacobian_10*s30)
+        z[1152 + lane] = -(residual_7 + jacobian_11*s30)
+        z[1160 + lane] = s30
     return 0
 
 
@@ -217,18 +217,18 @@ def measure(t, z, lanes):
         p9 = z[392 + lane]
         p10 = z[400 + lane]
         p11 = z[408 + lane]
-        jacobian_0 = z[1360 + lane]
-        jacobian_1 = z[1368 + lane]
-        jacobian_2 = z[1376 + lane]
-        jacobian_3 = z[1384 + lane]
-        jacobian_4 = z[1392 + lane]
-        jacobian_5 = z[1400 + lane]
-        jacobian_6 = z[1408 + lane]
-        jacobian_7 = z[1416 + lane]
-        jacobian_8 = z[1424 + lane]
-        jacobian_9 = z[1432 + lane]
-        jacobian_10 = z[1440 + lane]
-        jacobian_11 = z[1448 + lane]
+        jacobian_0 = z[1376 + lane]
+        jacobian_1 = z[1384 + lane]
+        jacobian_2 = z[1392 + lane]
+        jacobian_3 = z[1400 + lane]
+        jacobian_4 = z[1408 + lane]
+        jacobian_5 = z[1416 + lane]
+        jacobian_6 = z[1424 + lane]
+        jacobian_7 = z[1432 + lane]
+        jacobian_8 = z[1440 + lane]
+        jacobian_9 = z[1448 + lane]
+        jacobian_10 = z[1456 + lane]
+        jacobian_11 = z[1464 + lane]
         s0 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*(v7*v7)
         s1 = v0 + v2*jacobian_0
         s2 = v1 + v2*jacobian_1
@@ -239,24 +239,24 @@ def measure(t, z, lanes):
         s7 = v6 + v8*jacobian_10
         s8 = v7 + v8*jacobian_11
         s9 = math.sqrt(s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
-        z[888 + lane] = s1
-        z[896 + lane] = s2
-        z[904 + lane] = s3
-        z[912 + lane] = s4
-        z[920 + lane] = s5
-        z[928 + lane] = s6
-        z[936 + lane] = s7
-        z[944 + lane] = s8
-        z[552 + lane] = s9
-        z[616 + lane] = s9
-        z[560 + lane] = s0 + v8*v8*p11
-        z[568 + lane] = q1*p4 + q4*p7 + q7*p10
+        z[904 + lane] = s1
+        z[912 + lane] = s2
+        z[920 + lane] = s3
+        z[928 + lane] = s4
+        z[936 + lane] = s5
+        z[944 + lane] = s6
+        z[952 + lane] = s7
+        z[960 + lane] = s8
+        z[568 + lane] = s9
+        z[632 + lane] = s9
+        z[576 + lane] = s0 + v8*v8*p11
+        z[584 + lane] = q1*p4 + q4*p7 + q7*p10
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, z):
-    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 178 operations a lane."""
+    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 161 operations a lane."""
     lanes = len(z) // NUMBERS
     for lane in range(lanes):
         p0 = z[320 + lane]
@@ -277,14 +277,12 @@ def rhs(t, z):
         p15 = z[440 + lane]
         p16 = z[448 + lane]
         p17 = z[456 + lane]
-        mask_4 = z[792 + lane]
-        mask_5 = z[800 + lane]
+        mask_4 = z[808 + lane]
+        mask_5 = z[816 + lane]
+        p28 = z[544 + lane]
+        p29 = z[552 + lane]
         p18 = z[464 + lane]
         p19 = z[472 + lane]
-        p20 = z[480 + lane]
-        p21 = z[488 + lane]
-        p22 = z[496 + lane]
-        p23 = z[504 + lane]
         p24 = z[512 + lane]
         p25 = z[520 + lane]
         p26 = z[528 + lane]
@@ -305,46 +303,45 @@ def rhs(t, z):
         s14 = s0 + s0
         s15 = 5.0*s10
         s16 = 5.0*s9
-        s17 = p18*(s1*s6 + s0*s5)
-        s18 = s15*p20
-        s19 = s16*p20
-        s20 = s17*p21
-        s21 = s13*p21
-        s22 = s14*p21
-        s23 = 8.0*s6 - s13*s20
-        s24 = s14*s20 - 8.0*s5
-        s25 = 1.0/(p19 - s17*s20)
-        s26 = s23*s25
-        s27 = s24*s25
-        s28 = s16*s18 + s14*s21 - s24*s26
-        s29 = s16*s19 + s14*s22 + s24*s27
-        s30 = mask_4 + s15*s18 + s13*s21 + s23*s26
-        s31 = 1.0/s30
-        s32 = s28*s31
-        s33 = mask_5 + s29 - s28*s32
-        s34 = 2.0*s2
-        s35 = 5.0*s11
-        s36 = s9*p24
-        s37 = 8.0*s7
-        s38 = s0*s6 - s1*s5
-        s39 = s7*p18*s38 - s0*p25
-        s40 = s2*p18*s38 + s5*p26 + s20*s39
-        s41 = s9*s35 - s5*s37 - s0*s34 - s18*s36 - s21*s39 + s26*s40
-        s42 = 1.0/s33*(s10*s35 - s6*s37 - s1*s34 + s19*s36 + s22*s39 + s27*s40 + s32*s41)
-        s43 = s31*s41 + s32*s42
-        s44 = s26*s43 - s25*s40 + s27*s42
-        s45 = p21*s39 - s20*s44 + s21*s43 - s22*s42
-        s46 = s19*s42 - (p20*s36 + s18*s43)
-        s47 = s1*s45
-        s48 = s3 + s47
-        s49 = s0*s45
-        s50 = s49 - s4
-        s51 = s9*s12 + 2.5*s10*s46
-        s52 = 2.5*s9*s46 - s10*s12
-        s53 = s3 + s5*s8 + s47 + s48 + 4.0*s6*s44
-        s54 = s4 + s6*s8 + s4 - s49 - s49 - 4.0*s5*s44
-        s55 = p1*s53
-        s56 = p16 + s42 - p1*s54
+        s17 = 8.0*s6
+        s18 = p18*(s1*s6 + s0*s5)
+        s19 = 8.0*s5
+        s20 = 2.0*s2
+        s21 = 5.0*s11
+        s22 = s9*p24
+        s23 = 8.0*s7
+        s24 = s9*s21 - s5*s23 - s0*s20
+        s25 = s10*s21 - s6*s23 - s1*s20
+        s26 = s0*s6 - s1*s5
+        s27 = s2*p18*s26 + s5*p26
+        s28 = s16*s17 - s15*s19
+        s29 = 1.0/s28
+        s30 = s16*s29
+        s31 = s15*s29
+        s32 = s19*s29
+        s33 = s17*s29
+        s34 = s13*s30 - s14*s31
+        s35 = s13*s32 - s14*s33
+        s36 = s18*s34
+        s37 = s24*s30 + s25*s31
+        s38 = s24*s32 + s25*s33
+        s39 = 1.0/(p29 + s34*(p19*s34) + s35*(p28*s35) - s36 - s36)*(s7*p18*s26 - s0*p25 - s18*s37 + s34*(s27 + p19*s37) + s35*(s22 + p28*s38))
+        s40 = s37 - s34*s39
+        s41 = s38 - s35*s39
+        s42 = s27 + p19*s40 + s18*s39
+        s43 = s22 + p28*s41
+        s44 = s30*s42 + s32*s43
+        s45 = s31*s42 + s33*s43
+        s46 = s1*s39
+        s47 = s3 + s46
+        s48 = s0*s39
+        s49 = s48 - s4
+        s50 = s9*s12 + 2.5*s10*s41
+        s51 = 2.5*s9*s41 - s10*s12
+        s52 = s3 + s5*s8 + s46 + s47 + 4.0*s6*s40
+        s53 = s4 + s6*s8 + s4 - s48 - s48 - 4.0*s5*s40
+        s54 = p1*s52
+        s55 = p16 + s45 - p1*s53
         z[160 + lane] = v0
         z[168 + lane] = v1
         z[176 + lane] = v2
@@ -354,25 +351,25 @@ def rhs(t, z):
         z[208 + lane] = v6
         z[216 + lane] = v7
         z[224 + lane] = v8
-        z[232 + lane] = -s48
-        z[240 + lane] = s50
-        z[248 + lane] = s45
-        z[256 + lane] = -s53
-        z[264 + lane] = -s54
-        z[272 + lane] = s44
-        z[280 + lane] = -s51
-        z[288 + lane] = s52
-        z[296 + lane] = s46
+        z[232 + lane] = -s47
+        z[240 + lane] = s49
+        z[248 + lane] = s39
+        z[256 + lane] = -s52
+        z[264 + lane] = -s53
+        z[272 + lane] = s40
+        z[280 + lane] = -s50
+        z[288 + lane] = s51
+        z[296 + lane] = s41
         z[304 + lane] = 0.0
-        z[696 + lane] = p0*s48 - (s43 - s55)
-        z[704 + lane] = -(p15 + s56 + p0*s50)
-        z[712 + lane] = s55 - s43
-        z[720 + lane] = -s56
-        z[728 + lane] = -s43
-        z[736 + lane] = -s42
-        z[744 + lane] = s43 + p2*s51
-        z[752 + lane] = -(p17 + p2*s52 - s42)
-        z[SUSPECTS + lane] += 1.0*((s30 < p23) | (s33 < 1e-06*max(s29, p22)))
+        z[712 + lane] = p0*s47 - (s44 - s54)
+        z[720 + lane] = -(p15 + s55 + p0*s49)
+        z[728 + lane] = s54 - s44
+        z[736 + lane] = -s55
+        z[744 + lane] = -s44
+        z[752 + lane] = -s45
+        z[760 + lane] = s44 + p2*s50
+        z[768 + lane] = -(p17 + p2*s51 - s45)
+        z[SUSPECTS + lane] += 1.0*(s28*s28 <= 0.16 + mask_4 + mask_5)
     return 0
 
 
@@ -387,8 +384,8 @@ def accept(t, z):
         geometry(t, z, lanes)
         left = 0.0
         for lane in range(lanes):
-            tolerance = z[536 + lane] * z[592 + lane]
-            violation = z[608 + lane]
+            tolerance = z[536 + lane] * z[608 + lane]
+            violation = z[624 + lane]
             # at the floor of rounding another iteration gains nothing
             stalled = (violation > 0.5 * z[LAST + lane]) & (violation <= 1e4 * tolerance)
             closed = (violation <= tolerance) | stalled | (round == 14)
@@ -400,16 +397,16 @@ def accept(t, z):
         spread(t, z, lanes)
         if left == 0.0:
             for i in range(9 * lanes):
-                z[72 + i] += z[1080 + i]
+                z[72 + i] += z[1096 + i]
             break
         for j in range(9):
             for lane in range(lanes):
-                z[1080 + lanes * j + lane] *= z[OPEN + lane]
+                z[1096 + lanes * j + lane] *= z[OPEN + lane]
         for lane in range(lanes):
             z[ITERATIONS + lane] += z[OPEN + lane]
         for i in range(9 * lanes):
-            z[i] += z[1080 + i]
+            z[i] += z[1096 + i]
     for lane in range(lanes):
-        z[FAILURES + lane] += 0.0 if z[608 + lane] <= 1e4 * z[536 + lane] * z[592 + lane] else 1.0
+        z[FAILURES + lane] += 0.0 if z[624 + lane] <= 1e4 * z[536 + lane] * z[608 + lane] else 1.0
     measure(t, z, lanes)
     return 0

@@ -1,10 +1,12 @@
 """Emitted modules whose text is held: which mechanisms, methods, shapes and targets, and what is shown of them."""
 
+import re
 from collections.abc import Callable, Mapping
 from functools import cache, partial
 from pathlib import Path
 
 from symgen.compiling.choices import on_tree
+from symgen.compiling.closing import at_start
 from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe import load
@@ -80,12 +82,16 @@ def looped_choices(model: str) -> list[MethodChoice]:
 @cache
 def emitted(model: str, whole: bool = True) -> dict[str, str]:
     """Return stem -> source of straight code for all targets."""
-    made = dict(generate(described(model), choices(model), whole=whole).modules)
+    mechanism = described(model)
+    made = dict(generate(mechanism, tuple(at_start(mechanism, each) for each in choices(model)), whole=whole).modules)
     if model in OTHER_TARGETS:
         core = tuple(choose_method(name) for name in CORE)
         for target in ("cuda", "lanes"):
-            made |= generate(load(model), core, target=target, whole=whole).modules
-    return {stem: source for stem, (source, _) in made.items()}
+            mechanism = load(model)
+            closed = tuple(at_start(mechanism, choice) for choice in core)
+            made |= generate(mechanism, closed, target=target, whole=whole).modules
+    # the free velocities of closed loops are named in the cache alone
+    return {re.sub(r"(_f\d+)+(?=_lanes|_cuda|$)", "", stem): source for stem, (source, _) in made.items()}
 
 
 @cache
