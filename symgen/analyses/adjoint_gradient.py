@@ -155,8 +155,8 @@ def adjoint_gradient(
         part = seeds.part(first, model.lanes)
         p = model.parameters(run.start.p, part.p)
         w = model.scratch(p, run.start.w)
-        found = y_bar @ part.y + p_bar @ model.shadow(p, "p") + w_bar @ model.shadow(w, "w")
-        slopes[first : first + model.lanes] += found[: n - first]
+        slope = y_bar @ part.y + p_bar @ model.shadow(p, "p") + w_bar @ model.shadow(w, "w")
+        slopes[first : first + model.lanes] += slope[: n - first]
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
     result = replace(result, notes=(*result.notes, *notes))

@@ -181,11 +181,11 @@ class Objective:
         settings = self._free.settings if x is None else self._free.settings_at(x)
         self._free.runs += 1
         ending = replace(settings, times=[*self._times], until=self._times[-1])
-        found = adjoint_gradient(self._where, self.mechanism, ending, self._column, self._free.keys, self._quick)
-        slopes = dict(zip(self.names, found.slopes.tolist(), strict=True))
-        units = {name: over(found.unit, d.unit) for name, d in zip(self.names, found.directions, strict=True)}
-        gradient = Gradient(found.value, found.unit, slopes, units, found.result, "adjoint", found.kept)
-        return gradient, found.directions, found.run
+        adjoint = adjoint_gradient(self._where, self.mechanism, ending, self._column, self._free.keys, self._quick)
+        slopes = dict(zip(self.names, adjoint.slopes.tolist(), strict=True))
+        units = {name: over(adjoint.unit, d.unit) for name, d in zip(self.names, adjoint.directions, strict=True)}
+        gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.kept)
+        return gradient, adjoint.directions, adjoint.run
 
     def _pair(self, gradient: Gradient) -> tuple[float, Array]:
         return gradient.value, np.array([gradient.by[name] for name in self.names])

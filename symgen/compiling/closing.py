@@ -139,7 +139,7 @@ def _on_joints(mechanism: Mechanism, q: Sequence[float]) -> list[float]:
 
 
 def _behind_fixed(info: ModelInfo, d: Array) -> Array:
-    """Return what is left of D behind fixed velocities."""
+    """Return D with the fixed velocities eliminated."""
     columns = [c for block, _ in info.fixed for c in block]
     rows = [r for _, block in info.fixed for r in block]
     return d - d[:, columns] @ np.linalg.solve(d[np.ix_(rows, columns)], d[rows])

@@ -19,15 +19,20 @@ from symgen.vocabulary.measures import Exerted, Integral
 LOSS = "dissipated"
 
 
-def loss_of(bounded: Friction | EndStop) -> Reading:
-    """Return the energy that dry friction or a stop has taken since the start of a run."""
+def _loss(bounded: Friction | EndStop) -> Integral:
+    """Return the integral of the power that dry friction or a stop takes."""
     if isinstance(bounded, EndStop):
         effort: Expr = effort_at_rest(bounded)
     elif bounded.speed is not None:
         effort = Reading(f"{bounded.name}.force", Exerted((smooth_effort(bounded),)))
     else:
         effort = total_effort(bounded)
-    return Reading(f"{bounded.name}.{LOSS}", Integral(call("neg", call("mul", effort, rate_of(bounded)))))
+    return Integral(call("neg", call("mul", effort, rate_of(bounded))))
+
+
+def loss_of(bounded: Friction | EndStop) -> Reading:
+    """Return the energy that dry friction or a stop has taken since the start of a run."""
+    return Reading(f"{bounded.name}.{LOSS}", _loss(bounded))
 
 
 def losses(bounded: Iterable[Friction | EndStop]) -> dict[str, Reading]:
@@ -38,4 +43,4 @@ def losses(bounded: Iterable[Friction | EndStop]) -> dict[str, Reading]:
 def places_of_losses(mechanism: Mechanism) -> tuple[int | None, ...]:
     """Return the places of the losses of stops among the integrals of a run; None where no output reads one."""
     numbers = integrals(mechanism)
-    return tuple(numbers.get(loss_of(stop).source) for stop in mechanism.stops)  # type: ignore[arg-type]
+    return tuple(numbers.get(_loss(stop)) for stop in mechanism.stops)

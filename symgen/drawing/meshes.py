@@ -126,14 +126,14 @@ def decimated(corners: Array, most: int) -> Array:
         _, cell = np.unique((keys[:, 0] * (cells + 1) + keys[:, 1]) * (cells + 1) + keys[:, 2], return_inverse=True)
         cell = cell.reshape(-1, 3)
         a, b, c = cell.T
-        kept = cell[(a != b) & (b != c) & (c != a)]
+        faces = cell[(a != b) & (b != c) & (c != a)]
         # one of each triangle; sides that face each other are two
-        first = np.argmin(kept, axis=1)[:, None]
-        kept = np.unique(np.take_along_axis(kept, (first + np.arange(3)) % 3, axis=1), axis=0)
-        if len(kept) <= most:
+        first = np.argmin(faces, axis=1)[:, None]
+        faces = np.unique(np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1), axis=0)
+        if len(faces) <= most:
             break
         cells = int(0.8 * cells)
     flat = cell.ravel()
     counts = np.bincount(flat)
     means = np.stack([np.bincount(flat, points[:, k]) / counts for k in range(3)], axis=1)
-    return np.asarray(means[kept])
+    return np.asarray(means[faces])

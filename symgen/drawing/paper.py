@@ -148,10 +148,10 @@ def _parts(mark: Mark, poses: Poses, eye: Array) -> Iterator[tuple[Array, Path |
     elif isinstance(mark, Tube):
         yield from _tube(mark, poses, eye)
     elif isinstance(mark, Solid):
-        seen = [poses.out(mark.body, face) @ eye.T for face in mark.faces]
+        faces = [poses.out(mark.body, face) @ eye.T for face in mark.faces]
         if not mark.convex:
-            seen.sort(key=lambda face: float(face[:, 2].mean()))
-        for projected in seen:
+            faces.sort(key=lambda face: float(face[:, 2].mean()))
+        for projected in faces:
             normal = np.cross(projected[1] - projected[0], projected[2] - projected[1])
             if normal[2] > 0.0:
                 light = 0.75 + 0.25 * float(normal[1]) / (float(np.linalg.norm(normal)) or 1.0)

@@ -117,7 +117,7 @@ def make_vec(
 
 
 def _task(model: Any, *parts: Any) -> Task:
-    """Return what an environment does."""
+    """Return the task of an environment."""
     try:
         import gymnasium  # noqa: F401  # missing here, it is a sentence
     except ImportError:

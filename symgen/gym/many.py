@@ -88,20 +88,20 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
     def step(self, actions: Any) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Hold actions for a time `dt`."""
         task, rows, anew = self.task, self._rows, self._over.copy()
-        given = np.asarray(actions, dtype=np.float64)
-        if given.shape != rows.given.shape:
-            raise InputError("actions", f"an array of shape {rows.given.shape}", f"one of shape {given.shape}")
+        drives = np.asarray(actions, dtype=np.float64)
+        if drives.shape != rows.given.shape:
+            raise InputError("actions", f"an array of shape {rows.given.shape}", f"one of shape {drives.shape}")
         for r in np.flatnonzero(anew).tolist():
             rows.begin(r, task.start(self.np_random))
-        rows.given[~anew] = given[~anew]
+        rows.given[~anew] = drives[~anew]
         rows.step(task.dt, (~anew).astype(np.int64))
-        seen, reward, ended = task.judged(rows.values, given)
+        observations, reward, ended = task.judged(rows.values, drives)
         failed = np.array([reason != "" for reason in rows.reasons]) if rows.reasons else np.zeros_like(anew)
         truncated = (task.over(rows.times) | failed) & ~anew
         ended = ended & ~anew
         self._over = ended | truncated
         infos = {"failure": np.array(rows.reasons), "_failure": failed} if failed.any() else {}
-        return seen, np.where(anew, 0.0, reward), ended, truncated, infos
+        return observations, np.where(anew, 0.0, reward), ended, truncated, infos
 
     def close_extras(self, **options: Any) -> None:
         """End the threads; `options` are Gymnasium's."""

@@ -54,8 +54,8 @@ class Environment(gymnasium.Env):  # type: ignore[misc]  # a class without types
             event = self.run.step(task.dt, dict(zip(task.act, action.tolist(), strict=True)))
         except StepError as error:
             info["failure"] = error.reason
-        seen, reward, ended = task.judged(self._meter(), action)
+        observations, reward, ended = task.judged(self._meter(), action)
         if event is not None:
             info["event"] = event.name
         over = bool(task.over(self.run.t)) or "failure" in info
-        return seen, float(reward), bool(ended) or event is not None, over, info
+        return observations, float(reward), bool(ended) or event is not None, over, info

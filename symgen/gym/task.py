@@ -78,13 +78,17 @@ class Task:
     def judged(self, values: Array, action: Array) -> tuple[Array, Any, Any]:
         """Return observations, rewards, and whether episodes are terminated, from values of the formulas."""
         n = len(self.observe)
-        seen = np.ascontiguousarray(values[..., :n])
-        reward = values[..., n] if isinstance(self.reward, str) else np.asarray(self.reward(seen, action), np.float64)
-        if reward.shape != seen.shape[:-1]:
-            expected = f"an array of shape {seen.shape[:-1]}" if seen.ndim > 1 else "a number"
+        observations = np.ascontiguousarray(values[..., :n])
+        reward = (
+            values[..., n]
+            if isinstance(self.reward, str)
+            else np.asarray(self.reward(observations, action), np.float64)
+        )
+        if reward.shape != observations.shape[:-1]:
+            expected = f"an array of shape {observations.shape[:-1]}" if observations.ndim > 1 else "a number"
             raise InputError("reward", f"a function that returns {expected}", arguments.shown(reward))
-        ended = np.zeros(seen.shape[:-1], dtype=bool) if self.end is None else values[..., -1] > 0.0
-        return seen, reward, ended
+        ended = np.zeros(observations.shape[:-1], dtype=bool) if self.end is None else values[..., -1] > 0.0
+        return observations, reward, ended
 
     def over(self, t: Any) -> Any:
         """Whether episodes have reached their time."""
@@ -111,7 +115,7 @@ def task_of(
     settings: Settings | None,
     changes: Mapping[str, Any],
 ) -> Task:
-    """Return what an environment does, from the arguments of `symgen.gym.make`.
+    """Return the task of an environment, from the arguments of `symgen.gym.make`.
 
     Raises
     ------

@@ -300,7 +300,10 @@ class Linkage:
         for k, row in enumerate(held):
             if row < pins:
                 broken = np.arange(pins) == row
-                left = lambda t, y, k=k, row=row: self.torques[row] - abs(self.motion(y, modes)[1][k])  # noqa: E731
+
+                def left(t, y, k=k, row=row):
+                    return self.torques[row] - abs(self.motion(y, modes)[1][k])
+
                 found.append((left, None, broken, none[1]))
             else:
                 leaving = np.arange(len(self.stops)) == row - pins

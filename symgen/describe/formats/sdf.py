@@ -267,8 +267,8 @@ class _Reader:
                     return ellipsoid((radius,) * 3)
                 length = _positive(at, part, "length")
                 return (cylinder if part.tag == "cylinder" else capsule)(radius, length)
-            known = "box, sphere, cylinder, capsule or ellipsoid"
-            raise InputError(f"{where}, inertial auto", known, quoted(part.tag), "write mass and inertia")
+            solids = "box, sphere, cylinder, capsule or ellipsoid"
+            raise InputError(f"{where}, inertial auto", solids, quoted(part.tag), "write mass and inertia")
         raise InputError(where, "a collision with a shape", "none")
 
     def _shape(self, visual: ET.Element, where: str) -> list[dict[str, Any]]:
