@@ -31,7 +31,7 @@ def emitted(tmp_path_factory):
 
 
 def arguments(function) -> list[str]:
-    code = function.py_func.__code__
+    code = getattr(function, "py_func", function).__code__
     return list(code.co_varnames[: code.co_argcount])
 
 
@@ -42,13 +42,26 @@ def test_functions_over_lanes_do_what_python_does(stem, emitted):
     corrected = hasattr(law, "spread")
     for name in own_functions(law) if corrected else ("rhs", "accept"):
         function = getattr(law, name)
-        given = arguments(function)
         before = rng.uniform(0.5, 1.5, law.NUMBERS * LANES)
-        found, expected = before.copy(), before.tolist()
-        function(*({"t": 0.3, "z": found, "lanes": LANES}[x] for x in given))
+        compiled = after(function, before)
         if not (corrected and name == "accept"):  # from such a state the correction ends where rounding says
-            interpreted(function)(*({"t": 0.3, "z": expected, "lanes": LANES}[x] for x in given))
-            np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-11, err_msg=name)
+            python = interpreted(function)
+            expected = np.array(after(python, before.tolist()))
+            # A lane that happens to stand near a singular state amplifies rounding: its bound is what it makes
+            # of a disturbance a thousand times as large.
+            disturbed = before * (1 + 1e-13 * rng.uniform(-1, 1, len(before)))
+            change = np.abs(after(python, disturbed.tolist()) - expected).reshape(-1, LANES).max(axis=0)
+            assert np.median(change) < 1e-9
+            bound = 1e-11 * (1 + np.abs(expected)).reshape(-1, LANES) + change
+            error = np.abs(compiled - expected).reshape(-1, LANES)
+            assert np.all(error <= bound), (name, np.argwhere(error > bound), error.max())
+
+
+def after(function, numbers):
+    """The numbers in lanes after one call of the function."""
+    z = numbers.copy()
+    function(*({"t": 0.3, "z": z, "lanes": LANES}[x] for x in arguments(function)))
+    return z
 
 
 def interpreted(function, spaces=None):
