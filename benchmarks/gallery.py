@@ -151,10 +151,7 @@ def draw(entry: CatalogueEntry) -> None:
     free = any(point.free for point in traced_points(model.mechanism, model.parameters()))
     what = "paths of points that no joint ties" if free else "paths of the centres of mass"
     times = ", ".join(f"{k / 3.0 * window:.3g}" for k in range(4))
-    caption = (
-        f"`{entry.name}` at {times} s, the start darkest; thin lines: {what} until then. Symbols "
-        "are those of [drawings](../drawing.md)."
-    )
+    caption = f"At {times} s, the start darkest; thin lines: {what}. [Symbols](../drawing.md)."
     words_for_it = f"{model.mechanism.title}, drawn at four times."
     drawn = Picture(entry.name, caption, words_for_it, picture.svg.encode(), "svg")
     put(drawn, FOLDER)
@@ -242,20 +239,25 @@ def page(entry: CatalogueEntry) -> str:
     defaults = mechanism.defaults
     lines = [f"# {entry.name}", "", words.sentence(entry.title), ""]
     if measured:
-        lines += [f"![{entry.title}]({entry.name}.svg)", "", words.sentence(measured["caption"]), ""]
-    facts = [
-        ("source", entry.source),
-        ("space", mechanism.space),
-        ("bodies, joints, forces", f"{len(mechanism.bodies)}, {len(mechanism.joints)}, {len(mechanism.forces)}"),
-        ("coordinates, velocities", f"{nq}, {nv}"),
-        ("constraint rows", f"{rows}" + (f", of rank {measured['rank']}" if measured else "")),
-        ("degrees of freedom", f"{nv - measured['rank']}" if measured else ""),
-        ("end, step", f"{defaults.until:g} s, {defaults.step:g} s"),
-        ("predictable until", f"{defaults.predictable_until:g} s" if defaults.predictable_until else ""),
-        ("size", f"{model_name(entry)}; {entry.name}:N for another" if entry.sized else ""),
+        lines += [f"![{entry.name} in motion]({entry.name}.svg)", "", words.sentence(measured["caption"]), ""]
+    sizes = {
+        "bodies": len(mechanism.bodies),
+        "joints": len(mechanism.joints),
+        "forces": len(mechanism.forces),
+        "coordinates": nq,
+        "velocities": nv,
+        "constraint rows": rows,
+        **({"rank": measured["rank"], "degrees of freedom": nv - measured["rank"]} if measured else {}),
+    }
+    until = defaults.predictable_until
+    lines += [
+        f"- {mechanism.space}: {', '.join(f'{name} {number}' for name, number in sizes.items())}",
+        f"- end {defaults.until:g} s, step {defaults.step:g} s" + (f", predictable until {until:g} s" if until else ""),
+        *([f"- {model_name(entry)}; `{entry.name}:N` has another size"] if entry.sized else []),
+        f"- source: {entry.source}",
+        "",
     ]
-    lines += ["| | |", "| --- | --- |", *(f"| {label} | {text} |" for label, text in facts if text), ""]
-    lines += _measured(measured) if measured and "rows" in measured else _unmeasured(entry)
+    lines += _measured(entry.name, measured) if measured and "rows" in measured else _unmeasured(entry)
     return "\n".join(lines)
 
 
@@ -271,23 +273,23 @@ def _unmeasured(entry: CatalogueEntry) -> list[str]:
     return [f"No rows have been measured for this page yet: `python -m benchmarks.gallery {entry.name}` does that.", ""]
 
 
-def _measured(measured: Mapping[str, Any]) -> list[str]:
-    reference = measured["reference"]
-    lines = ["## Measured", "", *_table(measured["rows"]), ""]
+def _measured(name: str, measured: Mapping[str, Any]) -> list[str]:
+    rows, reference = measured["rows"], measured["reference"]
+    lines = ["## Measured", "", *_table(rows), ""]
     estimated = reference["estimated_error"]
     how = f"The reference: {reference['how']}; its own error is estimated at {words.rounded(estimated)} m."
     lines += [how + (f" {words.sentence(words.readable(reference['note']))}" if reference["note"] else ""), ""]
-    if any(row["below_reference"] for row in measured["rows"]):
+    if any(row["below_reference"] for row in rows):
         lines += ["\\* below the error of the reference itself.", ""]
-    failed = [row for row in measured["rows"] if row["status"] != "ok"]
+    failed = [row for row in rows if row["status"] != "ok"]
+    lines += ["All but these ended `ok`:" if failed else "All ended `ok`.", ""]
     for row in failed:
         what = f"`{row['method']}`, `{row['integrator']}`: {row['status']}"
         lines += [f"- {what}{': ' + words.readable(row['reason']) if row['reason'] else ''}"]
     lines += [""] if failed else []
-    made = ", ".join(f"{name} {number}" for name, number in measured["versions"].items())
     lines += [
-        f"Made with {made}, on {measured['machine']}. Run times are those of the integration loop; other",
-        "work was running on the machine, so read ratios. Reproduce with",
+        "Times are of the loop alone, beside other work; ratios are to `lagrange` "
+        f"([versions, machine](data/{name}.json)).",
         "",
         *("```sh", measured["command"], "```", ""),
     ]
@@ -295,19 +297,23 @@ def _measured(measured: Mapping[str, Any]) -> list[str]:
 
 
 def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    lines = [
-        "| method | integrator | step or tolerance | error [m] | run time | to `lagrange` | status |",
-        "| --- | --- | --- | ---: | ---: | ---: | --- |",
-    ]
-    for row in rows:
-        star = " \\*" if row["below_reference"] else ""
-        cells = [
-            *(f"`{row['method']}`", f"`{row['integrator']}`", words.setting(row["step"], row["rtol"])),
-            *(words.rounded(row["error"]) + star, words.seconds(row["run_seconds"]), _ratio(row)),
-            row["status"],
-        ]
-        lines.append(f"| {' | '.join(cells)} |")
+    """Return a line for each method, with its runs side by side."""
+    runs = {(row["integrator"], words.setting(row["step"], row["rtol"])): None for row in rows}
+    cells = {(row["method"], row["integrator"]): row for row in rows}
+    heads = (f"`{integrator}`, {setting}: error [m] | time | ratio" for integrator, setting in runs)
+    lines = [f"| method | {' | '.join(heads)} |", "| --- |" + " ---: | ---: | ---: |" * len(runs)]
+    for method in dict.fromkeys(row["method"] for row in rows):
+        parts = (_cells(cells.get((method, integrator))) for integrator, _ in runs)
+        lines.append(f"| `{method}` | {' | '.join(parts)} |")
     return lines
+
+
+def _cells(row: Mapping[str, Any] | None) -> str:
+    """Return error, time and ratio of a run."""
+    if row is None:
+        return "– | – | –"
+    marks = (" \\*" if row["below_reference"] else "") + (f" {row['status']}" if row["status"] != "ok" else "")
+    return f"{words.rounded(row['error'])}{marks} | {words.seconds(row['run_seconds'])} | {_ratio(row)}"
 
 
 def _ratio(row: Mapping[str, Any]) -> str:
@@ -328,7 +334,7 @@ def index() -> str:
     ]
     for entry in entries():
         measured = data(entry.name)
-        picture = f"![{entry.title}]({entry.name}.svg)" if measured else ""
+        picture = f"![{entry.name}]({entry.name}.svg)" if measured else ""
         lines.append(f"| {picture} | [`{entry.name}`]({entry.name}.md): {entry.title} | {_best(measured)} |")
     lines += [
         "",
@@ -340,7 +346,7 @@ def index() -> str:
         "| | machine |",
         "| --- | --- |",
     ]
-    lines += [f"| ![{e.title}]({e.name}.svg) | [`{e.name}`]({e.name}.md): {e.title} |" for e in entries(MACHINES)]
+    lines += [f"| ![{e.name}]({e.name}.svg) | [`{e.name}`]({e.name}.md): {e.title} |" for e in entries(MACHINES)]
     return "\n".join([*lines, ""])
 
 
@@ -356,7 +362,7 @@ def _across() -> list[str]:
         "## Over all entries",
         "",
         "Each entry at its own step, or at a tolerance of 1e-8. Error and time are medians of the ratios to `lagrange`",
-        "with the same integrator, over the entries where both ended; below 1 the error or the time is smaller.",
+        "with the same integrator, where both ended.",
         "",
         "| method | integrator | entries | ended ok | error | time |",
         "| --- | --- | ---: | ---: | ---: | ---: |",

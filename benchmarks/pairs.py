@@ -13,8 +13,8 @@ from symgen.methods import METHODS
 INTRODUCTION = """# Pairs of method and integrator
 
 Written by `python -m benchmarks.pairs` from the forms that methods give and integrators solve
-([integrators](integrators.md)). **D** marks a method's default integrator, + the others that fit; anything else is
-refused with a sentence that names those that fit.
+([integrators](integrators.md)). Methods in one line take the same integrators; the default is **bold**. Anything else
+is refused with a sentence that names those that fit.
 """
 
 
@@ -37,19 +37,16 @@ def integrators() -> list[str]:
 def page() -> str:
     """Return the whole page."""
     columns = integrators()
-    lines = [
-        INTRODUCTION,
-        "| method | forms | " + " | ".join(f"`{c}`" for c in columns) + " |",
-        "| --- | --- |" + " --- |" * len(columns),
-    ]
+    groups: dict[tuple[tuple[str, ...], str, tuple[str, ...]], list[str]] = {}
     for name in METHODS.names:
         method = METHODS.get(name)
-        marks = [
-            "**D**" if c == method.default_integrator else "+" if forms_in_common(name, c) else "" for c in columns
-        ]
-        lines.append(f"| `{name}` | {', '.join(method.forms)} | " + " | ".join(marks) + " |")
-    count = len(allowed_pairs())
-    lines.append(f"\n{count} of {len(METHODS.names) * len(columns)} pairs fit.\n")
+        fitting = tuple(c for c in columns if forms_in_common(name, c))
+        groups.setdefault((method.forms, method.default_integrator, fitting), []).append(name)
+    lines = [INTRODUCTION, "| methods | forms | integrators |", "| --- | --- | --- |"]
+    for (forms, default, fitting), names in groups.items():
+        marks = ", ".join(f"**`{c}`**" if c == default else f"`{c}`" for c in fitting)
+        lines.append(f"| {', '.join(f'`{name}`' for name in names)} | {', '.join(forms)} | {marks} |")
+    lines.append(f"\n{len(allowed_pairs())} of {len(METHODS.names) * len(columns)} pairs fit.\n")
     return "\n".join(lines)
 
 
