@@ -189,3 +189,15 @@ def test_numbers_and_titles_of_plots_have_room(chromium: Chromium, tmp_path: Pat
     height = chromium.run("document.querySelector('#plots canvas').getBoundingClientRect().height")
     assert max(width for _, width in titles) < height
     assert any("e-1" in text for text, *_ in written)
+
+
+def test_a_phone_cuts_neither_names_nor_units_nor_lists(wiper: Path, chromium: Chromium) -> None:
+    chromium.open(wiper, width=390, height=844)
+    chromium.frame()
+    cut = """[...document.querySelectorAll('.slider span')].filter((s) =>
+      s.offsetParent && s.scrollWidth > s.clientWidth)"""
+    assert chromium.run(f"{cut}.map((s) => s.textContent)") == []
+    beyond = """[...document.querySelectorAll('select')].filter((s) =>
+      s.getBoundingClientRect().right > s.closest('section').getBoundingClientRect().right)"""
+    assert chromium.run(f"{beyond}.map((s) => s.id)") == []
+    assert chromium.run("document.documentElement.scrollWidth") == 390
