@@ -39,7 +39,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
         raise InputError("FILE", f"a file of another program ({ends})", quoted(file))
     read = read_robot(path, name, floating=floating, stops=stops)
     target = Path(f"{read.raw['mechanism']['name']}.toml" if output in (None, "-") else str(output))
-    raw, lost = moved(read.raw, path.parent, target.parent)
+    raw, lost = moved(read.raw, read.folder, target.parent)
     if lost:
         why = f"their files are not in the folder of {'the output' if output == '-' else target.name}"
         read = replace(read, left_out=(*read.left_out, LeftOut("meshes", f"{lost} in pictures", why, False)))

@@ -99,7 +99,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return catalogue.raw(match.group("name"), None if size is None else int(size)), text
     path = Path(text)
     if _is_file(path):
-        return (read_toml(path) if path.suffix == ".toml" else _read_other(path)), Source.of(path)
+        return (read_toml(path), Source.of(path)) if path.suffix == ".toml" else _read_other(path)
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
     entries = catalogue.all_names()
@@ -109,12 +109,15 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)
 
 
-def _read_other(path: Path) -> dict[str, Any]:
+def _read_other(path: Path) -> tuple[dict[str, Any], Source]:
     """Return the tables of a file of another program's format; without a known end it is TOML."""
     from symgen.describe.formats import format_of, read_robot
 
     other = format_of(path)
-    return read_toml(path) if other is None else read_robot(path, other).raw
+    if other is None:
+        return read_toml(path), Source.of(path)
+    read = read_robot(path, other)
+    return read.raw, Source.of(path, read.folder)
 
 
 def _is_file(path: Path) -> bool:

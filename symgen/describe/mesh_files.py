@@ -1,13 +1,22 @@
-"""Files of meshes that shapes name: in the folder of the mechanism file or below it, nowhere else."""
+"""Files of meshes that shapes name: in the folder of the mechanism file or below it, nowhere else.
+
+Other programs' files may name them from the root of their package, which is then the folder.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 #: Ends of the names of files that can be drawn.
 SUFFIXES = (".stl", ".obj")
+#: Why a mesh is not drawn.
+_ELSEWHERE = "they are not in the folder or the package of the file"
+_UNREADABLE = "only STL and OBJ files are drawn"
+#: The name in the file of a package, and bytes of it that are read.
+_NAME, _LARGEST_PACKAGE = re.compile(rb"<package\b.*?<name>\s*([^<\s]+)\s*</name>", re.DOTALL), 100_000
 
 
 def is_inner(name: str) -> bool:
@@ -29,16 +38,67 @@ def mesh_file(folder: str | Path, name: str) -> Path | None:
         return None
 
 
-def mesh_name(folder: Path, uri: str) -> str | None:
-    """Return the name of the mesh of a robot's file, relative to that file's folder; None where it is not in it.
+class MeshFiles:
+    """Meshes that a robot's file names, by their paths; those that cannot be drawn are counted.
 
-    A package is the folder itself.
+    A mesh is in the folder of the file or below it, or in the package that the file belongs to: the nearest folder
+    above it that has the name of the package, or whose ``package.xml`` has it.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the file.
     """
-    for scheme in ("package://", "model://"):
-        if uri.startswith(scheme):
-            uri = uri.removeprefix(scheme).partition("/")[2]
-    name = str(PurePosixPath(uri))
-    return None if mesh_file(folder, name) is None else name
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self._lost = folder.resolve(), dict[str, int]()
+
+    def path(self, uri: str) -> Path | None:
+        """Return the path of a mesh; None where it cannot be drawn."""
+        for scheme in ("package://", "model://"):
+            if uri.startswith(scheme):
+                name, _, rest = uri.removeprefix(scheme).lstrip("/").partition("/")
+                root = self._package(name) or self.folder
+                return self.inner(root, root, rest)
+        return self.inner(self._package() or self.folder, self.folder, uri)
+
+    def inner(self, root: Path, folder: Path, name: str) -> Path | None:
+        """Return the path of a mesh that is named from a folder and is in or below `root`, links followed."""
+        try:
+            path = (folder / name).resolve()
+            here = path.is_relative_to(root) and path.is_file()
+        except (OSError, RuntimeError, ValueError):  # a name too long, or links in a circle
+            here = False
+        if here and is_inner(path.relative_to(path.anchor).as_posix()):
+            return path
+        self.lose(_ELSEWHERE if PurePosixPath(name).suffix.lower() in SUFFIXES else _UNREADABLE)
+        return None
+
+    def lose(self, why: str) -> None:
+        """Count a mesh that is not drawn."""
+        self._lost[why] = self._lost.get(why, 0) + 1
+
+    def left_out(self) -> list[tuple[str, int]]:
+        """Return the reasons why meshes are not drawn, and how many there are of each."""
+        return list(self._lost.items())
+
+    def _package(self, name: str = "") -> Path | None:
+        """Return the root of the package of a name, or of the nearest one, that the file is in."""
+        for folder in (self.folder, *self.folder.parents[:-1]):
+            if (name and folder.name == name) or _package_name(folder / "package.xml", name):
+                return folder
+        return None
+
+
+def _package_name(path: Path, name: str) -> bool:
+    """Return whether a file describes a package, of this name where there is one."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_PACKAGE)
+    except (OSError, ValueError):
+        return False
+    match = _NAME.search(content)
+    return match is not None and name in ("", match[1].decode("utf-8", "replace"))
 
 
 def moved(raw: Mapping[str, Any], source: Path, target: Path) -> tuple[dict[str, Any], int]:

@@ -11,15 +11,15 @@ from symgen.describe.mechanism import Mechanism
 
 
 class Source(str):
-    """The name of a file for messages, with the folder that it is in."""
+    """The name of a file for messages, with the folder that its meshes are named from."""
 
     folder: str = ""
 
     @classmethod
-    def of(cls, path: Path) -> Source:
-        """Return the source of a file."""
+    def of(cls, path: Path, folder: Path | None = None) -> Source:
+        """Return the source of a file; meshes are named from the folder that it is in, unless from another one."""
         source = cls(path.name)
-        source.folder = str(path.absolute().parent)
+        source.folder = str(path.absolute().parent if folder is None else folder)
         return source
 
 

@@ -181,7 +181,7 @@ def test_a_robot_is_drawn_with_its_meshes(
         text_of[where] = (where / "m.toml").read_text()
         assert main(["draw", str(where / "m.toml"), "-o", str(where / "m.svg")]) == 0
     out = capsys.readouterr().out
-    assert "left out: meshes (1 in pictures): they are no STL or OBJ files in the folder" in out
+    assert "left out: meshes (1 in pictures): they are not in the folder or the package of the file" in out
     assert out.count("left out: meshes (1 in pictures): their files are not in the folder of m.toml") == 1
     for where, name in ((inner, "parts/c.stl"), (tmp_path, "in/parts/c.stl"), (inner / "parts", "c.stl")):
         assert f'file = "{name}"' in text_of[where]

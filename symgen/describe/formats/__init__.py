@@ -10,7 +10,6 @@ Imports: the standard library; `mujoco` for MJCF, where it is used.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
@@ -45,11 +44,14 @@ class Import:
         What the file says and the description does not.
     format : str
         Name of the format.
+    folder : Path
+        The folder that meshes are named from: the file's, or the root of its package.
     """
 
     raw: dict[str, Any]
     left_out: tuple[LeftOut, ...]
     format: str
+    folder: Path
 
 
 FORMATS: Registry[type[Format]] = Registry("symgen.describe.formats", "file format")
@@ -92,9 +94,8 @@ def read_robot(path: Path, name: str, *, floating: bool = False, stops: bool = F
     from symgen.describe.formats._raw import describe
 
     robot = FORMATS.get(name).read(path, floating)
-    raw: Mapping[str, Any]
-    raw, left_out = describe(robot, f"{path.name} ({name.upper()})", stops)
-    return Import(dict(raw), left_out, name)
+    raw, left_out, folder = describe(robot, f"{path.name} ({name.upper()})", stops)
+    return Import(raw, left_out, name, folder)
 
 
 __all__ = ["FORMATS", "Import", "LeftOut", "format_of", "read_robot"]

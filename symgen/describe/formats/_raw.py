@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from symgen.base.errors import InputError
@@ -65,8 +67,8 @@ class _Names:
         return cured
 
 
-def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...]]:
-    """Return the tables of a mechanism file, and what they leave out.
+def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
+    """Return the tables of a mechanism file, what they leave out, and the folder that meshes are named from.
 
     Links that fixed joints hold together are one body, with points of the names of the others. A link without mass
     at the end of a chain belongs to the body that carries it.
@@ -80,7 +82,8 @@ def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, 
     stops : bool
         Whether limits of joints become stops.
     """
-    return _Description(robot, stops).tables(source)
+    description = _Description(robot, stops)
+    return *description.tables(source), description.folder
 
 
 class _Description:
@@ -92,6 +95,9 @@ class _Description:
         self.carriers = self._carriers()
         self.joints = {c.name: c for c in robot.connections if c.kind not in ("fixed", "floating")}
         self._drop_massless_ends()
+        folder = robot.folder.resolve()
+        files = [shape["file"] for link in robot.links.values() for shape in link.shapes if "file" in shape]
+        self.folder = Path(os.path.commonpath([folder, *files]))
 
     # -- bodies ------------------------------------------------------------------------------------------------------
 
@@ -174,7 +180,7 @@ class _Description:
         table["position"] = _tidy(place.origin)
         if (e := quaternion(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
             table["orientation"] = {"quaternion": _tidy(e)}
-        shapes = [shape for link, frame in zip(members, frames, strict=True) for shape in _shapes(link, frame)]
+        shapes = [x for link, frame in zip(members, frames, strict=True) for x in _shapes(link, frame, self.folder)]
         if len(shapes) > MOST:
             self.left_out.append(LeftOut("looks", f"{len(shapes) - MOST} of {name}", f"a body has {MOST}", False))
         if shapes:
@@ -355,8 +361,8 @@ def _listed(names: list[str]) -> str:
     return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
 
 
-def _shapes(link: Link, frame: Frame) -> list[dict[str, Any]]:
-    """Return looks of a link in the frame of its body."""
+def _shapes(link: Link, frame: Frame, folder: Path) -> list[dict[str, Any]]:
+    """Return looks of a link in the frame of its body; meshes are named from a folder."""
     shapes = list[dict[str, Any]]()
     for shape in link.shapes:
         if (
@@ -375,7 +381,8 @@ def _shapes(link: Link, frame: Frame) -> list[dict[str, Any]]:
             shapes.append({"type": "cylinder"} | sizes | at | colour)
         elif shape["type"] == "mesh":
             turn = {"orientation": {"quaternion": _tidy(quaternion(own.rotation))}}
-            shapes.append({"type": "mesh", "file": shape["file"], "scale": _tidy(shape["scale"])} | at | turn | colour)
+            file = shape["file"].relative_to(folder).as_posix()
+            shapes.append({"type": "mesh", "file": file, "scale": _tidy(shape["scale"])} | at | turn | colour)
         else:
             shapes.append(_box(shape["size"], own) | colour)
     return shapes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal
 
 from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times, transposed
@@ -57,7 +58,7 @@ class Link:
     inertia : Matrix
         About the centre of mass, along the axes of the link [kg m^2].
     points, shapes
-        Named points of the link [m], and looks as a body has them.
+        Named points of the link [m], and looks as a body has them, with a frame, and paths of meshes as files.
     """
 
     name: str
@@ -160,7 +161,7 @@ class Actuator:
 
 @dataclass
 class Robot:
-    """What a file describes."""
+    """What a file describes; `folder` is the folder that it is in."""
 
     name: str
     links: dict[str, Link]
@@ -169,6 +170,7 @@ class Robot:
     actuators: list[Actuator] = field(default_factory=list)
     gravity: Vector = (0.0, 0.0, -9.81)
     left_out: list[LeftOut] = field(default_factory=list)
+    folder: Path = Path()
 
 
 #: What drives a joint: its name and unit.

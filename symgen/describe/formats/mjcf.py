@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import warnings
-import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quoted
 from symgen.describe.formats._frames import Frame, Matrix, Vector, of_quaternion
+from symgen.describe.formats._mjcf_files import MjcfMeshes, check_files
 from symgen.describe.formats._robot import (
     GROUND,
     Actuator,
@@ -22,8 +22,8 @@ from symgen.describe.formats._robot import (
 )
 from symgen.describe.formats._xml import read_tree
 
-#: Files that a file may include, one in another.
-_MOST_INCLUDES = 100
+#: Last of the groups of shapes that MuJoCo shows; what collides is behind them.
+_LAST_SEEN = 2
 
 
 class Mjcf:
@@ -36,7 +36,7 @@ class Mjcf:
     def read(path: Path, floating: bool) -> Robot:
         """Return the robot of a file; a body without joints at the top is part of the ground, as in MuJoCo."""
         tree = read_tree(path, "mujoco")
-        _check_includes(path, tree)
+        check_files(path, tree)
         try:
             import mujoco
         except ImportError:
@@ -45,44 +45,23 @@ class Mjcf:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # advice to the author of the file
-                model = mujoco.MjSpec.from_file(str(path)).compile()
+                spec = mujoco.MjSpec.from_file(str(path))
+                model = spec.compile()
         except (ValueError, RuntimeError) as error:
             slip = " ".join(str(error).replace(str(path.resolve().parent), ".").split())
             raise InputError(path.name, "a file that MuJoCo compiles", quoted(slip)) from None
-        return _Reader(mujoco, model, path.name, tree.get("model", path.stem)).robot()
-
-
-def _check_includes(path: Path, tree: ET.Element) -> None:
-    """Refuse files elsewhere, and files that include themselves, before MuJoCo opens any."""
-    folder, waiting, count = path.resolve().parent, [(path.resolve(), tree)], 0
-    while waiting:
-        file, element = waiting.pop()
-        for include in element.iter("include"):
-            count += 1
-            name = include.get("file", "")
-            inner = (folder / name).resolve()
-            if not inner.is_relative_to(folder):
-                raise InputError(f"{path.name}: include", f"a file in the folder of {path.name}", quoted(name))
-            if inner == file or count > _MOST_INCLUDES:
-                got = f"{quoted(name)} in itself" if inner == file else "more"
-                raise InputError(f"{path.name}: include", f"at most {_MOST_INCLUDES} files, none in itself", got)
-            waiting.append((inner, read_tree(inner)))
-        for part in ("compiler", "option"):
-            for setting in element.iter(part):
-                for key in ("meshdir", "texturedir", "assetdir"):
-                    if not (folder / setting.get(key, "")).resolve().is_relative_to(folder.parent):
-                        expected = f"a folder beside or in the folder of {path.name}"
-                        raise InputError(f"{path.name}: {part}, {key}", expected, quoted(setting.get(key, "")))
+        name = tree.get("model", path.stem)
+        return _Reader(mujoco, model, path.name, name, MjcfMeshes(spec, model, path.parent)).robot()
 
 
 class _Reader:
     """The robot of a compiled model."""
 
-    def __init__(self, mujoco: Any, model: Any, source: str, name: str) -> None:
+    def __init__(self, mujoco: Any, model: Any, source: str, name: str, meshes: MjcfMeshes) -> None:
         self.mujoco, self.model, self.source, self.name = mujoco, model, source, name
         self.data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, self.data)
-        self.left_out = list[LeftOut]()
+        self.left_out, self.meshes = list[LeftOut](), meshes
         self.connections, self.led = list[Connection](), dict[int, Connection]()
 
     def _name(self, sort: str, number: int) -> str:
@@ -99,7 +78,9 @@ class _Reader:
         actuators += [a for i in range(model.ntendon) if (a := self._spring(i)) is not None]
         self._leave_out()
         gravity = (0.0, 0.0, 0.0) if self._disabled("GRAVITY") else _vector(model.opt.gravity)
-        return Robot(self.name, links, self.connections, followers, actuators, gravity, self.left_out)
+        return Robot(
+            self.name, links, self.connections, followers, actuators, gravity, self.left_out, self.meshes.folder
+        )
 
     def _disabled(self, flag: str) -> bool:
         return bool(int(self.model.opt.disableflags) & int(getattr(self.mujoco.mjtDisableBit, f"mjDSBL_{flag}")))
@@ -117,7 +98,9 @@ class _Reader:
         link.inertia = turned_inertia(principal, of_quaternion(model.body_iquat[i].tolist()))
         sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
         link.points = {self._name("site", k): _vector(model.site_pos[k]) for k in sites}
-        link.shapes = [s for k in range(model.ngeom) if model.geom_bodyid[k] == i for s in self._shape(k)]
+        geoms = [k for k in range(model.ngeom) if model.geom_bodyid[k] == i]
+        seen = [k for k in geoms if model.geom_group[k] <= _LAST_SEEN]
+        link.shapes = [s for k in seen or geoms for s in self._shape(k)]
         return link
 
     def _shape(self, k: int) -> list[dict[str, Any]]:
@@ -133,6 +116,9 @@ class _Reader:
             return [look | {"type": "sphere", "radius": a}]
         if sort in (int(sorts.mjGEOM_CYLINDER), int(sorts.mjGEOM_CAPSULE)):
             return [look | {"type": "cylinder", "radius": a, "length": 2.0 * b}]
+        if sort == int(sorts.mjGEOM_MESH):
+            mesh = self.meshes.shape(int(model.geom_dataid[k]), frame)
+            return [] if mesh is None else [look | mesh]
         return []
 
     # -- joints ------------------------------------------------------------------------------------------------------
@@ -310,9 +296,8 @@ class _Reader:
                 )
         if option.density or option.viscosity or any(option.wind):
             self.left_out.append(LeftOut("a fluid", "option", "bodies move in a vacuum", True))
-        meshes = sum(1 for k in range(model.ngeom) if int(model.geom_type[k]) == int(self.mujoco.mjtGeom.mjGEOM_MESH))
-        if meshes:
-            self.left_out.append(LeftOut("meshes", f"{meshes} in pictures", "bodies are drawn by their points", False))
+        for why, count in self.meshes.left_out():
+            self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
         if model.nflex:
             self.left_out.append(LeftOut("flexible parts", f"{model.nflex}", "symgen has beams", True))
         if model.nplugin:

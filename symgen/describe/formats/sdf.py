@@ -23,7 +23,7 @@ from symgen.describe.formats._robot import (
 )
 from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, together
 from symgen.describe.formats._xml import colour_of, numbers, read_tree, triple
-from symgen.describe.mesh_files import mesh_name
+from symgen.describe.mesh_files import MeshFiles
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -70,7 +70,7 @@ class _Reader:
     """The robot of a file; names have their models before them, ``arm::hand``."""
 
     def __init__(self, path: Path) -> None:
-        self.source, self.folder, self.meshes = path.name, path.parent, 0
+        self.source, self.folder, self.meshes = path.name, path.parent, MeshFiles(path.parent)
         self.tree = read_tree(path, "sdf")
         self.version = self._version(self.tree.get("version", ""))
         self.frames = {_WORLD: _Placed("", Frame(), _WORLD)}
@@ -113,6 +113,7 @@ class _Reader:
             actuators_of(connections, followers),
             triple(f"{self.source}: gravity", gravity) if gravity else (0.0, 0.0, -9.8),
             self.left_out,
+            self.folder,
         )
 
     # -- frames ------------------------------------------------------------------------------------------------------
@@ -232,8 +233,10 @@ class _Reader:
         if solid.mass < 0.0:
             raise InputError(f"{where}, mass", "a mass of 0 or above", repr(solid.mass))
         link.mass, link.centre, link.inertia = solid.mass, solid.centre, solid.inertia
-        for visual in element.findall("visual"):
-            link.shapes += self._shape(visual, where)
+        looks = element.findall("visual")
+        link.shapes = [x for look in looks for x in self._shape(look, where)]
+        if looks and not link.shapes:  # where the link is can be seen by what collides
+            link.shapes = [x for look in element.findall("collision") for x in self._shape(look, where)]
         if _text(element, "gravity") in ("false", "0"):
             self.left_out.append(LeftOut("a link without gravity", name, "gravity acts on all bodies", True))
         return link
@@ -287,9 +290,10 @@ class _Reader:
                 sizes = {key: _positive(at, part, key) for key in ("radius", "length")}
                 return [look | {"type": "cylinder"} | sizes]
             if part.tag == "mesh":
-                file = None if part.find("submesh") is not None else mesh_name(self.folder, _text(part, "uri"))
-                if file is None:
-                    self.meshes += 1
+                if part.find("submesh") is not None:
+                    self.meshes.lose("whole files are drawn, no parts of them")
+                    return []
+                if (file := self.meshes.path(_text(part, "uri"))) is None:
                     return []
                 return [look | {"type": "mesh", "file": file, "scale": triple(at, _text(part, "scale") or "1 1 1")}]
         return []
@@ -394,9 +398,8 @@ class _Reader:
         touching = sum(1 for link in self.tree.iter("link") if link.find("collision") is not None)
         if touching:
             self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
-        if self.meshes:
-            why = "they are no STL or OBJ files in the folder"
-            self.left_out.append(LeftOut("meshes", f"{self.meshes} in pictures", why, False))
+        for why, count in self.meshes.left_out():
+            self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
         for tag, why in _SILENT.items():
             if count := sum(1 for _ in self.tree.iter(tag)):
                 self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", why, tag == "plugin"))

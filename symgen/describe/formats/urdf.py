@@ -20,7 +20,7 @@ from symgen.describe.formats._robot import (
     turned_inertia,
 )
 from symgen.describe.formats._xml import colour_of, number, origin_of, read_tree, triple
-from symgen.describe.mesh_files import mesh_name
+from symgen.describe.mesh_files import MeshFiles
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -62,7 +62,7 @@ class _Reader:
             for m in self.tree.findall("material")
         }
         self.left_out = list[LeftOut]()
-        self.folder, self.meshes = path.parent, 0
+        self.folder, self.meshes = path.parent, MeshFiles(path.parent)
 
     def robot(self) -> Robot:
         links = {}
@@ -91,6 +91,7 @@ class _Reader:
             followers,
             actuators_of(connections, followers),
             left_out=self.left_out,
+            folder=self.folder,
         )
 
     # -- links -------------------------------------------------------------------------------------------------------
@@ -117,12 +118,14 @@ class _Reader:
                     (a["xz"], a["yz"], a["zz"]),
                 )
                 link.inertia = turned_inertia(tensor, frame.rotation)
-        for visual in element.findall("visual"):
-            link.shapes += self._shape(where, visual)
+        looks = element.findall("visual")
+        link.shapes = [x for look in looks for x in self._shape(where, look)]
+        if looks and not link.shapes:  # where the link is can be seen by what collides
+            link.shapes = [x for look in element.findall("collision") for x in self._shape(where, look)]
         return link
 
     def _shape(self, where: str, visual: ET.Element) -> list[dict[str, Any]]:
-        frame, geometry = origin_of(f"{where}, visual origin", visual.find("origin")), visual.find("geometry")
+        frame, geometry = origin_of(f"{where}, {visual.tag} origin", visual.find("origin")), visual.find("geometry")
         look: dict[str, Any] = {"frame": frame}
         if (material := visual.find("material")) is not None:
             own = _colour(f"{where}, material", material.find("color"))
@@ -138,8 +141,7 @@ class _Reader:
                 sizes = {key: number(at, part.attrib, key) for key in ("radius", "length")}
                 return [look | {"type": "cylinder"} | sizes]
             if part.tag == "mesh":
-                if (file := mesh_name(self.folder, part.get("filename", ""))) is None:
-                    self.meshes += 1
+                if (file := self.meshes.path(part.get("filename", ""))) is None:
                     return []
                 return [look | {"type": "mesh", "file": file, "scale": triple(at, part.get("scale", "1 1 1"))}]
         return []
@@ -267,9 +269,8 @@ class _Reader:
         touching = sum(1 for link in links if link.find("collision") is not None)
         if touching:
             self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
-        if self.meshes:
-            why = "they are no STL or OBJ files in the folder"
-            self.left_out.append(LeftOut("meshes", f"{self.meshes} in pictures", why, False))
+        for why, count in self.meshes.left_out():
+            self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
         for tag, why in _SILENT.items():
             if counts.pop(tag, 0):
                 self.left_out.append(LeftOut(f"<{tag}>", "the file", why, False))
