@@ -84,6 +84,16 @@ def test_meshes_of_mjcf_are_where_mujoco_has_them(folder: str, tmp_path: Path) -
     assert [shape["type"] for shape in read(path).raw["bodies"]["one"]["shape"]] == ["mesh"]
 
 
+def test_a_path_from_another_folder_finds_the_same_meshes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("t.obj", "inner/t.obj"):
+        written(tmp_path / "in", name, WAVEFRONT)
+    whole = faces_of(written(tmp_path, "in/m.xml", MJCF.format(folder=".")))
+    monkeypatch.chdir(tmp_path)
+    os.symlink("in/m.xml", "link.xml")
+    for name in ("in/m.xml", "link.xml"):
+        assert all(np.array_equal(a, b) for a, b in zip(faces_of(Path(name)), whole, strict=True))
+
+
 def test_files_that_mujoco_would_open_elsewhere_are_refused(tmp_path: Path) -> None:
     for text, words in (
         ('<compiler meshdir="../.."/>', "compiler, meshdir"),
@@ -168,6 +178,17 @@ def test_a_link_whose_looks_cannot_be_drawn_has_those_of_contact(tmp_path: Path)
     assert [shape["type"] for shape in shapes] == ["sphere"]
     bare = looks[looks.index("<collision") :]  # a link without looks is not seen, as in other programs
     assert "shape" not in read(written(tmp_path, "r.urdf", URDF.format(meshes=bare))).raw["bodies"]["a"]
+
+
+def test_a_body_with_meshes_for_the_eye_does_not_show_what_collides(tmp_path: Path) -> None:
+    written(tmp_path, "t.obj", WAVEFRONT)
+    geoms = '<geom type="mesh" mesh="t" contype="0" conaffinity="0"/><geom type="box" size="9 9 9"/>'
+    eyes = '<geom type="sphere" size="0.1" contype="0" conaffinity="0"/><geom type="box" size="1 1 1"/>'
+    bodies = "".join(f'<body name="b{k}"><freejoint/>{x}</body>' for k, x in enumerate((geoms, eyes)))
+    asset = '<asset><mesh name="t" file="t.obj"/></asset>'
+    path = written(tmp_path, "m.xml", f"<mujoco>{asset}<worldbody>{bodies}</worldbody></mujoco>")
+    tables = read(path).raw["bodies"]
+    assert [[s["type"] for s in b["shape"]] for b in tables.values()] == [["mesh"], ["sphere", "box"]]
 
 
 def test_many_meshes_of_mjcf_share_the_triangles_of_a_body(tmp_path: Path) -> None:

@@ -45,7 +45,7 @@ class Mjcf:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # advice to the author of the file
-                spec = mujoco.MjSpec.from_file(str(path))
+                spec = mujoco.MjSpec.from_file(str(path.resolve()))  # as the files beside it were checked
                 model = spec.compile()
         except (ValueError, RuntimeError) as error:
             slip = " ".join(str(error).replace(str(path.resolve().parent), ".").split())
@@ -98,10 +98,17 @@ class _Reader:
         link.inertia = turned_inertia(principal, of_quaternion(model.body_iquat[i].tolist()))
         sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
         link.points = {self._name("site", k): _vector(model.site_pos[k]) for k in sites}
-        geoms = [k for k in range(model.ngeom) if model.geom_bodyid[k] == i]
-        seen = [k for k in geoms if model.geom_group[k] <= _LAST_SEEN]
-        link.shapes = [s for k in seen or geoms for s in self._shape(k)]
+        link.shapes = [s for k in self._looks(i) for s in self._shape(k)]
         return link
+
+    def _looks(self, i: int) -> list[int]:
+        """Return the geoms of a body that MuJoCo shows; those that collide are hidden by meshes for the eye."""
+        model = self.model
+        geoms = [k for k in range(model.ngeom) if model.geom_bodyid[k] == i]
+        seen = [k for k in geoms if model.geom_group[k] <= _LAST_SEEN] or geoms
+        idle = [k for k in seen if not model.geom_contype[k] and not model.geom_conaffinity[k]]
+        mesh = int(self.mujoco.mjtGeom.mjGEOM_MESH)
+        return idle if any(int(model.geom_type[k]) == mesh for k in idle) else seen
 
     def _shape(self, k: int) -> list[dict[str, Any]]:
         model, sorts = self.model, self.mujoco.mjtGeom
