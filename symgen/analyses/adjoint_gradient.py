@@ -114,7 +114,13 @@ class AdjointGradient:
 
 
 def adjoint_gradient(
-    where: str, mechanism: Mechanism, settings: Settings, column: str, keys: Mapping[str, str], quick: bool
+    where: str,
+    mechanism: Mechanism,
+    settings: Settings,
+    column: str,
+    keys: Mapping[str, str],
+    quick: bool,
+    pages: list[Array],
 ) -> AdjointGradient:
     """Return a column of results at the end of a run with its derivatives.
 
@@ -130,6 +136,8 @@ def adjoint_gradient(
         What it is differentiated by, as typed, each with its name in the mechanism.
     quick : bool
         Whether code that takes long to compile is refused.
+    pages : list of Array
+        Memory of an earlier run of the same model, empty for the first one.
 
     Raises
     ------
@@ -140,7 +148,7 @@ def adjoint_gradient(
     start = StartDirections(run, named_directions(run, keys))
     if quick and run.compiled.law.operations.get("rhs", 0) > LARGEST:
         raise Uncovered("adjoint", f"at most {LARGEST} operations, as more take long to compile", "more")
-    adjoint = run_for_adjoint(run.compiled, run.plan.integrator, run.start, run.spec)
+    adjoint = run_for_adjoint(run.compiled, run.plan.integrator, run.start, run.spec, pages=pages)
     result = build_result(run, adjoint.outcome)
     if result.outcome.code != abi.DONE:
         raise AnalysisError(f"{where}: the run does not reach its end: {result.reason}")

@@ -121,6 +121,7 @@ class Objective:
         until = mechanism.defaults.until if settings.until is None else settings.until
         self.mechanism = mechanism
         self.names, self.bounds, self._times = self._free.names, list(pairs.values()), (float(until),)
+        self._pages = list[Array]()
         self._quick = arguments.one_of(f"{where}: way", way, ("auto", "forward", "adjoint")) == "auto"
         self._way = way if not self._quick else "adjoint" if is_cheaper(len(self.names)) else "forward"
         self.first, directions, prepared = self._run(None)
@@ -181,7 +182,8 @@ class Objective:
         settings = self._free.settings if x is None else self._free.settings_at(x)
         self._free.runs += 1
         ending = replace(settings, times=[*self._times], until=self._times[-1])
-        adjoint = adjoint_gradient(self._where, self.mechanism, ending, self._column, self._free.keys, self._quick)
+        named = self._where, self.mechanism, ending, self._column, self._free.keys
+        adjoint = adjoint_gradient(*named, self._quick, self._pages)
         slopes = dict(zip(self.names, adjoint.slopes.tolist(), strict=True))
         units = {name: over(adjoint.unit, d.unit) for name, d in zip(self.names, adjoint.directions, strict=True)}
         gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.kept)

@@ -5,7 +5,6 @@ Only numbers that are named become parameters, so that code of other runs stays 
 
 from __future__ import annotations
 
-import copy
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -79,21 +78,25 @@ def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
     if origin is None:
         expected = "names of parameters, as the file of this model is not at hand"
         raise InputError(where, expected, quoted(paths[0]), "load the file again")
-    places = dict(_numbers(origin.raw))
+    places, raw = dict(_numbers(origin.raw)), [origin.raw]
     taken = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
     for name in paths:
         if name not in places:
             raise _absent(where, name, origin, places)
         keys[name] = _free(name, taken)
         taken.add(keys[name])
+        raw.append(_replaced(raw[-1], places[name], keys[name], name))
+    try:
+        return Lifted(validate(raw[-1], origin.source), keys)
+    except InputError:
         # one at a time, so that messages have the number that cannot vary
-        origin = Origin(_replaced(origin.raw, places[name], keys[name], name), origin.source)
-        try:
-            mechanism = validate(origin.raw, origin.source)
-        except InputError as error:
-            got = f"{quoted(name)}, whose place takes {error.expected}"
-            raise InputError(where, "numbers that a parameter may stand for", got) from None
-    return Lifted(mechanism, keys)
+        for name, own in zip(paths, raw[1:], strict=True):
+            try:
+                validate(own, origin.source)
+            except InputError as error:
+                got = f"{quoted(name)}, whose place takes {error.expected}"
+                raise InputError(where, "numbers that a parameter may stand for", got) from None
+        raise
 
 
 def _is_path(name: str) -> bool:
@@ -138,15 +141,21 @@ def _free(name: str, taken: set[str]) -> str:
 
 
 def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:
-    """Return a description in which a parameter stands in place of a number."""
-    result: dict[str, Any] = copy.deepcopy(dict(raw))
-    table: Any = result
-    for key in path[:-1]:
-        if isinstance(table[key], tuple):
-            table[key] = list(table[key])
-        table = table[key]
-    value, table[path[-1]] = float(table[path[-1]]), parameter
+    """Return a description in which a parameter stands in place of a number; what shares a list keeps its own."""
+    value: Any = raw
+    for part in path:
+        value = value[part]
     key = path[1] if path[0] == "mechanism" else path[2] if path[0] == "bodies" and len(path) > 2 else ""
-    entry = {"value": value, "unit": _UNITS.get(str(key), ""), "note": name}
-    result["parameters"] = {**result.get("parameters", {}), parameter: entry}
+    entry = {"value": float(value), "unit": _UNITS.get(str(key), ""), "note": name}
+    result = _put(raw, path, parameter)
+    result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
     return result
+
+
+def _put(value: Any, path: Path, new: str) -> Any:
+    """Return a copy of tables and lists on a path, with another end of it."""
+    if not path:
+        return new
+    copied = dict(value) if isinstance(value, Mapping) else list(value)
+    copied[path[0]] = _put(value[path[0]], path[1:], new)
+    return copied

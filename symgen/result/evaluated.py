@@ -20,6 +20,7 @@ from symgen.runs.directions import Course, Part
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel
     from symgen.running.directions import Direction
+    from symgen.runs.outcome import Outcome
 
 Array = NDArray[np.float64]
 
@@ -81,8 +82,8 @@ class Evaluated:
         behind = part.model.sizes["y"]
         states[:, info.work :] = part.outcome.states[:, own.work : behind]
         directions[:, info.work :] = part.states[:, own.work :]
-        carried = tree.carried(self.course.outcome)
-        seeds = self.start.parameters(tree.bodies)[:, first : first + lanes]
+        carried = self._motion
+        seeds = self._parameters[:, first : first + lanes]
         room = np.zeros((len(seeds), lanes))
         room[:, : seeds.shape[1]] = seeds
         pieces = tuple((t, model.parameters(p, room)) for t, p in (*carried.held, (np.inf, carried.p)))
@@ -90,6 +91,18 @@ class Evaluated:
         windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
         w = model.scratch(pieces[-1][1], carried.w)
         return Observer(model, part.outcome.times, longer, windings, pieces, w)
+
+    @cached_property
+    def _motion(self) -> Outcome:
+        """The outcome as the motion of bodies that joints carry."""
+        assert self.run.tree is not None, "the state is that of joints"
+        return self.run.tree.carried(self.course.outcome)
+
+    @cached_property
+    def _parameters(self) -> Array:
+        """Directions of the parameters of bodies that joints carry, shape (np, n)."""
+        assert self.run.tree is not None, "the state is that of joints"
+        return self.start.parameters(self.run.tree.bodies)
 
     def gathered(self, of: Callable[[Observer], Array]) -> Array:
         """Return directions of all loops beside each other, along the last axis."""

@@ -139,6 +139,13 @@ class Recorder:
 class KeptRun(Simulation):
     """A run that keeps its stages.
 
+    Parameters
+    ----------
+    compiled, integrator, start, spec
+        As for `Simulation`.
+    pages : list of Array
+        Memory for records, of an earlier run or empty.
+
     Attributes
     ----------
     pieces : list of Array
@@ -146,14 +153,16 @@ class KeptRun(Simulation):
         before it.
     """
 
-    def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
+    def __init__(
+        self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec, pages: list[Array]
+    ) -> None:
         from symgen.loops.schemes.adjoint import HEAD, record_size
 
         super().__init__(compiled, Recorder(integrator), start, spec)
         self._first = self.setup.memory - HEAD - _PIECE
         self.size = record_size(self.sizes.width, int(self.scheme.stages))
         self._capacity = _PIECE // self.size
-        self.pieces = list[Array]()
+        self.pieces, self._pages = list[Array](), pages
         if self._capacity < 1:
             raise _refusal("a smaller mechanism", f"one with {self.sizes.ny} numbers in its state")
 
@@ -174,7 +183,9 @@ class KeptRun(Simulation):
                 first[ANGLES : ANGLES + len(own)] = own
                 self.pieces.append(first)
             if count := int(self.state.memory[self._first]):
-                piece = np.empty((1 + count) * self.size)
+                if len(self._pages) < len(self.pieces):
+                    self._pages.append(np.empty((1 + self._capacity) * self.size))
+                piece = self._pages[len(self.pieces) - 1][: (1 + count) * self.size]
                 piece[: self.size] = self.pieces[-1][-self.size :]
                 piece[self.size :] = self.state.memory[self._first + HEAD :][: count * self.size]
                 self.pieces.append(piece)
@@ -256,8 +267,16 @@ def run_for_adjoint(
     start: Start,
     spec: RunSpec,
     progress: Progress | None = None,
+    pages: list[Array] | None = None,
 ) -> Adjoint:
-    """Integrate and keep all stages; arguments as for `symgen.runs.run.integrate`.
+    """Integrate and keep all stages.
+
+    Parameters
+    ----------
+    compiled, integrator, start, spec, progress
+        As for `symgen.runs.run.integrate`.
+    pages : list of Array, optional
+        Memory of an earlier run of the same model and scheme, which is written over: new memory costs as much as a run.
 
     Raises
     ------
@@ -265,5 +284,5 @@ def run_for_adjoint(
         If the run has no adjoint.
     """
     check_covered(compiled, integrator, spec, start)
-    run = KeptRun(compiled, integrator, start, spec)
+    run = KeptRun(compiled, integrator, start, spec, [] if pages is None else pages)
     return Adjoint(completed(run, progress), run)

@@ -11,6 +11,7 @@ from symgen import InputError
 from symgen.api import Model
 from symgen.describe.digest import digest
 from symgen.describe.lifted import lifted
+from symgen.describe.origins import origin_of
 
 from .lengths import FOUR_BAR, ROD, ROD_BY, ROD_STATE, model
 
@@ -74,6 +75,16 @@ def test_only_numbers_that_are_named_become_parameters(rod):
     assert [p.name for p in own.mechanism.parameters if p.name not in rod.parameters()] == ["bodies_rod_mass"]
     assert digest(rod.mechanism) == before != digest(own.mechanism)
     assert {**own.keys} == {"bodies.rod.mass": "bodies_rod_mass"}
+
+
+def test_numbers_of_tables_that_a_description_has_twice():
+    # both couplers of this module have the same list, and a parameter is in the place of one number
+    model, path = symgen.load("n-four-bar:2"), "bodies.coupler1.points.B[0]"
+    own = lifted("here", model.mechanism, (path,))
+    bodies = origin_of(own.mechanism).raw["bodies"]
+    points = [bodies[name]["points"]["B"][0] for name in ("coupler0", "vertical1", "coupler1")]
+    assert points == [0.5, 0.5, "bodies_coupler1_points_B_0"]
+    assert origin_of(model.mechanism).raw["bodies"]["coupler1"]["points"]["B"][0] == 0.5
 
 
 def test_quantities_at_the_end_and_fits(rod):

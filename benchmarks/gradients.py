@@ -1,0 +1,150 @@
+"""What derivatives of runs cost, in plain runs: adjoints by up to 100 numbers of a file, and eight forward directions.
+
+Plain and differentiated loops in turns, processor time, medians; the adjoint is the run that keeps its stages and the
+way back, in memory of the run before. Starts and tables of results, which Python differentiates, are apart: the last
+column has a whole gradient less a whole run, by number.
+
+    OPENBLAS_NUM_THREADS=1 python -m benchmarks.gradients [MODEL ...] [--pairs 9] [--method lagrange]
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import statistics
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from rich.table import Table
+
+from benchmarks.show import show
+from symgen.api import Model, load
+from symgen.base.settings import Settings
+from symgen.describe.lifted import lifted
+from symgen.describe.origins import origin_of
+from symgen.layout import abi
+from symgen.result.sensitivities import prepared
+from symgen.running.directions import named_directions
+from symgen.running.start_directions import StartDirections
+from symgen.runs.adjoint import run_for_adjoint
+from symgen.runs.directions import run_with_directions
+
+#: Quantity, end [s], and settings.
+ADJOINT: dict[str, tuple[str, float, dict[str, Any]]] = {
+    "four-bar": ("crank.theta", 60.0, {}),
+    "andrews": ("K1.theta", 0.1, {}),
+    "front-suspension": ("arm_left.z", 1.0, {}),
+    "chain:20": ("rod20.z", 1.0, {}),
+    "n-four-bar:20": ("A1.angle", 0.6, {"integrator": "rk4", "step": 1e-4}),
+}
+#: End [s] and eight names.
+FORWARD = {"four-bar": 60.0, "slider-crank": 20.0, "andrews": 0.1, "bricard": 20.0}
+#: Keys of a body whose numbers are lifted.
+KEYS = ("mass", "inertia", "points", "centre_of_mass")
+ADJOINT_HEADINGS = (
+    *("mechanism", "coordinates", "method", "numbers", "steps", "plain [ms]", "keeping", "back", "both"),
+    *("MB", "kB a step", "Python, a number [ms]"),
+)
+FORWARD_HEADINGS = "mechanism", "coordinates", "numbers", "plain [ms]", "directions", "each"
+
+
+def seconds(call: Callable[[], object]) -> float:
+    """Return the processor time of a call [s]."""
+    began = time.process_time()
+    call()
+    return time.process_time() - began
+
+
+def medians(pairs: int, *calls: Callable[[], object]) -> list[float]:
+    """Return the medians of processor times of calls in turns [s]."""
+    for call in calls:
+        call()
+    rows = [[seconds(call) for call in calls] for _ in range(pairs)]
+    return [statistics.median(column) for column in zip(*rows, strict=True)]
+
+
+def numbers(model: Model, keys: Sequence[str], most: int) -> tuple[str, ...]:
+    """Return paths of numbers of bodies."""
+    origin = origin_of(model.mechanism)
+    assert origin is not None, "the model was loaded"
+    found = list[str]()
+
+    def walk(path: str, value: object) -> None:
+        if isinstance(value, Mapping):
+            for key, item in value.items():
+                walk(f"{path}.{key}", item)
+        elif isinstance(value, list | tuple):
+            for i, item in enumerate(value):
+                walk(f"{path}[{i}]", item)
+        elif isinstance(value, int | float):
+            found.append(path)
+
+    for name, body in origin.raw["bodies"].items():
+        walk(f"bodies.{name}", {key: body[key] for key in keys if key in body})
+    return tuple(found[:most])
+
+
+def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
+    """Return the cells of an adjoint by up to 100 numbers."""
+    quantity, until, own = ADJOINT[name]
+    model = load(name)
+    names = numbers(model, KEYS, 100)
+    settings = {"integrator": "dop853", "until": until, "coordinates": coordinates, "method": method} | own
+    objective = model.objective(quantity, by=names, way="adjoint", **settings)
+    ending = replace(objective.settings_at(objective.x0), times=[until])
+    run, _ = prepared(objective.mechanism, ending)
+    end, pages, following = np.ones(run.compiled.info.ny), list[Any](), itertools.count(1)
+    arguments = run.compiled, run.plan.integrator, run.start, run.spec
+    whole, last = Model(objective.mechanism), run_for_adjoint(*arguments, pages=pages)
+    plain, keeping, back, gradient, simulation = medians(
+        pairs,
+        run.integrate,
+        lambda: run_for_adjoint(*arguments, pages=pages),
+        lambda: last.back(end),
+        lambda: objective(objective.x0 * (1.0 + 1e-15 * next(following))),
+        lambda: whole.simulate(ending),
+    )
+    kept, more = last.run.kept, gradient - simulation - (keeping + back - plain)
+    cells = name, coordinates, method, str(len(names)), str(last.run.state.control[abi.STEPS]), f"{1e3 * plain:.1f}"
+    ratios = (f"{x / plain:.2f}" for x in (keeping, back, keeping + back))
+    sizes = f"{kept / 1e6:.1f}", f"{kept / 1e3 / last.run.state.control[abi.STEPS]:.1f}"
+    return [*cells, *ratios, *sizes, f"{1e3 * more / len(names):.2f}"]
+
+
+def forward(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
+    """Return the cells of eight forward directions."""
+    model = load(name)
+    own = lifted("numbers", model.mechanism, numbers(model, ("mass", "inertia"), 8))
+    settings = {"integrator": "dop853", "until": FORWARD[name], "coordinates": coordinates, "method": method}
+    run, _ = prepared(own.mechanism, Settings(**settings, rtol=1e-9, times=[FORWARD[name]], verify=False))
+    seeds = StartDirections(run, named_directions(run, own.keys)).seeds()
+    arguments = run.compiled, run.plan.integrator, run.start, run.spec, seeds
+    plain, directed = medians(pairs, run.integrate, lambda: run_with_directions(*arguments))
+    each = (directed / plain - 1.0) / seeds.count
+    return [name, coordinates, str(seeds.count), f"{1e3 * plain:.1f}", f"{directed / plain:.2f}", f"{each:.2f}"]
+
+
+def main() -> None:
+    """Print both tables."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("models", nargs="*", default=[*ADJOINT])
+    parser.add_argument("--pairs", type=int, default=9)
+    parser.add_argument("--coordinates", default="absolute,joint")
+    parser.add_argument("--method", default="lagrange,direct-correction")
+    parser.add_argument("--way", choices=("adjoint", "forward"), default="adjoint")
+    own = parser.parse_args()
+    measure, headings = (adjoint, ADJOINT_HEADINGS) if own.way == "adjoint" else (forward, FORWARD_HEADINGS)
+    table = Table(*headings, title=f"{own.way}, in plain runs")
+    for name in own.models:
+        for coordinates in own.coordinates.split(","):
+            for method in own.method.split(","):
+                table.add_row(*measure(name, coordinates, method, own.pairs))
+                print(table.rows and " | ".join(str(c) for c in [col._cells[-1] for col in table.columns]), flush=True)
+    show(table)
+
+
+if __name__ == "__main__":
+    main()
