@@ -212,9 +212,8 @@ def without_stops(mechanism: Mechanism) -> Mechanism:
 
 
 def chooses_in_loops(mechanism: Mechanism, events: Sequence[Event]) -> bool:
-    """Return whether compiled loops choose all modes: friction has constant bounds, and nothing changes velocities."""
-    plain = not mechanism.stops and not any(friction.pressed for friction in mechanism.frictions)
-    return plain and not any(event.reset for event in events)
+    """Return whether compiled loops choose all modes: there are no stops, and nothing changes velocities."""
+    return not mechanism.stops and not any(event.reset for event in events)
 
 
 def refuse_bounds(where: str, mechanism: Mechanism) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.friction import REVERSE, SLIP
+from symgen.describe.friction import JAM, REVERSE, SLIP
 from symgen.effects.accumulation import new_past
 from symgen.ir.program import LANES, lane_bases
 from symgen.layout import abi
@@ -110,8 +110,9 @@ class LoopRuns:
         further: tuple[Any, ...] = ()
         if self.watched is not None and self.watched.effects is not None:
             further = (self._effects(self.watched, sizes.width, len(state.w)),)
-        modes = self.watched is not None and self.watched.bounded is not None
+        modes = pressed = False
         if self.watched is not None and self.watched.bounded is not None:
+            modes, pressed = True, bool(self.watched.bounded.pressed)
             further = (self._modes(self.watched, self.watched.bounded, span, sizes.width, len(state.w)),)
         examined = self.watched is not None and self.watched.rows is not None
         loop = over_rows(
@@ -121,6 +122,7 @@ class LoopRuns:
             bool(further) and not modes,
             examined,
             modes,
+            pressed,
         )
         if recipe.stops:
             system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
@@ -201,7 +203,7 @@ class LoopRuns:
         """Return dry friction and its events, and memory for one thread."""
         choice = new_choice(self.compiled, rows, rate_functions(self.compiled.law_module), width, nw)
         choice.step[0] = first_step(span)
-        places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE))
+        places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM))
         return OfModes(choice, *(np.array([at.get(name, -1) for name in watched.names]) for at in places))
 
     def _series(self) -> Kept:

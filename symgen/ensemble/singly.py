@@ -1,7 +1,7 @@
 """Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
 
-Modes of stops and of friction by reactions are chosen in Python between two parts of a run. Such runs are done one
-after the other, in the same threads, chunks and folders; ensembles that need none of it know nothing of this module.
+Impacts of stops are computed in Python between two parts of a run. Such runs are done one after the other, in the same
+threads, chunks and folders; ensembles that need none of it know nothing of this module.
 """
 
 from __future__ import annotations

@@ -31,7 +31,6 @@ from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
 from symgen.ensemble.kernel import kernel_of
-from symgen.ensemble.loop_runs import PLAIN
 from symgen.ensemble.measures import first_integral, make_measures
 from symgen.ensemble.names import METHOD, Names, Targets, targets_of
 from symgen.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
@@ -254,8 +253,7 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    beyond = joint and not {q.source for q in kept} <= PLAIN
-    in_loops = not (examined or driving.jumps or beyond) and chooses_in_loops(mechanism, events)
+    in_loops = not (examined or driving.jumps) and chooses_in_loops(mechanism, events)
     alone = bool(mechanism.bounded) and not in_loops
     watch = EventPlan(mechanism, events, ends, alone) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
@@ -267,7 +265,8 @@ def make_ensemble(
         return with_integrals(mechanism, law) if adds else law
 
     compiled, spare = with_sums(compiled), None
-    if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
+    pressed = any(friction.pressed for friction in mechanism.frictions)  # for which there is one solver
+    if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
         choice = plan.choice.with_options(solver="augmented")
         other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
         spare = _code(mechanism, choice, other, where, joint, kept)

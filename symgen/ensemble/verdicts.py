@@ -108,6 +108,9 @@ def _of_events(row: Array, events: Sequence[str]) -> str | None:
         return gathered(names, float(further[e.ACCUMULATION]))
     if code == abi.UNDEFINED:
         return undefined(events[int(further[e.IMPOSSIBLE_EVENT])], time)
+    if code == e.NO_MODES:
+        got = f"none at t = {time:.6g} s, which a run of this row explains"
+        return f"friction and stops: expected modes that are determined, got {got}"
     if code != e.IMPOSSIBLE:
         return None
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):

@@ -57,6 +57,8 @@ END, OUTPUTS, ENERGY_START = map(SUMMARY.index, ("end", "outputs", "energy_start
 
 #: Code of a run with an impossible reset, in addition to those of single runs (`symgen.layout.abi`).
 IMPOSSIBLE = 50
+#: Code of a run at a state at which modes of friction or stops are not determined.
+NO_MODES = 51
 
 # -- after that row, if the run has events -----------------------------------------------------------------------------
 #: First the time at which they accumulate, the accumulating ones (a sum of powers of 2), and the one that is impossible

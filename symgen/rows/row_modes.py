@@ -21,21 +21,22 @@ from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, read_ro
 
 #: Rows with bounds of all runs, and working memory.
 #: - choice: See `symgen.runs.bounded_rows`.
-#: - breaks, stops (shapes (functions,)): Row that breaks loose, or whose rate becomes zero, at each function; else -1.
-OF_MODES = record_type("OfModes", __name__, ("choice", CHOICE), ("breaks stops", types.int64[::1]))
+#: - breaks, stops, jams (shapes (functions,)): Row that breaks loose, whose rate becomes zero, or whose friction jams,
+#:   at each function; else -1.
+OF_MODES = record_type("OfModes", __name__, ("choice", CHOICE), ("breaks stops jams", types.int64[::1]))
 OfModes: Any = OF_MODES.constructor
 
 
 @called
 def chosen(model: Any, state: Any) -> int:
-    """Choose modes at the present state; return `DONE`, or `IMPOSSIBLE`."""
+    """Choose modes at the present state; return `DONE`, or `NO_MODES`."""
     _, observers, modes = model
     c, t = modes.choice, state.clock[abi.TIME]
     if read_rows(t, c, state.y, state.p, state.w) != SAME:
-        return int(e.IMPOSSIBLE)
+        return int(e.NO_MODES)
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
     if code > OTHERS:
-        return int(e.IMPOSSIBLE)
+        return int(e.NO_MODES)
     if code == OTHERS:
         follow_modes(t, c, state.y, state.p, state.w)
         remember_rank(observers[0], state)
@@ -44,7 +45,7 @@ def chosen(model: Any, state: Any) -> int:
 
 
 def begin_modes(model: Any, state: Any) -> int:
-    """Choose modes where a run begins; return `DONE`, or `IMPOSSIBLE`."""
+    """Choose modes where a run begins; return `DONE`, or `NO_MODES`."""
     c = model[2].choice
     for i in range(c.count):
         c.broken[i] = c.stopped[i] = c.left[i] = 0
@@ -63,10 +64,10 @@ def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     Returns
     -------
     int
-        Its end code, or `IMPOSSIBLE` where no modes are consistent.
+        Its end code, or `NO_MODES` where no modes are consistent.
     """
     _, observers, modes = model
-    hunt, c, t, any_of_modes = state.hunt, modes.choice, state.clock[abi.TIME], False
+    hunt, c, t, any_of_modes, jams = state.hunt, modes.choice, state.clock[abi.TIME], False, False
     width = observers[0].width
     first = notes_at(int(hunt[records.COUNT]), width, state.w.shape[0])
     for i in range(c.count):
@@ -78,7 +79,8 @@ def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
                 c.broken[modes.breaks[k]], any_of_modes = 1, True
             if modes.stops[k] >= 0:
                 c.stopped[modes.stops[k]], any_of_modes = 1, True
+            jams = jams or modes.jams[k] >= 0
     ended = take_notes_of_events(code, r, (model[0], observers), chunk, state)
-    if any_of_modes and chosen(model, state) != abi.DONE:
-        return int(e.IMPOSSIBLE)
+    if jams or (any_of_modes and chosen(model, state) != abi.DONE):
+        return int(e.NO_MODES)
     return int(ended)

@@ -31,6 +31,7 @@ from symgen.rows.row_events import (
     waits_for_examination,
 )
 from symgen.rows.row_modes import OF_MODES, begin_modes, take_modes
+from symgen.runs.agreement import choose_pressed
 from symgen.runs.observe import observe_rates, observe_rows
 from symgen.store.jit import jit
 
@@ -346,6 +347,7 @@ OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
 _MODES = {"begin_choice": begin_modes, "take_notes": take_modes, "store_after": store_after_effects}
+_PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
 STOPPING = {"take_row": take_stops, "hold": hold_between_stops}
 _loops: dict[Any, Any] = {}
@@ -358,6 +360,7 @@ def over_rows(
     effects: bool = False,
     examined: bool = False,
     modes: bool = False,
+    pressed: bool = False,
 ) -> Any:
     """Return the loop over many runs around that over a single run, made at the first use.
 
@@ -365,14 +368,14 @@ def over_rows(
     ----------
     loop : compiled loop
         From `symgen.loops.frame.loop`.
-    events, stops, effects, examined, modes : bool
-        Whether rows have switching functions, stops, events that change a run, constraints that may jump, and dry
-        friction, which excludes stops, such events and constraints.
+    events, stops, effects, examined, modes, pressed : bool
+        Whether rows have switching functions, stops, events that change a run, constraints that may jump, dry friction,
+        which excludes stops, such events and constraints, and bounds of friction that depend on reactions.
     """
-    key = loop, events, stops, effects, examined, modes
+    key = loop, events, stops, effects, examined, modes, pressed
     if key not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
-        name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes
+        name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes + "_pressed" * pressed
         inner = with_events(loop) if events else loop
         inner = with_stops(inner) if stops else inner
         args = signature_of(inner).arguments
@@ -380,7 +383,7 @@ def over_rows(
         model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
-        meanings |= _MODES if modes else {}
+        meanings |= (_MODES if modes else {}) | (_PRESSED if pressed else {})
         meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
         _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are

@@ -14,6 +14,7 @@ from symgen.loopcode.exact import compiled_form, exact
 from symgen.native import types
 from symgen.runs.box import BOX, new_box
 from symgen.starts.assembler import layout_of
+from symgen.starts.starting import observe_nothing
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel
@@ -36,9 +37,14 @@ HELD, CONSTANT, SIGN, LIMIT = range(4)
 #: Codes: the same modes; others; accelerations that are not finite; no forces found; forces that are not determined;
 #: bounds, gaps or restitutions that are undefined or out of range.
 SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
+#: Codes where bounds depend on reactions: friction that brings about all of its reaction; reactions that redundant rows
+#: leave undetermined; bounds and reactions that never agree; a force shared at rest beside what changes.
+JAMMED, REDUNDANT, DISAGREED, SHARED = range(6, 10)
 
 #: The rows with bounds of a run, k of them, and working memory; friction first, then stops.
+#: - reactions: Components of the reactions that bounds depend on, two each.
 #: - first, count, dry: Place in w of their first number, their number, and that of friction.
+#: - changes: 1 where anything but the motion and inputs changes over time.
 #: - pushed, at_rest (shapes (1,)): A coordinate pushed by a probe, -1 for none; number of rows at rest.
 #: - step (shape (1,)): Step that laws assume before the first one [s].
 #: - angular (shape (k,)): 1 where the measure of a row is an angle.
@@ -47,12 +53,16 @@ SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
 #:   zero; for stops whose force has.
 #: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
 #: - passing (shape (k,)): 1 for coordinates whose rate only passes zero, as no force within bounds stops them.
-#: - named (shape (k + 1,)): Rows whose forces are not determined, then -1.
+#: - named (shape (k + 1,)): Rows whose forces are not determined, then -1; or the first row of another fault.
+#: - pressed (shape (k,)): 1 for coordinates whose bounds depend on reactions.
 #: - value ... restitution (shapes (k,)): Coordinates and gaps, rates, bounds, restitutions.
 #: - before, after (shape (MODE_NUMBERS k,)): Modes.
 #: - signs, trial, offset, alone, forces (shapes (k,)): Signs of rates; those of a probe; accelerations without forces
 #:   at rest; by a force if no joints held the bodies; forces at rest.
 #: - matrix, rest_of (shapes (k k,)): G, and what is left of it.
+#: - jam (shape (1,)): Part of a reaction that its own friction brings about.
+#: - apart, parts (shapes (2 k,), (2 k, k)): Reactions without friction by reactions, and by its forces.
+#: - sizes, bounds (shapes (k,), (2 k,)): Sizes of reactions; bounds at rest, then in motion, over these.
 #: - y, w, rate, out, iw: Of emitted functions.
 #: - room: Of the choice of independent rows.
 CHOICE = record_type(
@@ -61,12 +71,12 @@ CHOICE = record_type(
     ("layout", LAYOUT),
     ("rates confirm", abi.RHS),
     ("geometry", abi.MEASURE),
-    ("states accelerations", abi.OBSERVE),
+    ("states accelerations reactions", abi.OBSERVE),
     ("box", BOX),
-    ("first count dry", _N),
-    ("angular place_of pushed at_rest broken stopped left rest loose taken passing named", _K),
+    ("first count dry changes", _N),
+    ("angular place_of pushed at_rest broken stopped left rest loose taken passing named pressed", _K),
     ("step value speed static sliding restitution before after signs trial offset alone forces matrix rest_of", _A),
-    ("y w rate out room", _A),
+    ("jam apart parts sizes bounds y w rate out room", _A),
     ("iw", _K),
 )
 Choice: Any = CHOICE.constructor
@@ -90,16 +100,19 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
     first = info.sections["modes"][0] + MODE_NUMBERS * info.switchable.index(info.bounded[0])
     places = np.full(info.m, -1, dtype=np.int64)
     places[list(info.bounded)] = np.arange(k)
-    functions = (*rates, compiled.model.geometry, rows.state.function, rows.accelerations.function)
+    reactions = observe_nothing if rows.reactions is None else rows.reactions.function
+    functions = (*rates, compiled.model.geometry, rows.state.function, rows.accelerations.function, reactions)
     flags = (np.zeros(k, dtype=np.int64) for _ in range(7))
     numbers = (np.zeros(size * k) for size in (1, 1, 1, 1, 1, MODE_NUMBERS, MODE_NUMBERS, 1, 1, 1, 1, 1, k, k))
     states = 2 * k + 2 * rows.dry + (k - rows.dry)
     return Choice._make(
         (
             *(layout_of(compiled), *(compiled_form(f) for f in functions), new_box(k), first, k, rows.dry),
+            int(rows.changes),
             *(np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64), places),
             *(np.full(1, -1), np.zeros(1, dtype=np.int64), *flags, np.zeros(k + 1, dtype=np.int64)),
-            *(np.zeros(1), *numbers),
+            np.isin(np.arange(k), rows.pressed).astype(np.int64),
+            *(np.zeros(1), *numbers, *(np.zeros(size) for size in (1, 2 * k, 2 * k * k, k, 2 * k))),
             *(np.zeros(size) for size in (width, nw, width, max(states, 1), room_of_choice(info.m, info.nv))),
             np.zeros(abi.N_COUNTERS, dtype=np.int64),
         )

@@ -42,7 +42,6 @@ from symgen.runs.bounded_rows import (
     first_step,
     new_choice,
 )
-from symgen.runs.box import solve_box
 from symgen.runs.events import Happening
 from symgen.runs.impacts import Impacts
 from symgen.runs.modes import begin_in_modes
@@ -172,23 +171,30 @@ class Transitions:
     def _chosen(self) -> bool:
         """Choose modes at a state whose rows have been read; return whether they are others."""
         code = self._entry("choose_modes")(self._now)
+        self._refuse(code)
+        return bool(code == OTHERS)
+
+    def _refuse(self, code: int) -> None:
+        """Refuse a state for which a function has found no modes."""
         if code == NOT_FINITE:
             self._refuse_accelerations()
         if code == NO_FORCES:
             raise InputError("friction", "forces at rest that can be found", "none after many changes")
         if code == NOT_DETERMINED:
             self._refuse_undetermined()
-        return bool(code == OTHERS)
 
     def _refuse_accelerations(self) -> None:
         raise InputError("friction", "accelerations that are finite", f"others at t = {self._now:.6g} s")
 
     def _refuse_undetermined(self) -> None:
         """Refuse forces at rest of which several carry one that other rows determine."""
-        named = self._choice.named
-        names = ", ".join(self.rows.names[i] for i in named[: int(np.argmax([*(named < 0), True]))])
         expected = "dry friction whose forces at rest are determined, or share one direction of motion"
-        raise InputError("friction", expected, f"forces of {names} that rest at one time")
+        raise InputError("friction", expected, f"forces of {self._named()} that rest at one time")
+
+    def _named(self) -> str:
+        """Return the names of the rows that a function has left to be named."""
+        named = self._choice.named
+        return ", ".join(self.rows.names[i] for i in named[: int(np.argmax([*(named < 0), True]))])
 
     def _changes(self, before: Array, after: Array, closed: Flags) -> list[tuple[int, str]]:
         """Return the rows that change with what they do."""
@@ -234,13 +240,13 @@ class Transitions:
         c.step[0] = first_step(span)
         return c
 
-    def _entry(self, name: str) -> Any:
-        """Return a function of `symgen.runs.choice` on the arrays of the run; it takes the time."""
+    def _entry(self, name: str, module: Any = choice) -> Any:
+        """Return a function of `symgen.runs.choice`, or such a module, on the arrays of the run; it takes the time."""
         if name not in self._entries:
-            state, kind = self.simulation.state, choice.KINDS[name]
+            state, kind = self.simulation.state, module.KINDS[name]
             arrays = state.y, state.p, state.w, state.iw, state.control
             arguments = 0.0, self._choice, *arrays[: len(kind.signature.arguments) - 2]
-            self._entries[name] = direct(compiled_form(getattr(choice, name)), kind, *arguments)
+            self._entries[name] = direct(compiled_form(getattr(module, name)), kind, *arguments)
         return self._entries[name]
 
     def _read(self) -> None:
@@ -277,29 +283,3 @@ class Transitions:
         w = self.simulation.state.w
         scales: Array = np.where(self._choice.angular != 0, w[place] / w[abi.LENGTH], w[place])
         return scales
-
-    def _accelerations(self, signs: Array, pushed: int = -1) -> Array:
-        """Return the accelerations of coordinates with all rows off and efforts of some signs.
-
-        A coordinate whose bounds depend on a reaction may be `pushed` by a force of -1.
-        """
-        c = self._choice
-        c.trial[:], c.pushed[0] = signs, pushed
-        code = self._entry("accelerate")(self._now)
-        c.pushed[0] = -1
-        if code != SAME:
-            self._refuse_accelerations()
-        accelerations: Array = c.out[: len(signs)].copy()
-        return accelerations
-
-
-def find_forces(k: int, box: Any) -> None:
-    """Solve a box problem of forces at rest.
-
-    Raises
-    ------
-    InputError
-        If its solution is not found.
-    """
-    if compiled_form(solve_box)(k, box) != 0:
-        raise InputError("friction", "forces at rest that can be found", "none after many changes")

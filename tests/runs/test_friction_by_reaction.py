@@ -263,3 +263,32 @@ def test_four_pins_rub_by_their_reactions() -> None:
     np.testing.assert_allclose(passed[: len(times)], times, rtol=0, atol=1e-9)
     assert len(passed) == 21 and abs(passed[-1] - 12.50530143408804) < 1e-9
     assert abs(result["crank.theta"][-1] + 2.18145639479929) < 1e-9
+
+
+# -- rows of sweeps ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "joint")])
+def test_rows_choose_modes_by_reactions_in_compiled_loops(
+    monkeypatch: pytest.MonkeyPatch, integrator: str, coordinates: str
+) -> None:
+    """Pins that turn round and rest beside one of constant bound: each row has the bits of a single run."""
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    raw["parameters"]["mu"] = 0.5
+    raw["joints"]["A"]["friction"] = {"coefficient": "mu", "static_coefficient": "1.1*mu", "radius": 0.1}
+    raw["joints"]["C"]["friction"] = {"coefficient": 0.1, "radius": 0.1}
+    raw["joints"]["D"]["friction"] = {"sliding": 1.0}
+    model, values = symgen.Model(validate(raw, source)), (0.4, 0.8, 90.0)
+    settings = {"integrator": integrator, "until": 9.0, "times": [3.0, 9.0], "coordinates": coordinates}
+    alone = [model.simulate(parameters={"mu": x}, verify=False, **settings) for x in values[:2]]
+    assert all(len(run.events) > 8 for run in alone)
+    with pytest.raises(InputError, match="jamming number"):
+        model.simulate(parameters={"mu": values[2]}, verify=False, **settings)
+    monkeypatch.setattr("symgen.ensemble.singly.SingleRuns", None)
+    rows = model.sweep({"mu": list(values)}, quantities=("crank.theta", "A.mode", "C.force"), **settings)
+    for i, run in enumerate(alone):
+        assert rows["crank.theta"][i].tolist() == run["crank.theta"].tolist()
+        assert rows["A.mode"][i].tolist() == run["A.mode"].tolist()
+        np.testing.assert_allclose(rows["C.force"][i], run["C.force"], rtol=1e-11)
+    assert rows.status[2] == "failed" and "modes that are determined, got none at t = 0 s" in rows.reason[2]
