@@ -226,7 +226,7 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     if law.closed:
         parts.add("closed", "closed")
     if flagged:
-        parts.values["evaluation"] = BY_PIVOTS if BY_PIVOTS in names else "rhs"
+        parts.values["evaluation"] = next((name for name in (BY_PIVOTS, HELD_RHS) if name in names), "rhs")
         parts.add("confirm", "confirmation")
     by_metric = "partition" if partitioned else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")

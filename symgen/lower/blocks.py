@@ -198,7 +198,11 @@ class SaddleMatrix:
         return self.solutions[f, gamma]
 
     def _solve(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
-        g, given, b = self.graph, (*f, *gamma), [*f, *gamma]
+        return self.completed((*f, *gamma), self.rest((*f, *gamma)))
+
+    def rest(self, given: Nodes) -> dict[int, int]:
+        """Return the unknowns that no row alone fixes, linear in the right-hand side."""
+        g, b = self.graph, list(given)
         for step in (*self.fixed, *self.loops):
             known = [g.dot(line, [b[r] for r in step.rows]) for line in step.inverse]
             force = [g.sub(b[c], g.dot(line, known)) for c, line in zip(step.columns, step.mass, strict=True)]
@@ -218,11 +222,16 @@ class SaddleMatrix:
             x[single.unknown] = value
         for step in reversed(self.loops):
             self._from_rest(step, b, x)
+        return x
+
+    def completed(self, given: Nodes, rest: Mapping[int, int]) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda of a right-hand side and its unknowns that no row alone fixes."""
+        x = dict(rest)
         accelerations = [(s.rows, s.columns, s.inverse) for s in self.fixed]
         multipliers = [(s.columns, s.rows, [list(line) for line in zip(*s.inverse, strict=True)]) for s in self.fixed]
         self._from_equations(accelerations, given, x)
         self._from_equations(multipliers, given, x)
-        return tuple(x[i] for i in range(self.nv)), tuple(x[i] for i in range(self.nv, len(b)))
+        return tuple(x[i] for i in range(self.nv)), tuple(x[i] for i in range(self.nv, len(given)))
 
     def _from_rest(self, step: _Fixed, right: list[int], x: dict[int, int]) -> None:
         """Add the unknowns of a loop from what elimination has left of its equations."""

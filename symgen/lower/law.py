@@ -98,7 +98,8 @@ def lower_law(
     if loose is not None:
         held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
         free = replace(law_block(hoister, *loose), name=FREE_RHS)
-        blocks = [held, replace(free, purpose=f"{free.purpose}; no row with bounds in force"), *blocks[1:]]
+        converged = ", or friction not found" if len(equations.drags) > 1 else ""
+        blocks = [held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force"), *blocks[1:]]
     unknowns, level = 0, ""
     pattern: tuple[tuple[int, int], ...] = ()
     if implicit:

@@ -37,7 +37,7 @@ class ScalarNodes(OfMass):
     ) -> None:
         super().__init__(equations, operations, parameters, places)
         self.plan = EliminationPlan() if plan is None else plan
-        self.closing = False
+        self.closing = self.brief = False
 
     def with_closed_loops(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan) -> Self:
         """Return a tape in the same graph, nothing evaluated yet, with the loops of a plan in closed form."""
@@ -53,7 +53,7 @@ class ScalarNodes(OfMass):
             other.__dict__.pop(name, None)
         other.equations = without_bounded_rows(self.equations)
         other.rows = tuple(row.entries for row in other.equations.rows)
-        other.stored, other.flags, other.plan = {}, [], plan
+        other.stored, other.flags, other.plan, other.brief = {}, [], plan, True
         return other
 
     def compute(self, ends: Iterable[int]) -> None:
@@ -66,27 +66,41 @@ class ScalarNodes(OfMass):
 
     def _dragged(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
         """Return v' and lambda with friction by reactions; leave its power and the squares of jamming numbers."""
-        g, e, drags = self.graph, self.equations, self.equations.drags
-        accelerations, multipliers = self._eliminated(f, gamma)
-        effects = list[tuple[Nodes, Nodes]]()
+        g, drags = self.graph, self.equations.drags
+        given, effects = (*f, *gamma), list[Nodes]()
         for drag in drags:
-            against = [g.zero] * e.nv
-            for j, node in self.directions[drag.row]:
-                against[j] = g.mul(drag.sign, node)
-            effects.append(self._eliminated(tuple(against), (g.zero,) * e.m))
-        alone = [tuple(multipliers[i] for i in drag.pressed) for drag in drags]
-        parts = [[tuple(effect[i] for i in drag.pressed) for _, effect in effects] for drag in drags]
-        forces, self.drag_power, self.jamming = drag_forces(g, drags, alone, parts), g.zero, []
-        for i, (drag, force, (moved, pressed)) in enumerate(zip(drags, forces, effects, strict=True)):
-            accelerations = tuple(g.sub(a, g.mul(force, x)) for a, x in zip(accelerations, moved, strict=True))
-            multipliers = tuple(g.sub(a, g.mul(force, x)) for a, x in zip(multipliers, pressed, strict=True))
-            self.drag_power = g.sub(self.drag_power, g.mul(g.mul(drag.sign, drag.rate), force))
+            entries = dict(self.directions[drag.row])
+            effects.append(tuple(entries.get(j, g.zero) for j in range(len(given))))
+        without, *solved = (self._completed(x, self._rest(x))[1] for x in (given, *effects))
+        alone = [tuple(without[i] for i in drag.pressed) for drag in drags]
+        parts = [[tuple(effect[i] for i in drag.pressed) for effect in solved] for drag in drags]
+        signed = [g.mul(drag.sign, drag.coefficient) for drag in drags]
+        forces, doubtful = drag_forces(g, signed, alone, parts, self.brief)
+        self.flags += [] if doubtful is None else [doubtful]
+        self.drag_power, self.jamming = g.zero, []
+        for i, (drag, force) in enumerate(zip(drags, forces, strict=True)):
+            self.drag_power = g.sub(self.drag_power, g.mul(drag.rate, force))
             self.jamming.append(g.mul(g.mul(drag.coefficient, drag.coefficient), g.dot(parts[i][i], parts[i][i])))
-        return accelerations, multipliers
+        rest = self._rest(given)
+        for force, effect in zip(forces, effects, strict=True):
+            own = self._rest(effect)
+            rest = {k: g.sub(x, g.mul(force, own[k])) for k, x in rest.items()}
+            given = tuple(g.sub(x, g.mul(force, y)) for x, y in zip(given, effect, strict=True))
+        return self._completed(given, rest)
 
-    def _eliminated(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
-        """Return v' and lambda by the cheaper elimination."""
-        return self.by_factor(f, gamma, self._schur) if self.plan.schur else self.saddle.solve(f, gamma)
+    def _rest(self, given: Nodes) -> Mapping[int, int]:
+        """Return the unknowns of v' and lambda that no row alone fixes, linear in f and gamma."""
+        if not self.plan.schur:
+            return self.saddle.rest(given)
+        accelerations, multipliers = self.by_factor(given[: self.equations.nv], given[self.equations.nv :], self._schur)
+        return dict(enumerate((*accelerations, *multipliers)))
+
+    def _completed(self, given: Nodes, rest: Mapping[int, int]) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda from those that no row alone fixes."""
+        if not self.plan.schur:
+            return self.saddle.completed(given, rest)
+        unknowns = tuple(rest[i] for i in range(len(given)))
+        return unknowns[: self.equations.nv], unknowns[self.equations.nv :]
 
     def _on_stored_constrained(self, operation: FormulaStep, rank: FactorNodes, f: Nodes, gamma: Nodes) -> Nodes:
         metric, name = operation.payload

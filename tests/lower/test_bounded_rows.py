@@ -20,6 +20,8 @@ from symgen.running.prepare import Prepared, prepare
 
 #: Bodies of the pins of the four-bar, in the order of their rate.
 PINS = {"A": ("", "crank"), "B": ("crank", "coupler"), "C": ("coupler", "rocker"), "D": ("", "rocker")}
+#: Friction by the reaction of a pin.
+BY_REACTION = {"coefficient": 0.5, "radius": 0.1}
 
 
 def four_bar(friction: Mapping[str, float], pins: str, torques: Mapping[str, float] | None = None) -> Mechanism:
@@ -39,14 +41,22 @@ def operations(mechanism: Mechanism) -> Mapping[str, int]:
     return lower_law(equations, lower_model(equations, ""), choice.method, choice.options).info.operations
 
 
-def rates(run: Prepared, signs: Mapping[str, float], moved: float) -> tuple[np.ndarray[Any, Any], ...]:
-    """Return v' and the multipliers of joints where friction has some signs, at a start with other velocities."""
+def rates(
+    run: Prepared, signs: Mapping[str, float], moved: float, doubtful: int = 0
+) -> tuple[np.ndarray[Any, Any], ...]:
+    """Return v' and the multipliers of joints where friction has some signs, at a start with other velocities.
+
+    `doubtful`: what the right-hand side returns.
+    """
     compiled, y, p, w = run.compiled, run.start.y.copy(), run.start.p.copy(), run.start.w.copy()
     info, iw, rate = compiled.info, np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros_like(run.start.y)
     y[info.nq : info.nq + info.nv] *= moved
     for row, modes in zip(info.switchable, compiled.modes(w), strict=True):
         modes[:] = 0.0, 0.0, signs[info.rows[row].joint], 0.0
-    assert Ready(compiled.law_module.rhs, abi.RHS)(0.0, y, p, w, iw, rate) == 0
+    assert Ready(compiled.law_module.rhs, abi.RHS)(0.0, y, p, w, iw, rate) == doubtful
+    if doubtful:
+        assert Ready(compiled.law_module.confirm, abi.RHS)(0.0, y, p, w, iw, rate) == 0
+        assert not iw.any(), "no row is left out"
     own = [i for i in range(info.m) if i not in info.bounded]
     multipliers = compiled.section(w, "multipliers")
     assert not multipliers[list(info.bounded)].any()
@@ -54,7 +64,9 @@ def rates(run: Prepared, signs: Mapping[str, float], moved: float) -> tuple[np.n
 
 
 @pytest.mark.parametrize(
-    ("friction", "pins", "more"), [({"sliding": 4.0}, "A", 14), ({"sliding": 4.0}, "ABCD", 29)], ids=["one", "four"]
+    ("friction", "pins", "more"),
+    [({"sliding": 4.0}, "A", 14), ({"sliding": 4.0}, "ABCD", 29), (BY_REACTION, "A", 110), (BY_REACTION, "AB", 340)],
+    ids=["one", "four", "one-by-reaction", "two-by-reaction"],
 )
 def test_sliding_costs_few_operations(friction: dict[str, float], pins: str, more: int) -> None:
     """No row of friction takes part in the elimination while none is in force."""
@@ -76,4 +88,24 @@ def test_friction_in_motion_is_a_torque(coordinates: str) -> None:
     dry = prepare(four_bar({"sliding": 4.0}, "ABCD"), settings)
     driven = prepare(four_bar({}, "", torques), settings)
     for mine, other in zip(rates(dry, signs, 0.7), rates(driven, {}, 0.7), strict=True):
+        np.testing.assert_allclose(mine, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
+
+
+@pytest.mark.parametrize(("pins", "radius", "doubtful"), [("AB", 0.1, 0), ("ABCD", 0.1, 0), ("ABCD", 1.6, 1)])
+def test_friction_by_reactions_is_a_torque_of_their_size(pins: str, radius: float, doubtful: int) -> None:
+    """Where few iterations do not find the forces, the function for rows in force does."""
+    signs = {"A": 1.0, "B": -1.0, "C": 1.0, "D": -1.0}
+    settings = Settings(method="direct-correction", integrator="dop853")
+    dry = prepare(four_bar(BY_REACTION | {"radius": radius}, pins), settings)
+    accelerations, multipliers = rates(dry, signs, 0.7, doubtful)
+    rows = [row.name for i, row in enumerate(dry.compiled.info.rows) if i not in dry.compiled.info.bounded]
+    reactions = dict(zip(rows, multipliers, strict=True))
+    torques = dict.fromkeys(("crank", "coupler", "rocker"), 0.0)
+    for pin in pins:
+        torque = 0.5 * radius * float(np.hypot(reactions[f"{pin}.x"], reactions[f"{pin}.y"]))
+        for body, sign in zip(PINS[pin], (1.0, -1.0), strict=True):
+            if body:
+                torques[body] += sign * signs[pin] * torque
+    driven = rates(prepare(four_bar({}, "", torques), settings), {}, 0.7)
+    for mine, other in zip((accelerations, multipliers), driven, strict=True):
         np.testing.assert_allclose(mine, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
