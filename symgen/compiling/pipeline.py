@@ -358,10 +358,14 @@ def load_compiled(
 
 def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     """Return the metadata of a program."""
+    from symgen.formulate.equations import without_bounded_rows
     from symgen.lower.closing import loop_pairs
+    from symgen.lower.plans import cheapest_plan
 
     plan = program.plan
-    open_loops = not (plan.loops or equations.drags or any(row.held is not None for row in equations.rows))
+    slip = any(row.bounded for row in equations.rows)
+    loose = without_bounded_rows(equations) if slip else equations
+    fixed = cheapest_plan(loose, closing=False).fixed if slip else plan.fixed
     return ModelInfo(
         name=program.name,
         digest=program.digest,
@@ -385,8 +389,8 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         states=equations.states,
         switchable=tuple(i for i, row in enumerate(equations.rows) if row.held is not None),
         bounded=tuple(i for i, row in enumerate(equations.rows) if row.bounded),
-        pairs=loop_pairs(equations, plan.fixed) if open_loops else (),
-        fixed=tuple((block.columns, block.rows) for block in plan.fixed),
+        pairs=() if plan.loops else loop_pairs(loose, fixed),
+        fixed=tuple((block.columns, block.rows) for block in fixed),
     )
 
 

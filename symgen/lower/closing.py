@@ -18,7 +18,7 @@ from symgen.lower.blocks import SaddleMatrix, mass_entries
 def loop_pairs(equations: Equations, fixed: Sequence[FixedVelocities]) -> tuple[Pair, ...]:
     """Return the joints with two rows left over behind fixed velocities; none where a row has no velocity left."""
     matrix = _behind(equations, fixed)
-    left = [r for r in range(equations.m) if equations.nv + r in matrix.left]
+    left = [r for r in range(equations.m) if equations.nv + r in matrix.left and not equations.rows[r].bounded]
     of_joint: dict[str, list[int]] = {}
     for r in left:
         if equations.rows[r].held is None and not equations.rows[r].axes:
@@ -38,7 +38,8 @@ def closed_loops(
         square, _ = matrix.close(loop)
         if square == matrix.graph.zero:
             return ()
-    idle = any(not matrix.columns(x - matrix.nv) for x in matrix.left if x >= matrix.nv)
+    rows = [x - matrix.nv for x in matrix.left if x >= matrix.nv]
+    idle = any(not matrix.columns(row) and not equations.rows[row].bounded for row in rows)
     return () if idle else loops
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from symgen.base.errors import InputError
-from symgen.formulate.equations import Equations, without_bounded_rows
+from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import (
     BY_PIVOTS,
@@ -22,7 +22,7 @@ from symgen.ir.program import (
 )
 from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
-from symgen.lower.plans import cheapest_plan
+from symgen.lower.plans import closing_plan
 from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_form, record_law
 from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
@@ -59,7 +59,7 @@ def lower_law(
     implicit : bool
         Whether the descriptor form for implicit integrators is added.
     closing : EliminationPlan, optional
-        The model's plan with loops in closed form, as velocities chosen at the start allow; the model's by default.
+        Plan with loops in closed form, as velocities chosen at the start allow; see `closing_plan`.
     suffix : str
         Of the file stem, which says the choice.
 
@@ -82,18 +82,18 @@ def lower_law(
     scalars.compute(record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
+    closing = closing or closing_plan(equations, model.plan, ())
+    closed = record.form == "direct" and method.integrates != "independent" and not correction.stages
     loose: tuple[ScalarNodes, Part] | None = None
     if record.form == "direct" and any(row.bounded for row in equations.rows):
-        loose = _without_bounded_rows(scalars, recorded, apart)
+        loose = _without_bounded_rows(scalars, recorded, apart, closing, closed)
         accelerations.append(loose)
     for values, part in accelerations:
         flag = None if part.flag is None else values.values[part.flag]
         hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
-    closing = closing or model.plan
-    closed = record.form == "direct" and method.integrates != "independent" and not correction.stages
-    if closing.loops and closed and not equations.drags:
+    if closing.loops and closed and loose is None:
         blocks = [*_with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0]), *blocks[1:]]
     if loose is not None:
         held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
@@ -140,11 +140,12 @@ def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
 
 
-def _without_bounded_rows(scalars: ScalarNodes, record: RecordedLaw, apart: frozenset[str]) -> tuple[ScalarNodes, Part]:
-    """Return the right-hand side of motions with no row with bounds in force, in the cheapest elimination for them."""
-    plan = cheapest_plan(without_bounded_rows(scalars.equations), closing=False)
+def _without_bounded_rows(
+    scalars: ScalarNodes, record: RecordedLaw, apart: frozenset[str], plan: EliminationPlan, closed: bool
+) -> tuple[ScalarNodes, Part]:
+    """Return the right-hand side of motions with no row with bounds in force, by a plan for them."""
     record = record.resolved(plan.schur, apart)
-    loose, part = scalars.without_bounded_rows(record.operations, plan), record.parts[0]
+    loose, part = scalars.without_bounded_rows(record.operations, plan, closed), record.parts[0]
     loose.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
     return loose, part
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from symgen.formulate.equations import Equations
+from symgen.formulate.equations import Equations, without_bounded_rows
 from symgen.ir.graph import PARAMETER
 from symgen.ir.program import EliminationPlan
 from symgen.lower.blocks import fixed_velocities
@@ -33,6 +33,8 @@ def cheapest_plan(equations: Equations, closing: bool = True) -> EliminationPlan
 def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int]) -> EliminationPlan:
     """Return a plan that also closes loops, with some velocities free; the same one where that takes more operations.
 
+    Of equations with bounded rows it is the plan of motions with none of these in force.
+
     Parameters
     ----------
     equations : Equations
@@ -42,6 +44,9 @@ def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int
     free : sequence of int
         Velocities that no loop is solved for.
     """
+    if any(row.bounded for row in equations.rows):
+        equations = without_bounded_rows(equations)
+        plan = cheapest_plan(equations, closing=False)
     loops = closed_loops(equations, plan.fixed, free) if free and not plan.loops else ()
     orders = dict.fromkeys((loops, loops[::-1]))  # from free velocities on, and towards them
     normal = (False,) if equations.spins else (False, True)

@@ -46,14 +46,14 @@ class ScalarNodes(OfMass):
         other.plan, other.stored, other.flags, other.closing = plan, {}, [], True
         return other
 
-    def without_bounded_rows(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan) -> Self:
+    def without_bounded_rows(self, operations: tuple[FormulaStep, ...], plan: EliminationPlan, closing: bool) -> Self:
         """Return another tape in the same graph, nothing evaluated yet, of motions with no row with bounds in force."""
         other = self.following(operations)
         for name in ("saddle", "row_halves", "order", "_schur"):
             other.__dict__.pop(name, None)
         other.equations = without_bounded_rows(self.equations)
         other.rows = tuple(row.entries for row in other.equations.rows)
-        other.stored, other.flags, other.plan, other.brief = {}, [], plan, True
+        other.stored, other.flags, other.plan, other.closing, other.brief = {}, [], plan, closing, True
         return other
 
     def compute(self, ends: Iterable[int]) -> None:
