@@ -29,7 +29,7 @@ from symgen.native.loop_values import laid_out
 from symgen.native.loops import read_loop
 from symgen.native.read_values import Foreign
 from symgen.starts.assembler import layout_of
-from symgen.starts.starting import close_row, observe_nothing
+from symgen.starts.starting import begin_row, close_row, observe_nothing
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -151,7 +151,7 @@ class PrintedEvents:
 
 
 #: Arrays that are no part of a record; states and rates are passed.
-_ALONE = {"y": "", "rate": "", "p": "p", "w": "w", "iw": "iw", "chosen": "chosen"}
+_ALONE = {"y": "", "rate": "", "state": "", "p": "p", "w": "w", "iw": "iw", "chosen": "chosen"}
 
 
 def _room_of_steps(name: str) -> str | None:
@@ -253,7 +253,7 @@ class Printed:
         self.entries["fill_jacobian"] = source_of(fill_jacobian), meanings
 
     def add_start(self, assembly: Assembly) -> None:
-        """Add ``close_row()``, which makes the start of the model consistent; see `symgen.starts.starting`.
+        """Add ``begin_row(state)`` and ``close_row()``, which make the start consistent; see `symgen.starts.starting`.
 
         Parameters
         ----------
@@ -275,11 +275,17 @@ class Printed:
 
         def room(name: str) -> str | None:
             owner, _, own = name.partition(".")
-            return own if owner == "now" else f"start_{own}" if owner in ("work", "conditions") else None
+            if owner == "now":
+                return own
+            return f"start_{own}" if owner in ("work", "conditions") else _ALONE.get(name)
 
         model = (assembly.layout, *own), observe, joints
         meanings = meanings_of(close_row, (model, now, conditions, work), functions, room)
         self.entries["close_row"] = source_of(close_row), meanings
+        places, counters = np.flatnonzero(scratch), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        described = assembly.layout, places, scratch[places]
+        meanings = meanings_of(begin_row, (described, now.y, now, counters, conditions), {}, room)
+        self.entries["begin_row"] = source_of(begin_row), meanings
 
 
 #: Functions that a start calls, by their names in models, and their types.

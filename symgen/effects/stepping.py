@@ -32,15 +32,16 @@ RUN_MODEL = types.RecordType((STEP_MODEL, EFFECT_MODEL, _K))
 #: - y, w, before, after: State and scratch at the beginning; switching functions at both ends of a step.
 #: - clock (shape (1,)): Time [s].
 #: - counters, chosen: Counters at the beginning; 1 for each event at the end of the step, else 0.
+#: - ending (shape (1,)): Number of the event that ends the run, -1 where none does.
 _NUMBERS = "first second third fourth middle y w before after clock", _A
-STEP_WORK = record_type("StepWork", __name__, _NUMBERS, ("counters chosen", _K))
+STEP_WORK = record_type("StepWork", __name__, _NUMBERS, ("counters chosen ending", _K))
 StepWork: Any = STEP_WORK.constructor
 
 
 def new_step_work(ny: int, nw: int, events: int) -> Any:
     """Return working memory."""
     sizes = ny, ny, ny, ny, ny, ny, nw, events, events, 1
-    integers = (np.zeros(size, dtype=np.int64) for size in (abi.N_COUNTERS, events))
+    integers = (np.zeros(size, dtype=np.int64) for size in (abi.N_COUNTERS, events, 1))
     return StepWork._make((*(np.zeros(size) for size in sizes), *integers))
 
 
@@ -197,12 +198,13 @@ def take_steps(model: Any, until: float, h: float, now: Any, iw: Any, work: Any,
     Returns
     -------
     int
-        `REACHED`, `ENDED`, with the events in `chosen`, or `FAILED`: then steps have halved up to the last state from
+        `REACHED`, `ENDED`, with the event in `ending`, or `FAILED`: then steps have halved up to the last state from
         which the motion goes on.
     """
     steps, effects, ends = model
     _, _, _, _, changes = effects
     clock, halving, size = work.clock, False, h
+    work.ending[0] = -1
     while clock[0] < until:
         t, rest = clock[0], until - clock[0]
         if halving:
@@ -213,14 +215,15 @@ def take_steps(model: Any, until: float, h: float, now: Any, iw: Any, work: Any,
         length = step_to_event(steps, t, step, now, iw, work)
         if length > 0.0:
             clock[0] = until if length == rest else t + length
-            happened, ended = False, False
+            happened, last = False, -1
             for k in range(ends.shape[0]):
                 happened = happened or work.chosen[k] != 0
-                ended = ended or (work.chosen[k] != 0 and ends[k] != 0)
+                last = k if last < 0 and work.chosen[k] != 0 and ends[k] != 0 else last
             if changes.owners.shape[0] + changes.writes.shape[0] > 0:
                 if happened and apply_effects(effects, clock[0], now, work.chosen, impact) != 0:
                     return FAILED
-            if ended:
+            if last >= 0:
+                work.ending[0] = last
                 return ENDED
         else:
             restore(now, iw, work)

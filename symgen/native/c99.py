@@ -36,6 +36,16 @@ HELPERS = {
     "power": "static real power(real x, int n) {\n"
     "real result = 1.0;\nfor (; n; n >>= 1) {\nif (n & 1) result *= x;\nx *= x;\n}\nreturn result;\n}",
 }
+#: Macros in printed text, with their values for 32 and for 64 bits; EPSILON serves templates.
+_MACROS = (
+    ("M(function)", "function##f", "function"),
+    ("SMALL(x)", "1.2e-38f", "x"),
+    ("LARGE(x)", "3.4e38f", "x"),
+    ("FINE(x, single)", "single", "x"),
+    ("EPSILON", "1.2e-7f", "2.2e-16"),
+)
+#: 20 roundings of a number of 32 bits, the least tolerance.
+_LEAST = 2.4e-6
 _KEYWORDS = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
     "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while _Bool "
@@ -122,6 +132,17 @@ def c_number(value: float) -> str:
         text = repr(float(value))
         return f"SMALL({text})" if 0.0 < size < 1e-37 else f"LARGE({text})" if size > 1e38 else text
     return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "-INFINITY"
+
+
+def c_limit(value: float) -> str:
+    """Return a tolerance in C, with a larger one for 32 bits if needed."""
+    return f"FINE({value!r}, {_LEAST})" if value < _LEAST else c_number(value)
+
+
+def macros(single: str) -> str:
+    """Return the macros of printed text; for 32 bits where the macro `single` is defined."""
+    lines = [[f"#define {head} {values[k]}" for head, *values in _MACROS] for k in range(2)]
+    return "\n".join([f"#ifdef {single}", *lines[0], "#else", *lines[1], "#endif"])
 
 
 def _written(function: lang.Function, of_called: Mapping[object, frozenset[str]]) -> frozenset[str]:

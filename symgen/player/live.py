@@ -10,9 +10,7 @@ import numpy as np
 
 from symgen.compiling.checked import checked
 from symgen.compiling.printed import Printed, PrintedEvents
-from symgen.describe.events import STOP
 from symgen.drawing.scene import Array
-from symgen.effects.stepping import ENDED
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of
 from symgen.native.formula_lines import JAVASCRIPT, NotInLines
@@ -68,7 +66,7 @@ def live_part(
     compiled: CompiledModel,
     start: Start,
     step: float,
-    begun: Array | None = None,
+    initial: Array | None = None,
     still: Collection[str] = (),
     acting: Mechanism | None = None,
 ) -> tuple[Live | None, str]:
@@ -84,7 +82,7 @@ def live_part(
         Where the motion begins.
     step : float
         Of the Runge-Kutta method [s].
-    begun : Array, shape (nq + nv,), optional
+    initial : Array, shape (nq + nv,), optional
         Initial coordinates and velocities of bodies, if other than the described ones.
     still : collection of str
         Parameters that keep their values: pages have no slider for them, nor for inputs that are formulas.
@@ -102,8 +100,8 @@ def live_part(
         return None, f"{NONE}: {operations} operations are more than the {limit} that a page {where} may have{fewer}"
     joint = hasattr(compiled.model, "bodies")
     turns = start.w[abi.WINDING :][: compiled.info.windings].tolist()
-    if begun is not None and not np.array_equal(begun, start.y[: len(begun)]):
-        start, turns = replace(start, y=np.concatenate([begun, start.y[len(begun) :]])), []
+    if initial is not None and not np.array_equal(initial, start.y[: len(initial)]):
+        start, turns = replace(start, y=np.concatenate([initial, start.y[len(initial) :]])), []
         described = False
     else:
         described = not joint and is_described(mechanism)
@@ -223,7 +221,6 @@ def _spec(
         "joint": joint,
         "nb": mechanism.body_coordinates,
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
-        "scratch": [[i, float(x)] for i, x in enumerate(compiled.scratch()) if x != 0.0],
         "y0": [float(x) for x in start.y],
         "datum": list(start.datum) or [0.0] * info.nq,
         "lengths": [int(x) for x in lengths_of(info)],
@@ -235,8 +232,7 @@ def _spec(
         "jacobian": [list(entry) for entry in info.jacobian],
         "at": sections,
         "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
-        "ended": ENDED,
-        "ends": [event.name if event.action == STOP else "" for event in mechanism.events],
+        "events": [event.name for event in mechanism.events],
         "parameters": [
             {**entry, "follows": bool(own.formula), **({"still": True} if own.name in constants else {})}
             for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)

@@ -132,8 +132,8 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
     """Return positions and angles of bodies over time."""
     groups = []
     names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
-    for meaning, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
-        columns = [i for i, (_, c) in enumerate(names) if c in wanted]
+    for meaning, unit, axes in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
+        columns = [i for i, (_, c) in enumerate(names) if c in axes]
         for title, some in parts_of(meaning, [names[i][0] for i in columns]):
             chosen = columns[some]
             own = tuple(names[i][0] for i in chosen)

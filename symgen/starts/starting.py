@@ -12,7 +12,16 @@ from typing import Any
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
-from symgen.layout.start_records import INSTANT, MODEL, START_CONDITIONS, WORK, Closing, Instant, StartConditions
+from symgen.layout.start_records import (
+    INSTANT,
+    LAYOUT,
+    MODEL,
+    START_CONDITIONS,
+    WORK,
+    Closing,
+    Instant,
+    StartConditions,
+)
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.exact import copy_numbers, exact
 from symgen.native import types
@@ -30,6 +39,28 @@ from symgen.starts.joint_starts import JOINTS, Further, fill_further
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
 _HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
+
+
+#: Layout, and the numbers of a new scratch array that are not 0: their places, and they themselves.
+_DESCRIBED = types.RecordType((LAYOUT, _I, _A))
+
+
+@exact(types.int64(_DESCRIBED, _A, INSTANT, _I, START_CONDITIONS))
+def begin_row(model: Any, state: Any, now: Any, iw: Any, conditions: Any) -> int:
+    """Set a run to a described state, with new scratch and counters, for `close_row`; velocities become conditions."""
+    layout, places, numbers = model
+    y, w, first = now.y, now.w, layout.nq
+    for i in range(w.shape[0]):
+        w[i] = 0.0
+    for i in range(places.shape[0]):
+        w[places[i]] = numbers[i]
+    for i in range(iw.shape[0]):
+        iw[i] = 0
+    copy_numbers(state, y, layout.ny)
+    for j in range(layout.nv):
+        conditions.velocities[j] = y[first + j]
+        y[first + j] = 0.0
+    return 0
 
 
 @exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK))

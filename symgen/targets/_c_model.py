@@ -15,12 +15,12 @@ from symgen.compiling.events import DIRECTIONS
 from symgen.compiling.printed import Printed, PrintedEvents
 from symgen.compiling.side import compile_side
 from symgen.describe.events import RESET, STOP
-from symgen.effects.stepping import ENDED, FAILED
+from symgen.effects.stepping import FAILED
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of
-from symgen.native.c99 import broken_line, c_functions, c_number
+from symgen.native.c99 import broken_line, c_functions, c_limit, c_number, macros
 from symgen.native.formula_lines import C, NotInLines
 from symgen.native.read import Foreign
 from symgen.running.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
@@ -153,7 +153,7 @@ class CModel:
             "acting": acting,
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
-            **{"ended": ENDED, "failed": FAILED},
+            "failed": FAILED,
             "effects": self.events.effects is not None,
             "memory": [
                 {"name": name, "is_real": kind == "float", "size": size}
@@ -166,10 +166,8 @@ class CModel:
             ],
             "inputs": _list(int(q.name in info.inputs) for q in info.parameters) or "0",
             "independent": independent_places(mechanism, parameters),
-            "tolerances": [
-                law.parameter_offset + i for i, (name, _) in enumerate(law.parameters) if name.endswith("tolerance")
-            ],
-            "p0": _list(map(c_number, start.p)),
+            "p0": self._defaults(),
+            "macros": macros(f"{self.prefix.upper()}_SINGLE"),
             "y0": _list(map(c_number, start.y)),
             "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
             "driven": self.has_driven_rows,
@@ -180,8 +178,8 @@ class CModel:
             "angular": _list(int(q.unit != "m/s") for q in info.velocities),
             "lengths": _list(int(x) for x in lengths_of(info)),
             "at": {
-                **{name: info.sections[name][0] for name in ("residual", "nu", "gauge", "pivot", "mask", "row_weight")},
-                **{"length": abi.LENGTH, "speed": abi.SPEED, "mass": abi.MEAN_MASS, "step": abi.STEP_STATUS},
+                **{name: info.sections[name][0] for name in ("residual", "nu")},
+                **{"length": abi.LENGTH, "step": abi.STEP_STATUS},
             },
             "functions": self.text,
             "confirm": "confirm" in self.functions,
@@ -247,6 +245,14 @@ class CModel:
         One that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
         """
         return not self.joint and is_described(self.mechanism)
+
+    def _defaults(self) -> str:
+        """Return the parameters; tolerances of the law have other limits for 32 bits."""
+        law, numbers = self.compiled.law, list(map(c_number, self.run.start.p))
+        for i, (name, _) in enumerate(law.parameters, law.parameter_offset):
+            if name.endswith("tolerance"):
+                numbers[i] = c_limit(float(self.run.start.p[i]))
+        return _list(numbers)
 
     def _start(self) -> dict[str, str]:
         """Return lines for the derived parameters and for the start."""

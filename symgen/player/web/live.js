@@ -18,14 +18,9 @@ function makeLive(spec, code) {
 
   // The start of a run, closed from the described one, or from the one of the page; null where it does not close.
   function start() {
-    w.fill(0);
-    for (const [i, x] of spec.scratch) w[i] = x;
-    iw.fill(0);
-    prepare();
     const { y, start_velocities } = memory;
-    y.set(spec.y0);
-    start_velocities.set(y.subarray(nq, nq + nv));
-    y.fill(0, nq, nq + nv);
+    code.begin_row(memory, spec.y0);
+    prepare();
     code.describe(p, y, start_velocities, y.subarray(nq + nv + 1));
     if (code.close_row(memory) !== 0) return null;
     w[spec.status.step] = spec.step;
@@ -64,7 +59,7 @@ function makeLive(spec, code) {
   // The time where the motion has ended in the last step, and why; whether it has failed there.
   function end(y) {
     const t = memory.step_clock[0], at_t = `at t = ${Number(t.toPrecision(6))} s`;
-    const event = result === spec.ended && spec.ends.find((name, i) => name && memory.chosen[i]);
+    const event = spec.events[memory.step_ending[0]];
     if (event) return { t, failed: false, sentence: `the event '${event}' ends the motion ${at_t}` };
     return { t, failed: true, sentence: sentence(t, y, at_t) };
   }
