@@ -51,6 +51,14 @@ def as_numpy(function: Any, *calls: str) -> Any:
     return FunctionType(plain.__code__, space)
 
 
+def as_plain(function: Any) -> Any:
+    """Return an emitted function of straight code as Python on numbers of NumPy, with those that it calls."""
+    plain = function.py_func
+    space = plain.__globals__
+    own = {name: as_plain(space[name]) for name in plain.__code__.co_names if hasattr(space.get(name), "py_func")}
+    return FunctionType(plain.__code__, {**space, **own, "math": np})
+
+
 def motion(run: Prepared, steps: int) -> Array:
     """Return q and v at the end of a run, after so many constant steps."""
     info, start, rhs = run.compiled.info, run.start, as_numpy(run.compiled.law_module.rhs, "law_rhs", "integrands")
