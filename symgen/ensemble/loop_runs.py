@@ -125,7 +125,7 @@ class LoopRuns:
             pressed,
         )
         if recipe.stops:
-            system = with_table(compiled, system, inner, adaptive, rows.stops or ((),))
+            system = with_table(compiled, system, inner, adaptive, rows.stops or ((),), alone=False)
         done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         while control[e.EXAMINATION] == e.WAITS:
             self._examine(state)

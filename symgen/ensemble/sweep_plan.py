@@ -253,7 +253,7 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    in_loops = not (examined or driving.jumps) and chooses_in_loops(mechanism, events)
+    in_loops = not examined and chooses_in_loops(mechanism, events)
     alone = bool(mechanism.bounded) and not in_loops
     watch = EventPlan(mechanism, events, ends, alone) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too

@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel
     from symgen.loops.run_spec import Stop
 
-#: Numbers of `Stops.head`: the present row, and 1 where steps are adaptive.
-ROW, ADAPTIVE = range(2)
+#: Numbers of `Stops.head`: the present row, and 1 where steps are adaptive, and where modes are chosen at each change.
+ROW, ADAPTIVE, CHOOSES = range(3)
 _A, _K = types.float64[::1], types.int64[::1]
 
 
 #: The stops of all rows one after the other; a single run is one row.
-#: - head: `ROW` and `ADAPTIVE`.
+#: - head: `ROW`, `ADAPTIVE` and `CHOOSES`.
 #: - rows (shape (rows + 1,)): First stop of each row.
 #: - times: Of stops, in order in each row [s].
 #: - changes (shape (stops + 1,)): First change of each stop.
@@ -138,6 +138,8 @@ def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) 
             prepare_law(state.p)
             if not is_defined(state.p):
                 return abi.UNPREPARED
+            if stops.head[CHOOSES] != 0:
+                return abi.CHANGED
         if control[abi.BEGUN] != 0 and span.until - now <= same(stops, span, now):
             return abi.DONE
 
@@ -166,7 +168,12 @@ def with_stops(loop: Any) -> Any:
 
 
 def with_table(
-    compiled: CompiledModel, system: tuple[Any, ...], loop: Any, adaptive: bool, rows: Sequence[Sequence[Stop]]
+    compiled: CompiledModel,
+    system: tuple[Any, ...],
+    loop: Any,
+    adaptive: bool,
+    rows: Sequence[Sequence[Stop]],
+    alone: bool = True,
 ) -> tuple[Any, ...]:
     """Return the first arguments of the loop that goes from stop to stop.
 
@@ -176,9 +183,11 @@ def with_table(
         As for `table_of`.
     system, loop : tuple, compiled loop
         First argument of the enclosed loop, and this loop.
+    alone : bool
+        Whether it is a single run: modes are chosen behind the loop, and parameters prepared there.
     """
-    # in looped code nothing is prepared in the loop, and modes of friction are chosen behind it
-    left = compiled.shape == "looped" or compiled.info.bounded
+    # in looped code nothing is prepared in the loop
+    left = compiled.shape == "looped" or (alone and compiled.info.bounded)
     return system, table_of(compiled, adaptive, rows), loop, *((by_caller, by_caller) if left else preparing(compiled))
 
 
@@ -203,7 +212,7 @@ def table_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[St
     stops = [stop for row in rows for stop in row]
     changes = [(places[name], value) for stop in stops for name, value in stop.values.items()]
     return Stops(
-        head=np.array([0, int(adaptive)]),
+        head=np.array([0, int(adaptive), int(bool(compiled.info.bounded))]),
         rows=np.cumsum([0, *map(len, rows)]),
         times=np.array([stop.t for stop in stops], dtype=np.float64),
         changes=np.cumsum([0, *(len(stop.values) for stop in stops)]),

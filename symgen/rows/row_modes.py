@@ -10,9 +10,11 @@ from typing import Any
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.start_records import record_type
+from symgen.loopcode.bare import bare
 from symgen.loopcode.loop_instances import called
 from symgen.loops import search_records as records
 from symgen.loops.event_loop import notes_at
+from symgen.loops.stopping import change, due, is_defined, same
 from symgen.loops.watch import remember_rank
 from symgen.native import types
 from symgen.rows.row_events import take_notes_of_events
@@ -44,12 +46,38 @@ def chosen(model: Any, state: Any) -> int:
     return int(abi.DONE)
 
 
-def begin_modes(model: Any, state: Any) -> int:
+def begin_modes(model: Any, span: Any, state: Any) -> int:
     """Choose modes where a run begins; return `DONE`, or `NO_MODES`."""
     c = model[2].choice
     for i in range(c.count):
         c.broken[i] = c.stopped[i] = c.left[i] = 0
     return int(chosen(model, state))
+
+
+def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where a run begins, with the values of inputs there; return `DONE` or the code of an end."""
+    system, _, _ = model
+    _, stops, _, prepare, prepare_law = system
+    stops = bare(stops)
+    control, p, changed = state.control, state.p, False
+    while due(stops, control[abi.PASSED]) - state.clock[abi.TIME] <= same(stops, span, state.clock[abi.TIME]):
+        changed = change(stops, control[abi.PASSED], p) or changed
+        control[abi.PASSED] += 1
+    if changed:
+        prepare(p)
+        prepare_law(p)
+        if not is_defined(p):
+            return int(e.IMPOSSIBLE)
+    return begin_modes(model, span, state)
+
+
+def choose_after_change(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where inputs have changed; return `CHANGED` to go on, or the code of an end."""
+    system, _, _ = model
+    code, now, stops = begin_modes(model, span, state), state.clock[abi.TIME], bare(system[1])
+    if code == abi.DONE and span.until - now > same(stops, span, now):
+        code = int(abi.CHANGED)
+    return code
 
 
 @called

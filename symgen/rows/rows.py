@@ -30,7 +30,7 @@ from symgen.rows.row_events import (
     take_notes_of_events,
     waits_for_examination,
 )
-from symgen.rows.row_modes import OF_MODES, begin_modes, take_modes
+from symgen.rows.row_modes import OF_MODES, begin_modes, begin_modes_between_stops, choose_after_change, take_modes
 from symgen.runs.agreement import choose_pressed
 from symgen.runs.observe import observe_rates, observe_rows
 from symgen.store.jit import jit
@@ -67,9 +67,14 @@ def forget(model: Any, state: Any) -> None:
     """Do nothing: a run without switching functions has no data of them."""
 
 
-def begin_choice(model: Any, state: Any) -> int:
+def begin_choice(model: Any, span: Any, state: Any) -> int:
     """Return `DONE`: a run without friction has no modes to choose."""
     return int(abi.DONE)
+
+
+def take_change(model: Any, span: Any, state: Any) -> int:
+    """Return the end code of a run whose parameters its loop cannot prepare."""
+    return int(abi.UNPREPARED)
 
 
 def take_notes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
@@ -282,12 +287,16 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
             take(chunk.ps, r * n_p, n_p, state.p)
             take(chunk.ws, r * nw, nw, state.w)
             forget(model, state)
-            code = begin_choice(model, state)
+            code = begin_choice(model, span, state)
             if code == abi.DONE:
                 code = integrate(system, scheme, span, state, series.outputs)
-        while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET:
+        while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET or code == abi.CHANGED:
             if code == abi.CHOOSE:
                 follow_rows(chunk, state, state.w)
+            elif code == abi.CHANGED:
+                code = take_change(model, span, state)
+                if code != abi.CHANGED:
+                    break
             elif waits(code, model, chunk, state):
                 return int(s)
             else:
@@ -347,6 +356,7 @@ OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
 _MODES = {"begin_choice": begin_modes, "take_notes": take_modes, "store_after": store_after_effects}
+_MODES_BETWEEN_STOPS = {"begin_choice": begin_modes_between_stops, "take_change": choose_after_change}
 _PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
 STOPPING = {"take_row": take_stops, "hold": hold_between_stops}
@@ -370,7 +380,7 @@ def over_rows(
         From `symgen.loops.frame.loop`.
     events, stops, effects, examined, modes, pressed : bool
         Whether rows have switching functions, stops, events that change a run, constraints that may jump, dry friction,
-        which excludes stops, such events and constraints, and bounds of friction that depend on reactions.
+        which excludes such events and constraints, and bounds of friction that depend on reactions.
     """
     key = loop, events, stops, effects, examined, modes, pressed
     if key not in _loops:
@@ -384,6 +394,7 @@ def over_rows(
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
         meanings |= (_MODES if modes else {}) | (_PRESSED if pressed else {})
+        meanings |= _MODES_BETWEEN_STOPS if modes and stops else {}
         meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
         _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are

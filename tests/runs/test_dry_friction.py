@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.checks import assert_same_motion
 
 import symgen
 from symgen.base.errors import InputError
@@ -384,6 +385,43 @@ def test_rows_of_a_sweep_choose_modes_in_compiled_loops(monkeypatch: pytest.Monk
         assert rows["crank.theta"][i].tolist() == run["crank.theta"].tolist()
         assert rows["A.mode"][i].tolist() == run["A.mode"].tolist()
         np.testing.assert_allclose(rows["D.force"][i], run["D.force"], rtol=1e-12)
+
+
+#: An input that jumps at the start, at an output, between outputs, and at the end of a run over 1 s.
+_JUMPS = "piecewise(t < 0.05, late, t < 0.3, 0.5, t < 0.3 + late, 2.0, t < 1.0, 0.5, 3.0)"
+
+
+@pytest.mark.parametrize(
+    ("integrator", "coordinates"), [("dop853", "absolute"), ("rk4", "absolute"), ("picard", "joint")]
+)
+def test_rows_choose_modes_where_inputs_jump(
+    monkeypatch: pytest.MonkeyPatch, integrator: str, coordinates: str
+) -> None:
+    """In the compiled loop: the numbers of single runs, and the instant of rest of a closed form."""
+    text = WHEEL.replace("[bodies.wheel]", "[parameters]\nlate = 0.01\nrub = 1.0\n\n[bodies.wheel]")
+    model, lates = symgen.load(described(text.replace("sliding = 1.0", 'sliding = "rub"'))), (0.01, 0.021, 1.7)
+    settings = {"integrator": integrator, "until": 1.0, "inputs": {"torque": _JUMPS}, "coordinates": coordinates}
+    settings |= (
+        {"times": [0.0, 0.3, 0.305, 0.5, 1.0], "step": 1e-2} if integrator != "picard" else {"times": [0.3, 1.0]}
+    )
+    names = ("wheel.theta", "axle.angle", "wheel.omega", "wheel.alpha", "axle.mode", "axle.force")
+    alone = [[model.simulate(parameters={"late": x, "rub": rub}, verify=False, **settings) for rub in (1.0, 0.7)]
+             for x in lates]  # fmt: skip
+    monkeypatch.setattr("symgen.ensemble.singly.SingleRuns", None)
+    rows = model.sweep({"late": list(lates), "rub": [1.0, 0.7]}, quantities=names, **settings)
+    assert {str(x) for x in rows.status.ravel()} <= {run.status for one in alone for run in one}
+    for i, j in np.ndindex(3, 2):
+        run = alone[i][j]
+        assert {"axle.slip", "axle.stick"} >= {event.name for event in run.events} >= {"axle.slip"}
+        for name in names:
+            assert_same_motion(rows[name][i, j], run[name], name)
+        assert rows["wheel.theta"][i, j].tolist() == run["wheel.theta"].tolist()
+        assert [rows[x][i, j] for x in ("steps", "evaluations")] == [run.steps, run.evaluations]
+    if integrator == "dop853":  # 2 N m from 0.3 to 0.31 s against 1 N m and 0.2 N m s
+        fast = 5.0 * (1.0 - np.exp(-0.1 * 0.01))
+        rest = 10.0 * np.log((fast + 2.5) / 2.5)
+        turn = 5.0 * 0.01 - 10.0 * fast + 10.0 * (fast + 2.5) * (1.0 - np.exp(-0.1 * rest)) - 2.5 * rest
+        assert abs(rows["wheel.theta"][0, 0, -1] - turn) < 1e-9
 
 
 def test_a_run_goes_on_from_the_last_state_of_another() -> None:
