@@ -65,7 +65,7 @@ N_COUNTERS = len(COUNTERS)
     LAST_RANK,
     JACOBIANS,
     NEWTON_ITERATIONS,
-    BEGUN,  # 1 once the first state is accepted, `AFRESH` if inputs or velocities have changed since
+    BEGUN,  # 1 once the first state is accepted, `AFRESH` or `ONWARD` if rates have changed since
     INDEX,  # steps since `ORIGIN` on the grid of constant steps
     REFUSED,  # 1 if the last attempt was refused
     BARRED,  # 1 if a zone must not be crossed in one step, because an attempt failed
@@ -79,6 +79,8 @@ N_COUNTERS = len(COUNTERS)
 N_CONTROL = 20
 #: Value of ``control[BEGUN]`` if the rates have changed at the present state: the scheme begins anew.
 AFRESH = 2
+#: The same, but the step goes on: other rows are in force, and the motion is as fast as before.
+ONWARD = 3
 
 # -- clock: time and steps of a run ------------------------------------------------------------------------------------
 (

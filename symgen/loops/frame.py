@@ -103,10 +103,10 @@ def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> i
         clock[abi.ALLOWED] = 0.0
         control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
         if ADAPTIVE:
-            clock[abi.NEXT] = span.step
+            clock[abi.NEXT] = max(clock[abi.NEXT], span.step) if control[abi.BEGUN] == abi.ONWARD else span.step
         # laws whose gains follow the step are evaluated before the first step
         note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
-        prepare(system, scheme, span, run)
+        prepare(system, scheme, with_step(span, clock[abi.NEXT] if ADAPTIVE else span.step), run)
         if prepare_search(system, run, LOOK) == FAIL:
             return abi.UNDEFINED
         control[abi.BEGUN] = 1

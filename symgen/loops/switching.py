@@ -188,7 +188,8 @@ def candidate(hunt: A, n: int) -> float:
     # a little beyond the root, from the nearer end, so that the root lies between two near ends
     ahead = 1 if x - low < high - x else 0
     distance = x - low if ahead == 1 else high - x
-    beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
+    share = width / hunt[WHOLE]
+    beyond = distance * min(0.1, 4.0 * (distance / hunt[WHOLE]) * share * share) if rounds > 0 else 0.0
     x += beyond if ahead == 1 else -beyond
     least = 0.5 * hunt[BLUR]
     if distance < least:  # at the end of the bracket: rounding of g hides it for longer than the resolution of time

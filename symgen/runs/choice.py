@@ -299,8 +299,8 @@ def begin_afresh(state: Any) -> None:
     sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))
     gauges[abi.LAST_SINE], gauges[abi.LARGEST_SINE], gauges[abi.LAST_SHORT] = sine, sine, short
     gauges[abi.FALL], gauges[abi.SHORT_FALL], gauges[abi.CHOSEN] = 0.0, 0.0, 0.0
-    if state.control[abi.BEGUN] != 0:
-        state.control[abi.BEGUN] = abi.AFRESH
+    if state.control[abi.BEGUN] == 1:
+        state.control[abi.BEGUN] = abi.ONWARD
     state.control[abi.KNOWN], state.control[abi.POINTS], state.control[abi.REFUSED] = 0, 0, 0
     state.clock[abi.ALLOWED] = 0.0
 
