@@ -6,6 +6,7 @@ between pages, to benchmarks/ and to CHANGELOG.md are the same here and in a che
 
 from __future__ import annotations
 
+import inspect
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from docutils import nodes
 from docutils.utils.math import latex2mathml
 
 from symgen import __version__, load
+from symgen.base.settings import setting_names
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -103,6 +105,46 @@ def _block(translator: Any, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+# -- the API -----------------------------------------------------------------------------------------------------------
+
+#: The one entry that lists all settings of a run; others name theirs.
+SETTINGS_AT = "symgen.Model.simulate"
+
+
+def _short_signature(app: Sphinx, obj: Any, bound: bool) -> None:
+    """Write settings as ``**changes``: with all their types, one signature would fill a screen."""
+    shown = getattr(obj, "__signature__", None)
+    own = [] if shown is None else list(shown.parameters.values())
+    rest = [p for p in own if p.kind is not p.KEYWORD_ONLY or p.name not in setting_names()]
+    if len(own) - len(rest) > 1:
+        rest += [inspect.Parameter("changes", inspect.Parameter.VAR_KEYWORD)]
+        obj.__signature__ = shown.replace(parameters=rest)
+
+
+def _name_settings(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Name the settings of an entry in one sentence, and list them in one place."""
+    if "**changes" not in lines or name == SETTINGS_AT:
+        return
+    end = begin = lines.index("**changes")
+    named = re.compile(rf"({'|'.join(setting_names())}) : ")
+    while begin >= 2 and named.match(lines[begin - 2]):
+        begin -= 2
+    if begin == end:
+        return
+    names = ", ".join(f"``{line.split(' : ')[0]}``" for line in lines[begin:end:2])
+    lines[end + 1] = lines[end + 1].replace("as listed above", f"as for `{SETTINGS_AT}`: {names}")
+    del lines[begin:end]
+
+
+def _whole_sentences(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Give back to a first sentence what napoleon took for a type, since it stands before a colon."""
+    begin = ":type: "
+    if what in ("attribute", "data", "property") and lines and (last := lines[-1] or lines[-2]).startswith(begin):
+        while lines.pop() != last:
+            pass
+        lines[0] = f"{last.removeprefix(begin)}: {lines[0]}"
+
+
 def _play(app: Sphinx, error: Exception | None) -> None:
     """Write the live page that stands at the head of the site."""
     if error is None and app.builder.format == "html":
@@ -113,6 +155,9 @@ def setup(app: Sphinx) -> None:
     """Connect what is written here."""
     app.connect("build-finished", _play)
     app.connect("source-read", _navigate)
+    app.connect("autodoc-before-process-signature", _short_signature)
+    app.connect("autodoc-process-docstring", _name_settings, priority=400)  # before napoleon reads it
+    app.connect("autodoc-process-docstring", _whole_sentences, priority=600)
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
 
 
