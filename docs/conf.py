@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import inspect
 import re
+from dataclasses import is_dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from docutils import nodes
 from docutils.utils.math import latex2mathml
 
 from symgen import __version__, load
-from symgen.base.settings import setting_names
+from symgen.base.settings import Settings, setting_names
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -136,8 +137,22 @@ def _name_settings(app: Sphinx, what: str, name: str, obj: Any, options: Any, li
     del lines[begin:end]
 
 
+def _without_fields(
+    app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returned: str | None
+) -> tuple[str, str | None] | None:
+    """Leave out the constructors of results: their fields are listed below, and nobody calls them."""
+    if what == "class" and is_dataclass(obj) and obj is not Settings and app.env.docname == "docs/api":
+        return "", None
+    return signature and (signature.replace("<factory>", "{}"), returned)  # what does not parse is set in one line
+
+
+#: Fields that share a sentence; Sphinx would take all but the last for a type.
+_SHARED = re.compile(r"(?<=^:ivar )(?:\w+, )+\w+(?=:)|(?<=^:vartype )(?:\w+, )+\w+(?=:)")
+
+
 def _whole_sentences(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """Give back to a first sentence what napoleon took for a type, since it stands before a colon."""
+    lines[:] = [_SHARED.sub(lambda found: found.group().replace(", ", ","), line) for line in lines]
     begin = ":type: "
     if what in ("attribute", "data", "property") and lines and (last := lines[-1] or lines[-2]).startswith(begin):
         while lines.pop() != last:
@@ -156,6 +171,7 @@ def setup(app: Sphinx) -> None:
     app.connect("build-finished", _play)
     app.connect("source-read", _navigate)
     app.connect("autodoc-before-process-signature", _short_signature)
+    app.connect("autodoc-process-signature", _without_fields)
     app.connect("autodoc-process-docstring", _name_settings, priority=400)  # before napoleon reads it
     app.connect("autodoc-process-docstring", _whole_sentences, priority=600)
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
