@@ -122,6 +122,12 @@ def _names(mechanism: Mechanism) -> tuple[dict[str, str], dict[str, str], dict[s
     return bodies | joints | {x.name: x.name for x in mechanism.states}, bodies, same
 
 
+def hold_name(mechanism: Mechanism, name: str) -> str:
+    """Return the one name under which `holds_of` keeps a quantity."""
+    coordinates, _, same = _names(mechanism)
+    return same.get(coordinates[name], coordinates[name])
+
+
 def holds_of(mechanism: Mechanism, where: str = "start", values: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
     """Return all quantities that a start keeps, each under one name.
 

@@ -23,7 +23,8 @@ from symgen.layout.probe import rate_functions
 from symgen.loopcode.entry import ArgumentBlock
 from symgen.loops.stopping import preparing
 from symgen.rows.stepped_rows import Stepped, over_stepped
-from symgen.running.prepare import Restarts, prepare
+from symgen.running.prepare import prepare
+from symgen.running.restarts import Restarts
 from symgen.runs.changes import begin
 from symgen.runs.run import reason_of
 from symgen.stepping.meter import compiled_formulas

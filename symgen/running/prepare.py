@@ -10,16 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.base.errors import AssemblyError
 from symgen.base.memory import uncollected
-from symgen.base.settings import about
-from symgen.describe.holds import holds_of
-from symgen.layout.start_records import Instant
 from symgen.methods import METHODS
 from symgen.methods.baumgarte import MOTION
 from symgen.running.automatic import (
@@ -36,24 +32,21 @@ from symgen.running.automatic import (
 from symgen.running.continuation import continued
 from symgen.running.inputs import put_inputs
 from symgen.running.plan import Plan, Purpose, resolved
-from symgen.running.starts import DescribedStart, begun, open_start
-from symgen.running.tree import TreeRun, begin_on_tree, carried_of, on_tree_of, over_of, tree_taken_up
+from symgen.running.starts import begun, open_start
+from symgen.running.tree import TreeRun, on_tree_of, tree_taken_up
 from symgen.runs.run import integrate
 from symgen.runs.simulation import Simulation
-from symgen.starts.kept import KeptTree
-from symgen.starts.start_words import turned_over
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from symgen.base.settings import Settings
-    from symgen.describe.mechanism import Hold, Mechanism
+    from symgen.describe.mechanism import Mechanism
     from symgen.layout.compiled import CompiledModel
     from symgen.loops.run_spec import RunSpec
     from symgen.runs.outcome import Outcome
     from symgen.runs.run import Array
     from symgen.starts.assembly import Start
-    from symgen.starts.tree_start import Carried
 
 #: Time over which the rate of a motion is taken [s].
 FIRST = 1.0
@@ -331,7 +324,7 @@ def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
 
 def begin(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
-    run = Prepared(plan, _noted(plan, assembled), plan.spec)
+    run = Prepared(plan, noted(plan, assembled), plan.spec)
     if plan.purpose in (Purpose.STATE, Purpose.DESCRIBED):
         return run
     from symgen.compiling.events import compile_events
@@ -340,80 +333,7 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
     return run.with_spec(stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))
 
 
-def _noted(plan: Plan, assembled: Assembled) -> Assembled:
+def noted(plan: Plan, assembled: Assembled) -> Assembled:
     """Return code and start with the notes of a plan before the notes of the start."""
     start = assembled.start
     return replace(assembled, start=replace(start, notes=(*plan.notes, *plan.bound, *start.notes)))
-
-
-class Restarts:
-    """A run that begins again and again from other values: plan, code, memory and steps stay.
-
-    Parameters
-    ----------
-    run : Prepared
-        The run, not one that goes on from another one.
-    """
-
-    def __init__(self, run: Prepared) -> None:
-        self._run = run
-        self._kept: KeptTree | None = None
-
-    def state(self, start: Mapping[str, float]) -> Instant | None:
-        """Return state and scratch of the run from another start, None where this code does not serve there.
-
-        Parameters
-        ----------
-        start : mapping of str to float
-            Values that the start holds, by name.
-
-        Raises
-        ------
-        InputError, AssemblyError
-            As `prepare`.
-        """
-        if not self._serves:
-            return None
-        closed, light = self._described.state(self._holds(start))
-        if light or (tree := self._run.tree) is None:
-            return None if light else closed
-        if self._kept is None:
-            self._kept = KeptTree(self._carried, closed, tree.start.p)
-        y, w, alike = self._kept.settle(closed.y, closed.w)
-        y[tree.compiled.info.work :] = closed.y[tree.bodies.info.work :]
-        if (over := over_of(alike)) >= 0:
-            raise turned_over(tree.bodies.info, over)
-        return Instant(y, tree.start.p, w)
-
-    def at(self, start: Mapping[str, float]) -> Prepared:
-        """Return the run from another start, where `state` has one, with its notes and changes."""
-        plan, tree = self._run.plan, self._run.tree
-        plan = replace(plan, settings=replace(plan.settings, start=start), holds=self._holds(start))
-        compiled, closed = self._run.assembled.of_bodies[0], self._described.start(plan.holds)
-        assembled = Assembled(compiled, closed)
-        if tree is not None:
-            parts = tree.whole, tree.mechanism, self._carried, closed, plan.method_parameters, plan.events
-            tree = begin_on_tree(*parts)
-            assembled = Assembled(tree.compiled, tree.start, tree)
-        return replace(self._run, plan=plan, assembled=_noted(plan, assembled))
-
-    def _holds(self, start: Mapping[str, float]) -> tuple[Hold, ...]:
-        return holds_of(self._run.plan.mechanism, "start", about("start").check("start", start))
-
-    @cached_property
-    def _serves(self) -> bool:
-        """Whether the code is the plan's own and begins at time 0."""
-        plan, (compiled, _) = self._run.plan, self._run.assembled.of_bodies
-        return plan.last is None and compiled.law.options.get("solver") == plan.choice.options.get("solver")
-
-    @cached_property
-    def _described(self) -> DescribedStart:
-        plan, (compiled, _) = self._run.plan, self._run.assembled.of_bodies
-        settings = plan.parameters, plan.method_parameters, plan.settings.strict
-        return DescribedStart(plan.mechanism, compiled, *settings, plan.solver_is_free)
-
-    @cached_property
-    def _carried(self) -> Carried:
-        tree = self._run.tree
-        assert tree is not None, "the state is that of joints"
-        return carried_of(tree.whole, tree.mechanism, tree.bodies, tree.compiled)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple
@@ -14,21 +14,19 @@ from symgen.compiling.side import with_integrals
 from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.lengths import datum_of
-from symgen.describe.sides import wrong_sides
+from symgen.describe.sides import sides_of, wrong_sides
 from symgen.describe.start import described_start, moved
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.model_arrays import lengths_of, velocity_of
 from symgen.layout.start_records import Instant
 from symgen.starts.assembler import Assembly
-from symgen.starts.assembly import Start, closed_start, closed_state
+from symgen.starts.assembly import Start, closed_start, closed_state, described_state
 from symgen.starts.held import Held
 from symgen.starts.kept import KeptStart
 from symgen.starts.start_words import half_turn, opposite
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from numpy.typing import NDArray
 
     from symgen.compiling.pipeline import MethodChoice
@@ -74,6 +72,10 @@ def start_of(
     """
     described = DescribedStart(mechanism, compiled, parameters, method_parameters, strict, ask_light)
     return described.start(holds_of(mechanism) if held is None else held, near)
+
+
+#: Values of what a start holds -> the start; None where it has to be reported on.
+Again = Callable[[Sequence[float]], "Instant | None"]
 
 
 class DescribedStart:
@@ -139,15 +141,66 @@ class DescribedStart:
         AssemblyError, InputError
             As `start_of`.
         """
-        mechanism, compiled = self.mechanism, self.compiled
-        held, p = held_of(compiled.info, holds, self._numbers, self._v, self._indices), self._p.copy()
-        if (kept := self._kept.get(held.pattern)) is None:
-            kept = self._kept[held.pattern] = KeptStart(self._assembly(held), p)
+        mechanism, compiled, p = self.mechanism, self.compiled, self._p.copy()
+        held = held_of(compiled.info, holds, self._numbers, self._v, self._indices)
+        kept = self._kept_start(held)
         y, w, summary = closed_state(compiled, held, partial(kept.close, held), self._q, self._velocities.copy(), p)
         _opposite_sides(mechanism, compiled.info, y)
         if mechanism.states:
             y[compiled.info.own_states] = states_at_start(mechanism, self._numbers, holds)
         return Instant(y, p, w), bool(summary[e.LIGHT])
+
+    def again(self, holds: Sequence[Hold], names: Sequence[str]) -> Again | None:
+        """Return the function of starts that differ from one in the values of some held quantities.
+
+        Parameters
+        ----------
+        holds : sequence of Hold
+            Quantities that are held while all others move.
+        names : sequence of str
+            Those among them whose values are arguments.
+
+        Returns
+        -------
+        function or None
+            Values -> a start with the bits of `state`, in memory that the next call overwrites, or None where `state`
+            has more to report. No function where a value is no coordinate or velocity.
+        """
+        mechanism, info, indices = self.mechanism, self.compiled.info, self._indices
+        held = held_of(info, holds, self._numbers, self._v, indices)
+        kept, velocities = self._kept_start(held), self._velocities.copy()
+        velocities[list(held.velocities)] = list(held.velocities.values())
+        numbers = np.array([*velocities, *held.targets])
+        order = [*held.coordinates, *(("value", k) for k in held.joints), *(("rate", k) for k in held.rates)]
+        places = list[int]()
+        for name in names:
+            of = name.removesuffix(".rate")
+            if name in indices.velocities:
+                places.append(indices.velocities[name])
+            elif name in indices.coordinates:
+                places.append(info.nv + order.index(indices.coordinates[name]))
+            elif of in indices.joints:
+                places.append(info.nv + order.index(("value" if of == name else "rate", indices.joints[of])))
+            else:
+                return None
+        described, states = described_state(info, self._q), states_at_start(mechanism, self._numbers, holds)
+        sides, v, targets = sides_of(mechanism), numbers[: info.nv], numbers[info.nv :]
+
+        def closed(values: Sequence[float]) -> Instant | None:
+            numbers[places] = values
+            now, summary = kept.enter(described, v, targets)
+            if summary[e.START] != e.ASSEMBLED or summary[e.LIGHT] or any(side.cosine(now.y) < 0.0 for side in sides):
+                return None
+            if states:
+                now.y[info.own_states] = states
+            return now
+
+        return closed
+
+    def _kept_start(self, held: Held) -> KeptStart:
+        if (kept := self._kept.get(held.pattern)) is None:
+            kept = self._kept[held.pattern] = KeptStart(self._assembly(held), self._p.copy())
+        return kept
 
     @cached_property
     def _indices(self) -> Indices:

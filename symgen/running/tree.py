@@ -420,6 +420,8 @@ def settled(carried: Carried, of_bodies: Instant, now: Instant) -> int:
 
 def over_of(alike: Array) -> int:
     """Return the first body in space that would start turned over, -1 for none, from products of Euler parameters."""
+    if not len(alike):
+        return -1
     over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
     return int(over[0]) if len(over) else -1
 

@@ -220,7 +220,7 @@ def closed_state(
     AssemblyError, InputError
         As `assemble`.
     """
-    info, y = compiled.info, _described(compiled.info, q)
+    info, y = compiled.info, described_state(compiled.info, q)
     w, summary = close(y, velocities, p)
     if summary[e.START] != e.ASSEMBLED:
         error = without_derivative(compiled, q, p) or refusal(summary, info, held)
@@ -259,7 +259,7 @@ def moved_far(
     info, length = start.compiled.info, float(w[abi.LENGTH])
     if not changes:
         return ()
-    values = joint_values(start.compiled, start.t, _described(info, q), p, w.copy()) if held.joints else q
+    values = joint_values(start.compiled, start.t, described_state(info, q), p, w.copy()) if held.joints else q
     distances = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
     distances += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED}
@@ -268,6 +268,6 @@ def moved_far(
     return warnings_of(changes, info, length, moved(q, y[: info.nq]) if moved else ())
 
 
-def _described(info: ModelInfo, q: Array) -> Array:
+def described_state(info: ModelInfo, q: Array) -> Array:
     """Return a state at rest with these coordinates."""
     return np.concatenate([q, np.zeros(info.ny - info.nq)])

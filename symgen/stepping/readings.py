@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.base import arguments
 from symgen.layout import abi
-from symgen.running.prepare import Restarts
+from symgen.running.restarts import Restarts
 from symgen.runs.events import EventRecord, record_of
 from symgen.stepping.advance import Advance
 from symgen.stepping.history import History

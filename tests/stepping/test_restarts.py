@@ -6,7 +6,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import AssemblyError, InputError
-from symgen.running import prepare
+from symgen.running import prepare, restarts
 from symgen.starts import kept
 
 #: A pendulum with a state of its own and an input.
@@ -48,6 +48,42 @@ def test_another_start_is_that_of_a_fresh_run(name, monkeypatch):
             assert sim.bodies == other.bodies and result.notes == expected.notes and result.start == expected.start
     sim.reset()
     assert sim.t == 0.0 and sim.bodies == model.start(**settings).bodies
+
+
+ALIKE = {
+    "loop": {"crank.theta": 1.2, "crank.omega": 3.0},
+    "joint": {"O.rate": 1.0, "O.angle": 0.3},
+    "tree": {"crank.theta": 1.2},
+    "space": {"upper.wy": 2.0, "upper.wx": 0.5},
+}
+
+
+@pytest.mark.parametrize("name", ALIKE)
+def test_a_start_that_differs_in_values_alone_is_that_of_a_fresh_run(name, monkeypatch):
+    described, settings, _ = RUNS[name]
+    model = symgen.load(described)
+    sim = model.start(**settings)
+    sim.reset(ALIKE[name])
+    others = [{key: factor * x for key, x in ALIKE[name].items()} for factor in (1.1, 0.9, 1.0)]
+    fresh = [model.start(start=start, **settings) for start in others]
+    monkeypatch.setattr(restarts, "holds_of", None)  # names are looked up once
+    for start, other in zip(others, fresh, strict=True):
+        sim.reset(start)
+        for array, expected in zip(sim.save().arrays.items(), other.save().arrays.items(), strict=True):
+            np.testing.assert_array_equal(array[1], expected[1], err_msg=array[0])
+
+
+def test_a_start_that_differs_in_values_alone_may_be_refused():
+    sim = symgen.load("four-bar").start(**CONSTANT)
+    sim.reset({"rocker.theta": 2.2})
+    before = sim.bodies
+    with pytest.raises(AssemblyError, match="stays open"):
+        sim.reset({"rocker.theta": 1.5})
+    with pytest.raises(InputError, match="a finite number"):
+        sim.reset({"rocker.theta": float("nan")})
+    assert sim.bodies == before
+    sim.reset({"rocker.theta": 2.2})
+    assert sim.bodies == before
 
 
 def test_starts_from_optimised_code_have_the_same_bits(monkeypatch):
