@@ -22,6 +22,7 @@ from rich.table import Table
 
 from benchmarks.show import show
 from symgen.api import Model, load
+from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.describe.lifted import lifted
 from symgen.describe.origins import origin_of
@@ -107,7 +108,7 @@ def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
         lambda: objective(objective.x0 * (1.0 + 1e-15 * next(following))),
         lambda: whole.simulate(ending),
     )
-    kept, more = last.run.kept, gradient - simulation - (keeping + back - plain)
+    kept, more = last.run.bytes_of_steps, gradient - simulation - (keeping + back - plain)
     cells = name, coordinates, method, str(len(names)), str(last.run.state.control[abi.STEPS]), f"{1e3 * plain:.1f}"
     ratios = (f"{x / plain:.2f}" for x in (keeping, back, keeping + back))
     sizes = f"{kept / 1e6:.1f}", f"{kept / 1e3 / last.run.state.control[abi.STEPS]:.1f}"
@@ -141,8 +142,11 @@ def main() -> None:
     for name in own.models:
         for coordinates in own.coordinates.split(","):
             for method in own.method.split(","):
-                table.add_row(*measure(name, coordinates, method, own.pairs))
-                print(table.rows and " | ".join(str(c) for c in [col._cells[-1] for col in table.columns]), flush=True)
+                try:
+                    row = measure(name, coordinates, method, own.pairs)
+                except InputError as error:
+                    row = [name, coordinates, method, error.got]
+                table.add_row(*row)
     show(table)
 
 

@@ -19,6 +19,7 @@ from symgen.result.build import build_result
 from symgen.result.evaluated import Evaluated
 from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of, prepared
 from symgen.running.directions import Direction, named_directions
+from symgen.running.moving_breaks import with_moving_kinks
 from symgen.running.start_directions import StartDirections
 from symgen.runs.adjoint import Adjoint, Uncovered, run_for_adjoint
 from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
@@ -96,8 +97,8 @@ class AdjointGradient:
         Its unit.
     slopes : Array
         Derivatives, in the order of the names.
-    kept : int
-        Bytes of the steps that were kept.
+    memory : int
+        Bytes of the stages of all steps.
     directions : tuple of Direction
         What it is differentiated by.
     run, result : Prepared, Result
@@ -107,7 +108,7 @@ class AdjointGradient:
     value: float
     unit: str
     slopes: Array
-    kept: int
+    memory: int
     directions: tuple[Direction, ...]
     run: Prepared
     result: Result
@@ -146,6 +147,7 @@ def adjoint_gradient(
     """
     run, notes = prepared(mechanism, settings)
     start = StartDirections(run, named_directions(run, keys))
+    run = with_moving_kinks(run, start)
     if quick and run.compiled.law.operations.get("rhs", 0) > LARGEST:
         raise Uncovered("adjoint", f"at most {LARGEST} operations, as more take long to compile", "more")
     adjoint = run_for_adjoint(run.compiled, run.plan.integrator, run.start, run.spec, pages=pages)
@@ -171,4 +173,4 @@ def adjoint_gradient(
     if result.status == "ok" and (doubt := doubt_of_motion(result)):
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])
-    return AdjointGradient(value, unit, slopes, adjoint.run.kept, start.directions, run, result)
+    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_of_steps, start.directions, run, result)

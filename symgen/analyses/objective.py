@@ -54,7 +54,7 @@ class Gradient:
         The run, whose status says how far it can be trusted.
     way : {"forward", "adjoint"}
         How the derivatives were found.
-    kept : int
+    memory : int
         Bytes of the steps that the adjoint went back through.
     """
 
@@ -64,7 +64,7 @@ class Gradient:
     units: Mapping[str, str]
     result: Result
     way: str = "forward"
-    kept: int = 0
+    memory: int = 0
 
     def __repr__(self) -> str:
         return f"<Gradient of {self.value:.6g}: " + ", ".join(f"{name} {x:.6g}" for name, x in self.by.items()) + ">"
@@ -186,7 +186,7 @@ class Objective:
         adjoint = adjoint_gradient(*named, self._quick, self._pages)
         slopes = dict(zip(self.names, adjoint.slopes.tolist(), strict=True))
         units = {name: over(adjoint.unit, d.unit) for name, d in zip(self.names, adjoint.directions, strict=True)}
-        gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.kept)
+        gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.memory)
         return gradient, adjoint.directions, adjoint.run
 
     def _pair(self, gradient: Gradient) -> tuple[float, Array]:

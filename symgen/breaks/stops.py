@@ -93,6 +93,17 @@ def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]
     return tuple(result)
 
 
+def beside(stops: tuple[Stop, ...], times: Sequence[float], until: float) -> tuple[Stop, ...]:
+    """Return stops on both sides of some times, in place of stops at these without changes of numbers."""
+    apart, result = _BESIDE * until, list[Stop]()
+    for stop in stops:
+        if stop.values or stop.t == 0.0 or not any(abs(stop.t - t) < apart for t in times):
+            result.append(stop)
+        else:
+            result += [Stop(t, {}) for t in (stop.t - apart, stop.t + apart) if 0.0 < t < until]
+    return tuple(result)
+
+
 @dataclass(frozen=True)
 class Foreseen:
     """Foreseen discontinuities of the formulas of a mechanism; false without any.

@@ -15,12 +15,14 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.compiling.side import compile_side
+from symgen.describe.kinks import discontinuities_of
 from symgen.describe.readings import TABLES as FORMULAS
 from symgen.describe.stops import refuse_bounds
 from symgen.integrators import INTEGRATORS
 from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
 from symgen.running.directions import named_directions
+from symgen.running.moving_breaks import with_moving_kinks
 from symgen.running.prepare import Prepared, preparation
 from symgen.running.start_directions import StartDirections
 from symgen.runs.directions import Course, run_with_directions
@@ -77,10 +79,10 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
     run = ready.run()
     watched = run.spec.events
-    if watched is not None and (watched.jumps or watched.rows is not None):
-        raise InputError(
-            "sensitivities", "a run without jumps of formulas", "formulas that jump where the state passes zero"
-        )
+    if any(x.jumps for x in discontinuities_of(run.plan.mechanism)) or (watched and watched.rows is not None):
+        expected, got = "a run without jumps of formulas", "formulas that jump where the state passes zero"
+        hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"
+        raise InputError("sensitivities", expected, got, hint)
     return run, tuple(notes)
 
 
@@ -104,9 +106,10 @@ class Differentiated:
     """
 
     def __init__(self, mechanism: Mechanism, settings: Settings, names: Mapping[str, str]) -> None:
-        self.run, self._notes = prepared(mechanism, settings)
-        self.directions = named_directions(self.run, names)
-        self._start = StartDirections(self.run, self.directions)
+        run, self._notes = prepared(mechanism, settings)
+        self.directions = named_directions(run, names)
+        self._start = StartDirections(run, self.directions)
+        self.run = with_moving_kinks(run, self._start)
         self._course: Course | None = None
 
     def integrate(self, progress: Callable[[float], None] | None = None) -> Outcome:

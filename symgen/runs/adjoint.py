@@ -190,14 +190,14 @@ class KeptRun(Simulation):
                 piece[self.size :] = self.state.memory[self._first + HEAD :][: count * self.size]
                 self.pieces.append(piece)
                 self.state.memory[self._first] = 0.0
-            if self.kept > MOST_KEPT:
+            if self.bytes_of_steps > MOST_KEPT:
                 raise _refusal(f"stages of at most {MOST_KEPT >> 30} GiB", "more", "take larger tolerances or steps")
             if code != abi.PAUSED or self.state.control[abi.STEPS] >= pause:
                 return code
 
     @property
-    def kept(self) -> int:
-        """Bytes of all kept steps."""
+    def bytes_of_steps(self) -> int:
+        """Bytes of the stages of all steps."""
         return sum(piece.nbytes for piece in self.pieces)
 
 

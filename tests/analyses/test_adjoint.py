@@ -40,7 +40,7 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinate
         assert found.by == pytest.approx({name: by[place] for name, by in BY_NAME.items()}, rel=1e-11)
         assert found.way == "adjoint"
         assert found.result.ok
-        assert found.kept > 1000
+        assert found.memory > 1000
 
 
 @pytest.mark.parametrize("quantity", ["rod.theta", "length**2/3*rod.omega**2", "rod.alpha"])
@@ -90,7 +90,7 @@ def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
     monkeypatch.setattr(adjoint, "_PIECE", 1 << 11)
     parts = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
     assert parts.by == whole.by
-    assert parts.kept > whole.kept  # the last step before each part stands in front of it
+    assert parts.memory > whole.memory  # the last step before each part stands in front of it
     monkeypatch.setattr(adjoint, "MOST_KEPT", 1 << 13)
     with pytest.raises(InputError, match="take larger tolerances or steps"):
         four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
