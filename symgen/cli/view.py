@@ -117,7 +117,7 @@ def command(
             result = model.simulate(settings, progress=bar)
         if not len(result.t):
             return complain(f"failed: {result.reason}", FAILURE)
-        shown = playable_motion(result) if film else result.view(live=live is not False)
+        shown = playable_motion(result) if film else result.view(live=live is not False and _live(settings))
     if isinstance(shown, Page):
         shown.save(file)
     else:
@@ -130,6 +130,17 @@ def command(
     if result is not None and result.interrupted:
         return complain("interrupted; the page shows what was kept", INTERRUPTED)
     return complain(f"failed: {result.reason}", FAILURE) if result is not None and result.status == "failed" else OK
+
+
+def _live(settings: Settings) -> bool | str:
+    """Return the live method of a page: the one that was named, whose gains have sliders, if pages can run it."""
+    from symgen.methods import METHODS
+    from symgen.result.viewed import is_live
+    from symgen.running.automatic import AUTO
+
+    if not is_set(settings, "method") or settings.method == AUTO:
+        return True
+    return settings.method if is_live(METHODS.canonical(settings.method, "--method")) else True
 
 
 def _refuse(settings: Settings, allowed: Collection[str], what: str) -> None:

@@ -16,6 +16,7 @@ from symgen.describe.evaluate import independent_values, parameter_values
 from symgen.describe.events import DOES
 from symgen.describe.inputs import are_words_of_data
 from symgen.describe.mechanism import ACCELERATIONS
+from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
 from symgen.methods import METHODS
 from symgen.player.live import NONE, Live, live_part
@@ -38,6 +39,10 @@ if TYPE_CHECKING:
     from symgen.running.tree import TreeRun
 
 
+#: The scheme of pages.
+LIVE_INTEGRATOR = "rk4"
+
+
 def view(result: MotionTables, beside: MotionTables | None = None, live: bool | str = True) -> Page:
     """Return the page of a motion.
 
@@ -53,13 +58,21 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool | 
     Raises
     ------
     InputError
-        If the motions are of different mechanisms, or have no outputs, or there is no such method.
+        If the motions are of different mechanisms, or have no outputs, or pages do not run the method.
     """
     first, second = playable_motion(result), None if beside is None else playable_motion(beside)
     if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
     method = METHODS.canonical(live, "live") if isinstance(live, str) else ""
+    if method and not is_live(method):
+        expected = f"a method that '{LIVE_INTEGRATOR}' solves, as pages run no other scheme"
+        raise InputError("live", expected, f"'{live}'")
     return page(first, *(_live(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
+
+
+def is_live(method: str) -> bool:
+    """Whether pages can run a method: its law has to be one for their scheme."""
+    return bool(set(METHODS.get(method).forms) & set(INTEGRATORS.get(LIVE_INTEGRATOR).forms))
 
 
 def playable_motion(result: MotionTables) -> Recording:

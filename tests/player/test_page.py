@@ -106,6 +106,26 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     assert data_of((tmp_path / "b.html").read_text())["live"] is not None
 
 
+@pytest.mark.parametrize(
+    ("method", "live", "gains"),
+    [("baumgarte", "baumgarte", ["method.alpha", "method.beta"]), ("ggl", "direct-correction", [])],
+)
+def test_the_live_method_of_a_command_is_the_one_that_it_names(
+    tmp_path: Path, method: str, live: str, gains: list[str]
+) -> None:
+    """Where pages can run it; a page of an implicit method keeps the usual one."""
+    page = tmp_path / "a.html"
+    assert main(["view", "pendulum", "--until", "0.1", "--method", method, "-o", str(page)]) == 0
+    found = data_of(page.read_text())["live"]
+    assert found["method"] == live
+    assert [p["name"] for p in found["parameters"] if "." in p["name"]] == gains
+
+
+def test_a_page_runs_no_method_that_its_scheme_does_not_solve(result: Any) -> None:
+    with pytest.raises(InputError, match="live: expected a method that 'rk4' solves, as pages run no other scheme"):
+        result.view(live="ggl")
+
+
 def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any) -> None:
     mechanism = load("slider-crank").mechanism
     result.save(tmp_path / "a.nc")
