@@ -28,7 +28,10 @@ from symgen.lower.scalar_values import Rows
 
 @dataclass(frozen=True)
 class _Fixed:
-    """Fixed velocities that have been eliminated: B^-1, entries of M among them, of others with them, B^-1 D."""
+    """Fixed velocities that have been eliminated: B^-1, entries of M among them, of others with them, N = B^-1 D.
+
+    `weighed` are the entries of M N less those of M with others.
+    """
 
     columns: tuple[int, ...]
     rows: tuple[int, ...]
@@ -37,6 +40,7 @@ class _Fixed:
     beside: dict[int, list[int]]
     with_rows: dict[int, list[int]]
     motion: dict[int, list[int]]
+    weighed: dict[int, list[int]]
 
 
 @dataclass(frozen=True)
@@ -117,23 +121,23 @@ class SaddleMatrix:
             for x in (*columns, *rows):
                 k[i].pop(x, None)
         motion = {i: [g.dot(line, x) for line in inverse] for i, x in with_rows.items()}
-        weighed = {i: [g.dot(line, x) for line in mass] for i, x in motion.items()}
+        none = [g.zero] * len(columns)
+        weighed = {i: self._less([g.dot(line, x) for line in mass], beside.get(i, none)) for i, x in motion.items()}
         touched = sorted({*beside, *motion})
         for a, i in enumerate(touched):
             for j in touched[a:]:
                 if i not in motion and j not in motion:
                     continue
                 node = before = k[i].get(j, g.zero)
-                if i in motion and j in motion:
-                    node = g.add(node, g.dot(weighed[i], motion[j]))
-                if i in beside and j in motion:
-                    node = g.sub(node, g.dot(beside[i], motion[j]))
-                if j in beside and i in motion:
-                    node = g.sub(node, g.dot(motion[i], beside[j]))
+                one, other = (i, j) if i in motion else (j, i)
+                if other in motion:
+                    node = g.add(node, g.dot(weighed[one], motion[other]))
+                if other in beside:
+                    node = g.sub(node, g.dot(motion[one], beside[other]))
                 self.changed |= {(i, j), (j, i)}
                 if node != before:
                     self._set(i, j, self.simpler(node))
-        self.fixed.append(_Fixed(columns, rows, inverse, mass, beside, with_rows, motion))
+        self.fixed.append(_Fixed(columns, rows, inverse, mass, beside, with_rows, motion, weighed))
         return touched
 
     def close(self, block: FixedVelocities) -> tuple[int, int]:
@@ -152,6 +156,9 @@ class SaddleMatrix:
     def columns(self, row: int) -> tuple[int, ...]:
         """Return the velocities left over in a row."""
         return tuple(sorted(i for i in self.entries[self.nv + row] if i < self.nv))
+
+    def _less(self, one: Sequence[int], other: Sequence[int]) -> list[int]:
+        return [self.graph.sub(a, b) for a, b in zip(one, other, strict=True)]
 
     def _inverse(self, matrix: list[list[int]]) -> list[list[int]]:
         g = self.graph
@@ -197,6 +204,18 @@ class SaddleMatrix:
             self.solutions[f, gamma] = self._solve(f, gamma)
         return self.solutions[f, gamma]
 
+    def _once(self, step: _Fixed) -> bool:
+        """Whether M times the velocities known from rows is cheaper with M N, which is there, than for itself."""
+        zero = self.graph.zero
+        alone = sum(x != zero for line in step.mass for x in line)
+        none = [zero] * len(step.columns)
+        more = sum(
+            x != zero and y == zero
+            for i, w in step.weighed.items()
+            for x, y in zip(w, step.beside.get(i, none), strict=True)
+        )
+        return more < alone
+
     def _solve(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
         return self.completed((*f, *gamma), self.rest((*f, *gamma)))
 
@@ -205,11 +224,18 @@ class SaddleMatrix:
         g, b = self.graph, list(given)
         for step in (*self.fixed, *self.loops):
             known = [g.dot(line, [b[r] for r in step.rows]) for line in step.inverse]
-            force = [g.sub(b[c], g.dot(line, known)) for c, line in zip(step.columns, step.mass, strict=True)]
-            for i, entries in step.beside.items():
-                b[i] = self.simpler(g.sub(b[i], g.dot(entries, known)))
-            for i, entries in step.motion.items():
-                b[i] = self.simpler(g.sub(b[i], g.dot(entries, force)))
+            right = [b[c] for c in step.columns]
+            if self._once(step):
+                for i, entries in step.motion.items():
+                    b[i] = self.simpler(g.add(g.sub(b[i], g.dot(entries, right)), g.dot(step.weighed[i], known)))
+                others = step.beside.keys() - step.motion.keys()
+            else:
+                force = self._less(right, [g.dot(line, known) for line in step.mass])
+                for i, entries in step.motion.items():
+                    b[i] = self.simpler(g.sub(b[i], g.dot(entries, force)))
+                others = step.beside.keys()
+            for i in sorted(others):
+                b[i] = self.simpler(g.sub(b[i], g.dot(step.beside[i], known)))
         for single in self.singles:
             for i, factor in single.factors.items():
                 b[i] = (g.sub if single.sign > 0 else g.add)(b[i], g.mul(factor, b[single.unknown]))
