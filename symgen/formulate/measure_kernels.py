@@ -155,6 +155,26 @@ _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
 }
 
 
+def _by_velocities(bias: Any, frames: Frames) -> Any:
+    """Return a sum of products with those of equal velocities together, whose factors are entries of other rows.
+
+    Others, and those of space, stay as they are: their common parts are symbols already.
+    """
+    if any(isinstance(each, SpatialFrame) for each in frames) or not bias.is_polynomial():
+        return bias
+    moving = {v for each in frames for v in each.velocities}
+    gathered: dict[Any, list[Any]] = {}
+    for term in sp.Add.make_args(bias):
+        speeds, others = sp.Mul(*()), sp.Mul(*())
+        for factor in sp.Mul.make_args(term):
+            if factor.free_symbols <= moving and not factor.is_number:
+                speeds *= factor
+            else:
+                others *= factor
+        gathered.setdefault(speeds, []).append(others)
+    return sp.Add(*(sp.Mul(sp.Add(*others), speeds, evaluate=False) for speeds, others in gathered.items()))
+
+
 @cache
 def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     """Derive the kernel of a measure.
@@ -181,7 +201,7 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     value = build(tuple(unique[slot] for slot, _ in frames), tuple(constants))
     rate = value if is_rate else along_motion(value, ordered)
     row = tuple(tuple(part.column_entries(rate)) for part in ordered)
-    bias = along_motion(rate, ordered)
+    bias = _by_velocities(along_motion(rate, ordered), ordered)
 
     graph = Graph()
     nodes_of: dict[Any, int] = {}

@@ -175,14 +175,15 @@ class ModelNodes(Formulas):
         """Return a row over the velocities of the state, its quadratic velocity term and the drivers' part of J v."""
         if self.tree is None:
             return dict(row), bias, self.graph.zero
-        g, pulled, drift = self.graph, dict[int, int](), self.graph.zero
+        g, pulled = self.graph, dict[int, int]()
+        drift, carried = g.zero, g.zero
         for i, node in sorted(row.items()):
             for j, entry in sorted(self.tree.columns[i].items()):
                 pulled[j] = g.add(pulled.get(j, g.zero), g.mul(node, entry))
-            bias = g.add(bias, g.mul(node, self.tree.biases[i]))
+            carried = g.add(carried, g.mul(node, self.tree.biases[i]))
         for j in sorted(j for j in pulled if j < 0):
             drift = g.add(drift, g.mul(pulled.pop(j), self.tree.coordinates[j].rate))
-        return {j: node for j, node in pulled.items() if node != g.zero}, bias, drift
+        return {j: node for j, node in pulled.items() if node != g.zero}, g.add(carried, bias), drift
 
     # -- measures ----------------------------------------------------------------------------------------------------
 
