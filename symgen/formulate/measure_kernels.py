@@ -165,7 +165,7 @@ def _by_velocities(bias: Any, frames: Frames) -> Any:
     moving = {v for each in frames for v in each.velocities}
     gathered: dict[Any, list[Any]] = {}
     for term in sp.Add.make_args(bias):
-        speeds, others = sp.Mul(*()), sp.Mul(*())
+        speeds = others = sp.S.One
         for factor in sp.Mul.make_args(term):
             if factor.free_symbols <= moving and not factor.is_number:
                 speeds *= factor

@@ -67,7 +67,7 @@ class SaddleMatrix:
     rows : Rows
         D.
     simpler : callable, optional
-        Returns a cheaper node of the same value, for every entry and right-hand side that changes.
+        Returns a cheaper node of the same value, for entries of M, and every entry and right-hand side that changes.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class SaddleMatrix:
         self.graph, self.nv, self.simpler = graph, nv, simpler or (lambda node: node)
         self.entries: list[dict[int, int]] = [{} for _ in range(nv + len(rows))]
         for (i, j), node in mass.items():
-            self._set(i, j, node)
+            self._set(i, j, self.simpler(node))
         for r, row in enumerate(rows, nv):
             for c, node in row:
                 self._set(r, c, node)
@@ -217,7 +217,8 @@ class SaddleMatrix:
         return more < alone
 
     def _solve(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
-        return self.completed((*f, *gamma), self.rest((*f, *gamma)))
+        given = tuple(map(self.simpler, (*f, *gamma)))
+        return self.completed(given, self.rest(given))
 
     def rest(self, given: Nodes) -> dict[int, int]:
         """Return the unknowns that no row alone fixes, linear in the right-hand side."""
