@@ -42,6 +42,8 @@ Array = NDArray[np.float64]
 MOST_CHOICES = 500
 #: Least squared sine of the angle between the two columns of a loop at the start; see `PARALLEL`.
 LEAST_SINE = 0.02
+#: Least singular value of rows that are independent, over their largest entry.
+DEPENDENT = 1e-9
 #: The first choice with this part of the best one's least squared sine is taken.
 NEARLY_BEST = 0.25
 
@@ -86,6 +88,9 @@ def free_velocities(mechanism: Mechanism) -> tuple[int, ...]:
         d = _constraints(mechanism, info, model)
     except (ArithmeticError, ValueError, InputError):  # of a start that is refused elsewhere
         return ()
+    own = [i for i in range(info.m) if i not in info.bounded]
+    if np.linalg.matrix_rank(d[own], DEPENDENT * np.abs(d).max()) < len(own):
+        return ()  # a row that is left out may be that of a loop
     left = _behind_fixed(info, d)
     sines = {free: _least_sine(info, left, free) for free in combinations(sorted(every), count)}
     best = max(sines.values())

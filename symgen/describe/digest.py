@@ -87,6 +87,7 @@ def identity(mechanism: Mechanism) -> str:
         ", switchable=()",
         ", frictions=()",
         ", pressed=()",
+        ", across=()",
         ", speed=None",
         ", stops=()",
     ):

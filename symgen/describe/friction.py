@@ -18,11 +18,24 @@ from symgen.describe.fields import Scalar, read_table, words_of
 from symgen.describe.mechanism import EndStop, Event, Friction, Joint, Mechanism, Output
 from symgen.describe.scope import Scope
 from symgen.ir.program import JAMMING, MODE_NUMBERS, MODES
-from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings
-from symgen.vocabulary.measures import Driven, Effort, Exerted, Holonomic, Integral, Measure, Sum
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, dot, readings
+from symgen.vocabulary.measures import (
+    GROUND,
+    Dot,
+    Driven,
+    Effort,
+    Exerted,
+    Holonomic,
+    Integral,
+    Measure,
+    Sum,
+    Turn,
+    axes,
+)
 
-#: Kinds of joints in the plane whose rows of forces are the components of a reaction.
+#: Kinds of joints, in the plane and in space, whose rows of forces are the components of a reaction.
 REACTING = ("revolute", "translational", "pin-in-slot")
+REACTING_IN_SPACE = ("revolute", "translational", "cylindrical")
 #: Action of events at which modes are chosen anew.
 MODE = "mode"
 #: Last words of their names: rest ends, a rate passes zero, rest begins.
@@ -39,7 +52,7 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     sliding : scalar
         Force or torque in motion [N or N m].
     coefficient : scalar
-        In place of `sliding`, force in motion over the size of the joint's reaction.
+        In place of `sliding`, force in motion over the size of the joint's reaction, in space across its axis.
     static_coefficient : scalar
         The same at rest; `coefficient` by default.
     radius : scalar
@@ -168,6 +181,7 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
         viscous=bound("viscous", section.viscous),
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
         pressed=pressed,
+        across=_across(measure, pressed),
         speed=scope.constant(f"{key}.speed", section.speed, positive=True) if section.speed is not None else None,
     )
 
@@ -189,11 +203,10 @@ def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: Friction
         raise scope.error(key, expected, got)
     if not of_reaction:
         return ()
-    if scope.spatial:
-        raise scope.error(f"{key}.coefficient", "friction by the reaction in the plane", "a mechanism in space")
+    kinds = REACTING_IN_SPACE if scope.spatial else REACTING
     rows = tuple(f"{joint.name}.{row.label}" for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m")
-    if not rows or joint.kind not in REACTING:
-        expected = f"friction by the reaction of a joint among {', '.join(REACTING)}"
+    if not rows or joint.kind not in kinds:
+        expected = f"friction by the reaction of a joint among {', '.join(kinds)}"
         raise scope.error(f"{key}.coefficient", expected, f"a {joint.kind} joint")
     turns = joint.unit(label) == "rad"
     if turns and section.radius is None:
@@ -201,6 +214,14 @@ def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: Friction
     if not turns and section.radius is not None:
         raise scope.error(f"{key}.radius", "no radius, as the coordinate is a displacement", f"{section.radius}")
     return rows
+
+
+def _across(measure: Measure, pressed: Sequence[str]) -> tuple[tuple[Measure, ...], ...]:
+    """Return the cosines of the axes of ground with two directions across the axis of a hinge in space."""
+    if len(pressed) < 3:
+        return ()
+    assert isinstance(measure, Turn), "a joint with three forces turns about an axis"
+    return tuple(tuple(Dot(e, axis) for axis in axes(GROUND, 3)) for e in (measure.zero, measure.quarter))
 
 
 def check_frictions(mechanism: Mechanism, source: str) -> None:
@@ -303,9 +324,18 @@ def effort_at_rest(bounded: Friction | EndStop) -> Reading:
     return Reading(bounded.row, Driven(bounded.row, bounded.measure))
 
 
-def components(friction: Friction) -> tuple[Reading, ...]:
+def components(friction: Friction) -> tuple[Expr, ...]:
     """Return the components of the reaction that bounds depend on."""
-    return tuple(Reading(row, Driven(row, friction.measure)) for row in friction.pressed)
+    forces = [Reading(row, Driven(row, friction.measure)) for row in friction.pressed]
+    if not friction.across:
+        return tuple(forces)
+    return tuple(
+        dot(
+            forces,
+            [Reading(f"{friction.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=True)],
+        )
+        for k, line in enumerate(friction.across)
+    )
 
 
 def reaction_of(friction: Friction) -> Expr:

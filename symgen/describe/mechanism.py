@@ -300,6 +300,9 @@ class Friction(msgspec.Struct, frozen=True):
         A rate [m/s or rad/s].
     pressed : tuple of str
         Rows of the joint whose forces are its reaction; none where the bounds do not depend on it.
+    across : tuple of tuple of Measure
+        Of a reaction along fixed axes, the cosines of these with each direction across the joint's axis; none where
+        the forces themselves are the components.
     speed : Expr or None
         Where the friction is regularised, the rate of tanh(rate / speed) in place of the sign [m/s or rad/s].
     """
@@ -313,6 +316,7 @@ class Friction(msgspec.Struct, frozen=True):
     viscous: Expr = ZERO
     stribeck_speed: Expr | None = None
     pressed: tuple[str, ...] = ()
+    across: tuple[tuple[Measure, ...], ...] = ()
     speed: Expr | None = None
 
     @property

@@ -106,15 +106,15 @@ class Drag:
         The row of the coordinate.
     sign, coefficient, rate : int
         Nodes of the sign, 0 at rest, of the force over |N| [1 or m], and of the rate.
-    pressed : tuple of int
-        Rows whose multipliers are N.
+    pressed : tuple of tuple of (int, int)
+        Of each component of N the rows in it, and nodes by which their multipliers count.
     """
 
     row: int
     sign: int
     coefficient: int
     rate: int
-    pressed: tuple[int, ...]
+    pressed: tuple[tuple[tuple[int, int], ...], ...]
 
 
 @dataclass(frozen=True)

@@ -173,7 +173,11 @@ def _drag(
     rate = model.measure(friction.measure).rate(model.graph, model.velocities)
     with finite_numbers(f"joints.{friction.joint}.friction"):
         sign, coefficient = model.expression(sign_of(friction)), model.expression(coefficient_of(friction), rate=rate)
-    pressed = tuple(places[name] for name in friction.pressed)
+    rows_of = tuple(places[name] for name in friction.pressed)
+    pressed: tuple[tuple[tuple[int, int], ...], ...] = tuple(((row, model.graph.one),) for row in rows_of)
+    if friction.across:
+        cosines = [[model.measure(cosine).value for cosine in line] for line in friction.across]
+        pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
     return Drag(places[friction.row], sign, coefficient, rate, pressed)
 
 

@@ -72,8 +72,8 @@ class ScalarNodes(OfMass):
             entries = dict(self.directions[drag.row])
             effects.append(tuple(entries.get(j, g.zero) for j in range(len(given))))
         without, *solved = (self._completed(x, self._rest(x))[1] for x in (given, *effects))
-        alone = [tuple(without[i] for i in drag.pressed) for drag in drags]
-        parts = [[tuple(effect[i] for i in drag.pressed) for effect in solved] for drag in drags]
+        alone = [self.reaction(drag, without) for drag in drags]
+        parts = [[self.reaction(drag, effect) for effect in solved] for drag in drags]
         signed = [g.mul(drag.sign, drag.coefficient) for drag in drags]
         forces, doubtful = drag_forces(g, signed, alone, parts, self.brief)
         self.flags += [] if doubtful is None else [doubtful]

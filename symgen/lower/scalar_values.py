@@ -93,8 +93,13 @@ class NodeValues(Replay):
         """Yield friction by reactions of the unknown multipliers, as forces along the coordinates."""
         g = self.graph
         for drag in self.equations.drags if self.pressing else ():
-            size = length(g, [self.pressing[i] for i in drag.pressed])
+            size = length(g, self.reaction(drag, self.pressing))
             yield drag, g.mul(drag.sign, g.mul(drag.coefficient, size))
+
+    def reaction(self, drag: Drag, multipliers: Nodes) -> Nodes:
+        """Return the components of a reaction that friction depends on."""
+        g = self.graph
+        return tuple(g.total(g.mul(node, multipliers[row]) for row, node in line) for line in drag.pressed)
 
     def _on_section(self, operation: FormulaStep) -> Nodes:
         return self.section(str(operation.payload[0]), self.size(operation.size))

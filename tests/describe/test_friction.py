@@ -114,10 +114,8 @@ def test_wrong_joints() -> None:
 
 
 def test_a_joint_without_a_reaction_has_none_to_rub_by() -> None:
-    with pytest.raises(
-        InputError, match=r"friction\.angle\.coefficient: expected friction by the reaction in the plane"
-    ):
-        quill({"angle": {"coefficient": 0.2, "radius": 0.1}})
+    with pytest.raises(InputError, match=r"friction\.angle\.radius: expected the radius of the pin"):
+        quill({"angle": {"coefficient": 0.2}})
     wheel = {"type": "rolling", "between": ["rocker", "ground"], "radius": 2.5, "axis": [1.0, 0.0],
              "on": [10.0, -2.5], "centre": "D", "friction": {"coefficient": 0.1}}  # fmt: skip
     with pytest.raises(InputError, match="expected friction by the reaction of a joint among revolute, translational"):

@@ -169,7 +169,10 @@ def attempt(
         past = change
         change = STRICT * STRICT * distance(rows, weights, scheme.share, after, before)
         if not change < _ENDLESS:
-            break
+            if odd == 0:
+                break
+            alone, which, iterations, change = True, 1 - which, iterations - 1, past
+            continue
         if iterations > 1:
             fall = max(change / past, _FASTEST) if past > 0.0 else _FASTEST
             error = change * fall
