@@ -146,7 +146,8 @@ def check_stops(mechanism: Mechanism, source: str) -> None:
     """
     pressed = next((friction for friction in mechanism.frictions if friction.pressed), None)
     if mechanism.stops and pressed is not None:
-        where, expected = f"{source}: joints.{pressed.joint}.friction", "friction of constant bound, beside stops"
+        where = f"{source}: joints.{pressed.joint}.friction"
+        expected = "friction of constant bound beside stops, as that has no impulse at an impact"
         raise InputError(where, expected, "friction by the reaction of the joint")
     body = next((body.name for body in mechanism.bodies if body.massless), None)
     if mechanism.stops and body is not None:

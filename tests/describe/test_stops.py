@@ -96,5 +96,5 @@ def test_friction_by_a_reaction_beside_a_stop_is_refused() -> None:
     raw = copy.deepcopy(raw)
     raw["joints"]["A"]["stop"] = {"upper": 9.0}
     raw["joints"]["B"]["friction"] = {"coefficient": 0.1, "radius": 0.02}
-    with pytest.raises(InputError, match="friction of constant bound, beside stops"):
+    with pytest.raises(InputError, match="friction of constant bound beside stops, as that has no impulse"):
         validate(raw, source)
