@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from support.checks import assert_same_motion
 
 import symgen
@@ -336,6 +337,50 @@ def test_every_method_finds_the_rest_angle_or_says_why_not(method: str) -> None:
     else:
         assert [event.name for event in outcome.happened] == ["pin.reverse"] * 8 + ["pin.stick"]
         assert abs(outcome.states[-1][2] + TURNS[-1]) < most
+
+
+@cache
+def rest_by_the_reaction() -> tuple[int, float]:
+    """Return how often a pendulum with mu r of 0.1 m turns round, and where it rests, from its angle alone."""
+
+    def rates(_: float, y: np.ndarray, sign: float) -> list[float]:
+        torque = 0.0
+        for _ in range(60):
+            alpha = (-9.81 * np.sin(y[0]) - sign * torque) / 1.5
+            torque = 0.1 * np.hypot(y[1] ** 2 + 9.81 * np.cos(y[0]), alpha + 9.81 * np.sin(y[0]))
+        return [y[1], alpha]
+
+    def stops(_: float, y: np.ndarray, sign: float) -> float:
+        return sign * y[1]
+
+    stops.terminal, stops.direction = True, -1  # type: ignore[attr-defined]
+    angle, turns = 1.0, 0
+    while True:
+        sign = -np.sign(angle)
+        if sign * rates(0.0, np.array([angle, 0.0]), sign)[1] <= 0.0:
+            return turns, angle
+        swing = solve_ivp(
+            rates, (0.0, 9.0), [angle, 0.0], method="DOP853", events=stops, args=(sign,), rtol=1e-12, atol=1e-13
+        )
+        angle, turns = swing.y[0, -1], turns + 1
+
+
+@pytest.mark.parametrize("method", METHODS.names)
+def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None:
+    integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
+    settings = Settings(method=method, integrator=integrator, until=9.0, verify=False, coordinates="absolute", **steps)
+    mechanism = described(PIN.replace("sliding = 0.5", "coefficient = 0.5, radius = 0.2"))
+    try:
+        outcome = prepare(mechanism, settings).integrate()
+    except InputError as error:
+        assert str(error).startswith(f"method '{method}': expected one that eliminates multipliers")
+        return
+    if outcome.reason:
+        assert "max_violation" in outcome.reason
+        return
+    turns, angle = rest_by_the_reaction()
+    assert [event.name for event in outcome.happened] == ["pin.reverse"] * (turns - 1) + ["pin.stick"]
+    assert abs(outcome.states[-1][2] - angle) < most
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)

@@ -83,12 +83,6 @@ def test_implicit_schemes_and_outputs() -> None:
     np.testing.assert_allclose(result.outputs["A.force"][1:], sliding[1:], rtol=1e-9)
 
 
-@pytest.mark.parametrize("method", ["penalty", "augmented-lagrangian", "udwadia-kalaba", "index1-augmented-lagrangian"])
-def test_methods_that_do_not_eliminate_take_constant_friction(method: str) -> None:
-    with pytest.raises(InputError, match=r"where (friction depends on reactions|rows may be off)"):
-        symgen.load(four_bar(A=ARM)).simulate(method=method, until=0.1)
-
-
 def test_reactions_that_are_not_determined_are_named() -> None:
     raw, source = read_raw("four-bar")
     raw = copy.deepcopy(raw)
