@@ -212,11 +212,6 @@ def without_stops(mechanism: Mechanism) -> Mechanism:
     return msgspec.structs.replace(mechanism, stops=(), outputs=outputs)
 
 
-def chooses_in_loops(mechanism: Mechanism, events: Sequence[Event]) -> bool:
-    """Return whether compiled loops choose all modes: there are no stops, and nothing changes velocities."""
-    return not mechanism.stops and not any(event.reset for event in events)
-
-
 def refuse_bounds(where: str, mechanism: Mechanism) -> None:
     """Refuse a mechanism with dry friction or stops where nothing chooses their modes.
 

@@ -148,14 +148,20 @@ class Effects:
                 code = int(compiled_form(apply_effects)(self.model, t, Instant(y, p, w), chosen, work))
         except (ArithmeticError, ValueError):  # where nothing is compiled
             code = NO_VELOCITIES
-        together = [n for n in self.effects if chosen[n]]
-        labels = tuple(name for n in together for name in self.effects[n].velocities)
         if code == NO_VALUES:
             raise self._no_values(numbers, chosen, work, t)
         if code == NO_VELOCITIES:
-            raise self._no_velocities(numbers, labels, work, before, t)
-        impulses = work.impulse.impulses[: info.m + len(labels)].copy()
-        return Impact(y[info.nq : info.work].copy(), impulses, labels, float(work.energy[0]))
+            raise self.no_velocities(numbers, work, before, t)
+        return self.impact(numbers, y[info.nq : info.work], work.impulse.impulses, float(work.energy[0]))
+
+    def impact(self, numbers: Sequence[int], v: Array, impulses: Array, energy: float) -> Impact:
+        """Return what some events have changed: velocities behind it, impulses (and memory behind these), energy."""
+        labels = self._labels(numbers)
+        return Impact(v.copy(), impulses[: self.compiled.info.m + len(labels)].copy(), labels, energy)
+
+    def _labels(self, numbers: Sequence[int]) -> tuple[str, ...]:
+        """Return the velocities that some events set."""
+        return tuple(name for n in self.effects if n in numbers for name in self.effects[n].velocities)
 
     def _where(self, numbers: Sequence[int]) -> str:
         names = " and ".join(f"'{self.names[n]}'" for n in numbers)
@@ -168,11 +174,9 @@ class Effects:
         got = ", ".join(f"{name} = {x:.6g}" for (n, name), x in zip(writes, values, strict=False) if chosen[n])
         return InputError(self._where(numbers), "one finite value of each state", f"{got} at t = {t:.6g} s")
 
-    def _no_velocities(
-        self, numbers: Sequence[int], labels: Sequence[str], work: Any, v: Array, t: float
-    ) -> InputError:
+    def no_velocities(self, numbers: Sequence[int], work: Any, v: Array, t: float) -> InputError:
         """Return the error on velocities that cannot be, with the nearest that joints allow."""
-        info, problem = self.compiled.info, work.impulse
+        info, problem, labels = self.compiled.info, work.impulse, self._labels(numbers)
         k, n = info.m + len(labels), info.nv
         rows, values = problem.rows[: k * n].reshape(k, n), problem.values[:k]
         mass = problem.mass.reshape(n, n)

@@ -37,7 +37,7 @@ Integers = NDArray[np.int64]
 
 
 class Runs(Protocol):
-    """A kernel for rows from consistent starts: a loop, one over rows of a tree, a device, or runs one by one."""
+    """A kernel for rows from consistent starts: a loop, one over rows of a tree, or a device."""
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows; return whether all are done."""
@@ -167,8 +167,7 @@ class RowKernel:
         compiled, recipe = code.module.load(), self.recipe
         p = self._parameters(compiled)
         assembly = Assembly(compiled, recipe.held, recipe.strict, recipe.spare is not None, datum=recipe.datum)
-        alone = recipe.watch is not None and recipe.watch.alone  # single runs work out all of it
-        return _Prepared(compiled, assembly, p, self._runs(code, compiled), None if alone else code.measures)
+        return _Prepared(compiled, assembly, p, self._runs(code, compiled), code.measures)
 
     def _parameters(self, compiled: CompiledModel) -> Array:
         return compiled.parameter_array({q.name: 0.0 for q in compiled.info.parameters}, self.recipe.method_parameters)
@@ -181,10 +180,6 @@ class RowKernel:
         own, on_tree = tree or compiled, None
         if watch is not None and recipe.tree is not None:
             on_tree = recipe.tree, carried_of(watch.mechanism, recipe.tree, compiled, own)
-        if watch is not None and watch.alone:
-            from symgen.ensemble.singly import SingleRuns
-
-            return SingleRuns(recipe, watch, compiled, integrator, code.measures, on_tree)
         setup = integrator.setup(own, spec, own.scratch())
         if other is not None and recipe.target == "cuda":
             need, span = need_of(other, setup, spec.adaptive, recipe.sources), span_of(spec, setup)

@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.friction import JAM, REVERSE, SLIP
+from symgen.describe.events import RESET
+from symgen.describe.friction import JAM, MODE, REVERSE, SLIP
+from symgen.describe.stops import LEAVE
 from symgen.effects.accumulation import new_past
+from symgen.effects.effects import Effects
 from symgen.ir.program import LANES, lane_bases
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
@@ -28,6 +31,7 @@ from symgen.rows.row_observers import observe_rows_between_stops, observe_rows_l
 from symgen.rows.rows import observe_nothing, over_rows
 from symgen.runs.bounded_rows import first_step, new_choice
 from symgen.runs.events import event_state, forget_steps
+from symgen.runs.impacts import strikes_of
 from symgen.runs.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.starts.assembler import layout_of
 from symgen.starts.tree_start import TURNED_OVER, Carried
@@ -108,18 +112,19 @@ class LoopRuns:
                 out.events[selected] = np.nan
                 out.events[selected, e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
         further: tuple[Any, ...] = ()
-        if self.watched is not None and self.watched.effects is not None:
-            further = (self._effects(self.watched, sizes.width, len(state.w)),)
+        effects = self.watched is not None and self.watched.effects is not None
         modes = pressed = False
         if self.watched is not None and self.watched.bounded is not None:
             modes, pressed = True, bool(self.watched.bounded.pressed)
             further = (self._modes(self.watched, self.watched.bounded, span, sizes.width, len(state.w)),)
+        elif self.watched is not None and effects:
+            further = (self._effects(self.watched, sizes.width, len(state.w)),)
         examined = self.watched is not None and self.watched.rows is not None
         loop = over_rows(
             self.integrator.loop(adaptive),
             self.watched is not None,
             recipe.stops,
-            bool(further) and not modes,
+            effects,
             examined,
             modes,
             pressed,
@@ -194,17 +199,27 @@ class LoopRuns:
 
     def _effects(self, watched: Watched, width: int, nw: int) -> Any:
         """Return the effects of events, and memory for one thread."""
-        effects, events = watched.effects, len(watched.names)
+        effects, events = self._what_changes(watched), len(watched.names)
         past = new_past(events, events + len(watched.switches), width, nw, self.recipe.spec.until)
-        chosen, resets = np.zeros(events, dtype=np.int64), effects.chosen(list(effects.effects))
+        resets = np.array([action == RESET for action in watched.actions], dtype=np.int64)
+        chosen = np.zeros(events, dtype=np.int64)
         return OfEffects(effects.model, watched.function, resets, chosen, effects.memory(width, nw), past)
 
+    def _what_changes(self, watched: Watched) -> Effects:
+        """Return the effects of events, where there are none too."""
+        nothing = Effects(self.compiled, watched.names, {}, observe_nothing, ())
+        return nothing if watched.effects is None else watched.effects
+
     def _modes(self, watched: Watched, rows: BoundedRows, span: Span, width: int, nw: int) -> Any:
-        """Return dry friction and its events, and memory for one thread."""
+        """Return dry friction and stops with their events, and memory for one thread."""
         choice = new_choice(self.compiled, rows, rate_functions(self.compiled.law_module), width, nw)
         choice.step[0] = first_step(span)
-        places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM))
-        return OfModes(choice, *(np.array([at.get(name, -1) for name in watched.names]) for at in places))
+        effects = self._effects(watched, width, nw)
+        strikes = strikes_of(watched, rows, self._what_changes(watched), effects.work, effects.past)
+        choosing = np.array([action in (MODE, RESET) for action in watched.actions], dtype=np.int64)
+        places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM, LEAVE))
+        numbers = (np.array([at.get(name, -1) for name in watched.names]) for at in places)
+        return OfModes(choice, strikes, effects, choosing, *numbers)
 
     def _series(self) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""

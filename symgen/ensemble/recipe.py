@@ -128,14 +128,11 @@ class EventPlan:
         Events to look for.
     ends : bool
         Whether the only output is the end of a run, wherever an event puts it.
-    alone : bool
-        Whether rows are single runs, done one by one.
     """
 
     mechanism: Mechanism
     events: tuple[Event, ...] = ()
     ends: bool = False
-    alone: bool = False
 
     @property
     def width(self) -> int:
@@ -145,7 +142,7 @@ class EventPlan:
     @property
     def described(self) -> list[Any]:
         """Description of the value, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends, self.alone]
+        return [identity(self.mechanism), in_words(self.events), self.ends]
 
 
 @dataclass(frozen=True)

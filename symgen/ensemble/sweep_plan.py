@@ -26,7 +26,6 @@ from symgen.describe.events import RECORD
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
-from symgen.describe.stops import chooses_in_loops
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
@@ -130,8 +129,7 @@ class Ensemble:
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
-        overhead = 5e-4 if self.recipe.watch is not None and self.recipe.watch.alone else 2e-5
-        seconds = overhead + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
+        seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
             return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
@@ -253,9 +251,7 @@ def make_ensemble(
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
         raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
-    in_loops = not examined and chooses_in_loops(mechanism, events)
-    alone = bool(mechanism.bounded) and not in_loops
-    watch = EventPlan(mechanism, events, ends, alone) if joint or events or looks or mechanism.bounded else None
+    watch = EventPlan(mechanism, events, ends) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (
         (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)

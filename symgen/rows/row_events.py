@@ -178,10 +178,11 @@ def waits_for_examination(code: int, model: Any, chunk: Any, state: Any) -> bool
     if control[e.EXAMINATION] == e.HOLDS:
         control[e.EXAMINATION] = e.NOT_EXAMINED
         return False
-    events, width = count_of_events(numbers_of_row(chunk, state)), state.y.shape[0]
-    first = notes_at(int(hunt[records.COUNT]), width, state.w.shape[0])
+    n, width = int(hunt[records.COUNT]), state.y.shape[0]
+    first = notes_at(n, width, state.w.shape[0])
     for i in range(int(hunt[records.NOTED])):
-        if int(hunt[first + i * (2 + width) + 1]) >= events:
+        k = int(hunt[first + i * (2 + width) + 1])
+        if hunt[records.N_HEAD + records.ACTION * n + k] == float(records.EXAMINE):
             control[e.EXAMINATION] = e.WAITS
             return True
     return False

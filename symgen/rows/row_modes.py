@@ -1,12 +1,13 @@
-"""Dry friction in rows of a sweep: modes are chosen at starts and at their events, without Python.
+"""Dry friction and stops in rows of a sweep: modes are chosen at starts and at their events, without Python.
 
-It is the choice of single runs (`symgen.runs.choice`), so that rows have their bits.
+These are the choice (`symgen.runs.choice`) and the impacts of single runs, so that rows have their bits.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+from symgen.ir.program import MODE_NUMBERS
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.start_records import record_type
@@ -17,16 +18,54 @@ from symgen.loops.event_loop import notes_at
 from symgen.loops.stopping import change, due, is_defined, same
 from symgen.loops.watch import remember_rank
 from symgen.native import types
-from symgen.rows.row_events import take_notes_of_events
+from symgen.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
 from symgen.runs.bounded_rows import CHOICE, OTHERS, SAME
 from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, read_rows
+from symgen.runs.strikes import STRIKES, find_struck, strike
 
 #: Rows with bounds of all runs, and working memory.
 #: - choice: See `symgen.runs.bounded_rows`.
-#: - breaks, stops, jams (shapes (functions,)): Row that breaks loose, whose rate becomes zero, or whose friction jams,
-#:   at each function; else -1.
-OF_MODES = record_type("OfModes", __name__, ("choice", CHOICE), ("breaks stops jams", types.int64[::1]))
+#: - strikes, effects: Impacts of stops, and what other events change; they share working memory and past.
+#: - choosing (shape (functions,)): 1 for functions at which modes are chosen.
+#: - breaks, stops, jams, leaves (shapes (functions,)): Row that breaks loose, whose rate becomes zero, whose friction
+#:   jams, or whose force becomes zero, at each function; else -1.
+OF_MODES = record_type(
+    "OfModes",
+    __name__,
+    ("choice", CHOICE),
+    ("strikes", STRIKES),
+    ("effects", OF_EFFECTS),
+    ("choosing breaks stops jams leaves", types.int64[::1]),
+)
 OfModes: Any = OF_MODES.constructor
+
+
+def meet_stops(t: float, modes: Any, state: Any) -> int:
+    """Return `DONE`: a run without stops has no impacts."""
+    return int(abi.DONE)
+
+
+def strike_stops(t: float, modes: Any, state: Any) -> int:
+    """Apply the impact of stops that strike at the present state; return `DONE`, or `NO_MODES`."""
+    c, control = modes.choice, state.control
+    code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
+    if code == SAME:
+        return int(abi.DONE)
+    if code != OTHERS:
+        return int(e.NO_MODES)
+    if strike(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt) != SAME:
+        return int(e.NO_MODES)
+    control[abi.BEGUN], control[abi.KNOWN], control[abi.POINTS], control[abi.REFUSED] = abi.AFRESH, 0, 0, 0
+    state.clock[abi.ALLOWED] = 0.0
+    return int(abi.DONE) if read_rows(t, c, state.y, state.p, state.w) == SAME else int(e.NO_MODES)
+
+
+def forget_modes(model: Any, state: Any) -> None:
+    """Clear the data of switching functions, past resets and impacts of the run before."""
+    system, observers, modes = model
+    forget_past((system, observers, modes.effects), state)
+    for i in range(modes.strikes.series.shape[0]):
+        modes.strikes.series[i] = 0.0
 
 
 @called
@@ -34,7 +73,7 @@ def chosen(model: Any, state: Any) -> int:
     """Choose modes at the present state; return `DONE`, or `NO_MODES`."""
     _, observers, modes = model
     c, t = modes.choice, state.clock[abi.TIME]
-    if read_rows(t, c, state.y, state.p, state.w) != SAME:
+    if read_rows(t, c, state.y, state.p, state.w) != SAME or meet_stops(t, modes, state) != abi.DONE:
         return int(e.NO_MODES)
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
     if code > OTHERS:
@@ -80,6 +119,26 @@ def choose_after_change(model: Any, span: Any, state: Any) -> int:
     return code
 
 
+def take_others(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
+    """Write the events noted by a run to its row; none of them changes it."""
+    system, observers, _ = model
+    return int(take_notes_of_events(code, r, (system, observers), chunk, state))
+
+
+def take_resets(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
+    """Write the events noted by a run to its row, and apply resets with no row in force: stops strike behind."""
+    system, observers, modes = model
+    effects, c, hunt, t = modes.effects, modes.choice, state.hunt, state.clock[abi.TIME]
+    width = observers[0].width
+    first, resets = notes_at(int(hunt[records.COUNT]), width, state.w.shape[0]), False
+    for i in range(int(hunt[records.NOTED])):
+        at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
+        resets = resets or (code == abi.MET and at == t and k < effects.resets.shape[0] and effects.resets[k] != 0)
+    for i in range(MODE_NUMBERS * c.count if resets else 0):
+        state.w[c.first + i] = 0.0
+    return int(take_effects(code, r, (system, observers, effects), chunk, state))
+
+
 @called
 def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     """Write the events noted by a run to its row, and choose modes where friction or a stop has one.
@@ -103,12 +162,17 @@ def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     for i in range(int(hunt[records.NOTED])):
         at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
         if code == abi.MET and at == t and k < modes.breaks.shape[0]:
+            any_of_modes = any_of_modes or modes.choosing[k] != 0
             if modes.breaks[k] >= 0:
-                c.broken[modes.breaks[k]], any_of_modes = 1, True
+                c.broken[modes.breaks[k]] = 1
             if modes.stops[k] >= 0:
-                c.stopped[modes.stops[k]], any_of_modes = 1, True
+                c.stopped[modes.stops[k]] = 1
+            if modes.leaves[k] >= 0:
+                c.left[modes.leaves[k]] = 1
             jams = jams or modes.jams[k] >= 0
-    ended = take_notes_of_events(code, r, (model[0], observers), chunk, state)
+    ended = take_others(code, r, model, chunk, state)
+    if ended == e.IMPOSSIBLE:
+        return int(ended)
     if jams or (any_of_modes and chosen(model, state) != abi.DONE):
         return int(e.NO_MODES)
     return int(ended)

@@ -30,7 +30,16 @@ from symgen.rows.row_events import (
     take_notes_of_events,
     waits_for_examination,
 )
-from symgen.rows.row_modes import OF_MODES, begin_modes, begin_modes_between_stops, choose_after_change, take_modes
+from symgen.rows.row_modes import (
+    OF_MODES,
+    begin_modes,
+    begin_modes_between_stops,
+    choose_after_change,
+    forget_modes,
+    strike_stops,
+    take_modes,
+    take_resets,
+)
 from symgen.runs.agreement import choose_pressed
 from symgen.runs.observe import observe_rates, observe_rows
 from symgen.store.jit import jit
@@ -256,7 +265,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
         (`symgen.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these, where
-        events change a run, what they change: `OF_EFFECTS`; where friction has modes, `OF_MODES`.
+        friction or stops have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -355,7 +364,11 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 _EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
 _EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
-_MODES = {"begin_choice": begin_modes, "take_notes": take_modes, "store_after": store_after_effects}
+_MODES = {
+    **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
+    **{"store_after": store_after_effects},
+}
+_STRIKING = {"meet_stops": strike_stops, "take_others": take_resets}
 _MODES_BETWEEN_STOPS = {"begin_choice": begin_modes_between_stops, "take_change": choose_after_change}
 _PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
@@ -379,8 +392,8 @@ def over_rows(
     loop : compiled loop
         From `symgen.loops.frame.loop`.
     events, stops, effects, examined, modes, pressed : bool
-        Whether rows have switching functions, stops, events that change a run, constraints that may jump, dry friction,
-        which excludes such events and constraints, and bounds of friction that depend on reactions.
+        Whether rows have switching functions, stops of parameters, events that change a run, constraints that may jump,
+        dry friction or stops of a motion, and bounds of friction that depend on reactions.
     """
     key = loop, events, stops, effects, examined, modes, pressed
     if key not in _loops:
@@ -389,11 +402,12 @@ def over_rows(
         inner = with_events(loop) if events else loop
         inner = with_stops(inner) if stops else inner
         args = signature_of(inner).arguments
-        further = *([OF_EFFECTS] if effects else []), *([OF_MODES] if modes else [])
+        further = [OF_MODES] if modes else [OF_EFFECTS] if effects else []
         model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
         meanings |= (_MODES if modes else {}) | (_PRESSED if pressed else {})
+        meanings |= _STRIKING if effects and modes else {}
         meanings |= _MODES_BETWEEN_STOPS if modes and stops else {}
         meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)

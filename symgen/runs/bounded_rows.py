@@ -40,6 +40,8 @@ SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
 #: Codes where bounds depend on reactions: friction that brings about all of its reaction; reactions that redundant rows
 #: leave undetermined; bounds and reactions that never agree; a force shared at rest beside what changes.
 JAMMED, REDUNDANT, DISAGREED, SHARED = range(6, 10)
+#: Code of an impact that the joints do not allow.
+NOT_APPLIED = 10
 
 #: The rows with bounds of a run, k of them, and working memory; friction first, then stops.
 #: - reactions: Components of the reactions that bounds depend on, two each.

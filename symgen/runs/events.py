@@ -123,12 +123,12 @@ class Events:
         """Remove later events, as a run continues from an earlier state."""
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
-        if "_past" in vars(self):
+        if "past" in vars(self):
             numbers = {name: k for k, name in enumerate(self.watched.names)}
-            self._past.counts[:] = 0
+            self.past.counts[:] = 0
             for event in self.happened:
                 if event.action == RESET or event.impact is not None:
-                    compiled_form(add_resets)(self._past, self.watched.effects.chosen([numbers[event.name]]), event.t)
+                    compiled_form(add_resets)(self.past, self.watched.effects.chosen([numbers[event.name]]), event.t)
 
     def take(self, state: event_loop.EventState) -> list[tuple[int, Happening]]:
         """Store and return the passages noted by a loop since the last call, with numbers of events."""
@@ -202,7 +202,8 @@ class Events:
     # -- events that accumulate ----------------------------------------------------------------------------------------
 
     @cached_property
-    def _past(self) -> Any:
+    def past(self) -> Any:
+        """Past resets, for the search of accumulations."""
         compiled, watched = self.compiled, self.watched
         functions = len(watched.names) + len(watched.switches)
         width, nw = sizes_of(compiled).width, len(compiled.scratch())
@@ -220,24 +221,20 @@ class Events:
         """
         watched, now = self.watched, float(state.clock[abi.TIME])
         chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
-        compiled_form(add_resets)(self._past, chosen, now)
+        compiled_form(add_resets)(self.past, chosen, now)
         functions = *rate_functions(self.compiled.law_module), watched.function
         with np.errstate(all="ignore"):
             end = compiled_form(accumulation)(
-                *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self._past)
+                *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self.past)
             )
         if np.isnan(end):
             return None
         return float(end)
 
-    def forget_resets(self, numbers: Sequence[int]) -> None:
-        """Forget when events have changed velocities: their series has ended."""
-        self._past.counts[list(numbers)] = 0
-
     @property
     def recent(self) -> tuple[str, ...]:
         """Names of the events with the latest resets."""
-        latest = int(compiled_form(latest_events)(self._past))
+        latest = int(compiled_form(latest_events)(self.past))
         return tuple(name for k, name in enumerate(self.watched.names) if latest >> k & 1)
 
     def reason(self, code: int, state: Any, t: float) -> str:

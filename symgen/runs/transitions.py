@@ -27,7 +27,7 @@ from symgen.layout import abi
 from symgen.layout.probe import rate_functions
 from symgen.loopcode.entry import direct
 from symgen.loopcode.exact import compiled_form
-from symgen.runs import choice
+from symgen.runs import choice, strikes
 from symgen.runs.bounded_rows import (
     HELD,
     LIMIT,
@@ -37,7 +37,6 @@ from symgen.runs.bounded_rows import (
     OTHERS,
     SAME,
     SIGN,
-    STILL,
     TOUCHING,
     first_step,
     new_choice,
@@ -160,7 +159,7 @@ class Transitions:
         before = self._modes(w)
         closed = self._is_stop & ((before[:, HELD] != 0.0) | (before[:, LIMIT] != 0.0))
         closed, self._closed = closed if self._closed is None else self._closed, None
-        self._strike(before)
+        self._strike()
         for flags, rows in ((c.broken, broken), (c.stopped, stopped), (c.left, left)):
             flags[:] = 0
             flags[list(rows)] = 1
@@ -206,23 +205,14 @@ class Transitions:
             (int(i), REST if shut[i] else LEAVE) for i in np.flatnonzero(self._is_stop & (shut != closed))
         ]
 
-    def _strike(self, before: Array) -> None:
+    def _strike(self) -> None:
         """Read the rows, and have stops that strike change the velocities."""
-        c, w, stops = self._choice, self.simulation.state.w, self._is_stop
         self._impacts.latest, self._impacts.left = {}, {}
         self._read()
-        touching = stops & (c.value <= TOUCHING * self._scales(abi.LENGTH))
-        if (touching & (c.speed < -STILL * self._scales(abi.SPEED))).any():
-            rows = np.flatnonzero(touching)
-            c.signs[:], c.sliding[:] = np.where(stops, 0.0, before[:, SIGN]), 0.0
-            c.at_rest[0], c.rest[: len(rows)] = len(rows), rows
-            if self._entry("probe")(self._now) != SAME:
-                self._refuse_accelerations()
-            matrix = c.matrix.reshape(len(stops), -1)[np.ix_(rows, rows)]
-            modes = self.simulation.compiled.modes(w)
-            modes[self._places] = 0.0
-            own = modes[self._places[0] :]  # rows with bounds stand last
-            self._impacts.strike(rows.tolist(), c.speed[rows], c.restitution[rows], c.offset[rows], matrix, own)
+        code = self._entry("find_struck", strikes)(self._now) if self._is_stop.any() else SAME
+        self._refuse(code)
+        if code == OTHERS:
+            self._impacts.strike(self._choice)
             self._read()
 
     # -- numbers of the present state ----------------------------------------------------------------------------------

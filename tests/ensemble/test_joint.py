@@ -86,7 +86,6 @@ def test_all_quantities_of_random_rows_have_the_bits_of_single_runs(steps, metho
     asked["inputs"] = {"torque": "4 if t < 0.1 else 1"}
     kept = ("q", "v", "a", "joint_coordinates", "lam", "reactions", "magnitudes", "energy", "outputs", "motor")
     found = symgen.sweep(model, {"crank_mass": masses}, quantities=(*kept, "event"), **asked)
-    assert not found.ensemble.recipe.watch.alone, "one loop runs all of them"
     for i, mass in enumerate(masses):
         one = model.simulate(parameters={"crank_mass": float(mass)}, **asked)
         for j, q in enumerate(found.ensemble.recipe.quantities):
@@ -100,7 +99,6 @@ def test_events_are_found_in_both_and_auto_takes_what_is_smaller():
     np.testing.assert_allclose(joints["crank.theta"][:, 0], 0.0, atol=1e-12)
     np.testing.assert_allclose(joints["end"], bodies["end"], atol=1e-6)
     np.testing.assert_array_equal(joints["event.crank.theta < 0.first"], joints["end"])
-    assert not joints.ensemble.recipe.watch.alone, "the loop over rows finds them"
 
 
 def test_light_bodies_get_the_other_solver_in_joint_coordinates_too():

@@ -14,7 +14,6 @@ from support.checks import assert_same_motion
 import symgen
 from symgen.compiling.events import compile_events
 from symgen.ensemble.sweep import sweep
-from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.layout import abi
 
 #: Two kilograms under 3 N, and what is added between two values, beside an oscillation that has steps of usual length.
@@ -203,13 +202,6 @@ def test_rows_of_sweeps_are_single_runs(
         assert_same_motion(found.values[r], [alone["bob.x"], alone["bob.vx"]])
         for name in ("steps", "rejected", "evaluations"):
             assert found[name][r] == getattr(alone, name)
-
-
-@pytest.mark.parametrize("force", [OVER_SPEED, BUMP])
-def test_rows_that_compare_the_state_stay_in_loops(folder: Path, force: str) -> None:
-    """As single runs each takes some milliseconds of the interpreter."""
-    settings = symgen.Settings(method="lagrange", integrator="dop853", until=0.8)
-    assert make_ensemble(made(folder, force), settings, {"low": [0.1, 0.2]}, {}, None).recipe.watch.alone is False
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)

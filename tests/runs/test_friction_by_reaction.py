@@ -263,9 +263,7 @@ def test_four_pins_rub_by_their_reactions() -> None:
 
 
 @pytest.mark.parametrize(("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "joint")])
-def test_rows_choose_modes_by_reactions_in_compiled_loops(
-    monkeypatch: pytest.MonkeyPatch, integrator: str, coordinates: str
-) -> None:
+def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coordinates: str) -> None:
     """Pins that turn round and rest beside one of constant bound: each row has the bits of a single run."""
     raw, source = read_raw("four-bar")
     raw = copy.deepcopy(raw)
@@ -279,7 +277,6 @@ def test_rows_choose_modes_by_reactions_in_compiled_loops(
     assert all(len(run.events) > 8 for run in alone)
     with pytest.raises(InputError, match="jamming number"):
         model.simulate(parameters={"mu": values[2]}, verify=False, **settings)
-    monkeypatch.setattr("symgen.ensemble.singly.SingleRuns", None)
     rows = model.sweep({"mu": list(values)}, quantities=("crank.theta", "A.mode", "C.force"), **settings)
     for i, run in enumerate(alone):
         assert rows["crank.theta"][i].tolist() == run["crank.theta"].tolist()

@@ -234,7 +234,6 @@ def test_rows_that_pass_a_place_go_on_in_their_loop_as_single_runs(settings):
     model, speeds = symgen.load(bead("max(a.y - 1, 0)**2")), [0.1, 0.5, 0.7]
     settings |= {"until": 3.0, "times": (1.0, 3.0), "record_when": "a.y > 0.9"}
     found = symgen.sweep(model, {"a.vy": speeds}, quantities=("q", "v", "event"), **settings)
-    assert not found.ensemble.recipe.watch.alone
     assert_rows(found, model, "start", **settings)
     np.testing.assert_array_equal(found["event.a.y > 0.9.count"], [0.0, 1.0, 1.0])
     np.testing.assert_allclose(found["event.a.y > 0.9.first"][1:], [0.8, 0.4 / 0.7], atol=1e-8)

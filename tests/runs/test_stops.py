@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support.checks import assert_same_motion
 
 import symgen
 from symgen.base.errors import InputError
@@ -295,13 +296,78 @@ def test_friction_holds_at_a_stop_until_its_bound(coordinates: str) -> None:
     assert outcome.states[-1][0] == pytest.approx(0.5 - 2.25**3 / 3.0, abs=1e-8)
 
 
-def test_a_sweep_has_stops() -> None:
-    text = BALL.replace("[bodies.ball]", "[parameters]\nbounce = 0.7\n\n[bodies.ball]")
-    model, parts = symgen.load(described(text.replace("restitution = 0.7", 'restitution = "bounce"'))), (0.3, 0.6)
-    settings = {"until": 1.0, "integrator": "dop853", "rtol": 1e-10, "times": [1.0]}
-    rows = model.sweep({"bounce": list(parts)}, **settings)["ball.y"][:, -1]
-    alone = [model.simulate(parameters={"bounce": x}, verify=False, **settings).q["ball.y"][-1] for x in parts]
-    assert rows.tolist() == alone
+#: Events of the first row, and what is read: of a ball that bounces and rests, one whose floor drops it again, a
+#: four-bar with dry pins against a stop, and a block with friction and a stop that resets push.
+def _falling() -> Mechanism:
+    text = BALL.replace("[bodies.ball]", "[parameters]\npart = 0.7\n\n[bodies.ball]")
+    return described(text.replace("restitution = 0.7", 'restitution = "part"'))
+
+
+def _dry_linkage() -> Mechanism:
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    raw["parameters"]["part"] = 0.6
+    raw["joints"]["A"] |= {"stop": {"lower": -1.0, "restitution": "part"}, "friction": {"sliding": 2.0, "static": 3.0}}
+    raw["joints"]["D"]["friction"] = {"sliding": 1.0}
+    return validate(raw, source)
+
+
+def _pushed() -> Mechanism:
+    text = SLIDE.replace("[bodies.block]", "[parameters]\npart = 0.5\n\n[bodies.block]")
+    text += """
+[events.push]
+when = "block.x - 0.3*part"
+direction = "rising"
+reset = { "block.vx" = "1.0 + part" }
+"""
+    return described(text)
+
+
+@pytest.mark.parametrize(
+    ("make", "integrator", "coordinates", "settings"),
+    [
+        (_falling, "dop853", "absolute", {"until": 3.5, "rtol": 1e-10, "times": [0.0, 1.0, 2.0, 3.5]}),
+        (_falling, "rk4", "absolute", {"until": 3.0, "step": 1e-2, "times": [1.0, 3.0]}),
+        (_dry_linkage, "dop853", "absolute", {"until": 5.0, "times": [2.0, 5.0]}),
+        (_dry_linkage, "picard", "joint", {"until": 5.0, "times": [2.0, 5.0]}),
+        (_pushed, "dop853", "absolute", {"until": 3.0, "times": [0.5, 3.0], "max_attempts": 1e5}),
+    ],
+)
+def test_rows_of_a_sweep_have_the_impacts_of_single_runs(
+    make: Any, integrator: str, coordinates: str, settings: dict[str, Any]
+) -> None:
+    """In the compiled loop, without Python between two parts of a run: bit for bit."""
+    model, parts = symgen.Model(make()), (0.3, 0.5, 0.62)
+    settings = {"integrator": integrator, "coordinates": coordinates, **settings}
+    alone = [model.simulate(parameters={"part": x}, verify=False, **settings) for x in parts]
+    assert all(sum(event.name.endswith("hit") for event in run.events) > 1 for run in alone)
+    names = ("q", "v", *(name for name in alone[0].outputs if name.endswith(("mode", "force"))), "energy.error")
+    rows = model.sweep({"part": list(parts)}, quantities=names, **settings)
+    for i, run in enumerate(alone):
+        assert (rows.status[i], rows.reason[i] or "") == (run.status, run.reason or "")
+        assert [rows[name][i] for name in ("steps", "evaluations")] == [run.steps, run.evaluations]
+        for name in run.q:
+            assert rows[name][i].tolist() == run[name].tolist(), name
+        for name in run.v:
+            assert rows[name][i].tolist() == run[name].tolist(), name
+        for name in names[2:]:
+            np.testing.assert_allclose(rows[name][i], run[name], rtol=1e-10, atol=1e-10)
+
+
+@pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
+def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str, Any]) -> None:
+    """A ball on a wire with a corner at 0.8 m, which some rows have: they fail there, with the words of single runs."""
+    text = BALL.replace("[bodies.ball]", "[parameters]\ncorner = 0.0\n\n[bodies.ball]")
+    wire = '{ position = "ball.x - (0.1*abs(ball.y - 0.8)*(ball.y - 0.8) + corner*abs(ball.y - 0.8))" }'
+    text = text.replace('{ position = "ball.x" }', wire).replace("[0.0, 1.0]", '["0.004 + 0.2*corner", 1.0]')
+    model, corners = symgen.load(described(text)), (0.0, 0.3, 0.1)
+    settings = {"until": 1.2, "times": [0.1, 0.6, 1.2], **steps}
+    alone = [model.simulate(parameters={"corner": x}, verify=False, **settings) for x in corners]
+    assert [run.status for run in alone] == ["ok", "failed", "failed"] and "floor.hit" in alone[0].events[0].name
+    rows = model.sweep({"corner": list(corners)}, quantities=("q",), **settings)
+    for i, run in enumerate(alone):
+        assert (rows.status[i], rows["steps"][i], rows["evaluations"][i]) == (run.status, run.steps, run.evaluations)
+        assert_same_motion(rows["ball.y"][i][: len(run.t)], run["ball.y"], "ball.y")
 
 
 @pytest.mark.parametrize("method", ["lagrange", "augmented-lagrangian", "hamiltonian-baumgarte", "velocity-projection"])
