@@ -93,7 +93,8 @@ def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
     quantity, until, own = ADJOINT[name]
     model = load(name)
     names = numbers(model, KEYS, 100)
-    settings = {"integrator": "dop853", "until": until, "coordinates": coordinates, "method": method} | own
+    settings: dict[str, Any] = {"until": until, "coordinates": coordinates, "method": method}
+    settings = {"integrator": "dop853"} | settings | own
     objective = model.objective(quantity, by=names, way="adjoint", **settings)
     ending = replace(objective.settings_at(objective.x0), times=[until])
     run, _ = prepared(objective.mechanism, ending)
@@ -118,9 +119,19 @@ def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
 def forward(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
     """Return the cells of eight forward directions."""
     model = load(name)
-    own = lifted("numbers", model.mechanism, numbers(model, ("mass", "inertia"), 8))
-    settings = {"integrator": "dop853", "until": FORWARD[name], "coordinates": coordinates, "method": method}
-    run, _ = prepared(own.mechanism, Settings(**settings, rtol=1e-9, times=[FORWARD[name]], verify=False))
+    gravity = (f"mechanism.gravity[{i}]" for i in range(len(model.mechanism.gravity)))
+    names = (*numbers(model, ("mass", "inertia"), 8), *gravity, *numbers(model, ("points",), 8))[:8]
+    own = lifted("numbers", model.mechanism, names)
+    settings = Settings(
+        integrator="dop853",
+        method=method,
+        coordinates=coordinates,
+        until=FORWARD[name],
+        times=[FORWARD[name]],
+        rtol=1e-9,
+        verify=False,
+    )
+    run, _ = prepared(own.mechanism, settings)
     seeds = StartDirections(run, named_directions(run, own.keys)).seeds()
     arguments = run.compiled, run.plan.integrator, run.start, run.spec, seeds
     plain, directed = medians(pairs, run.integrate, lambda: run_with_directions(*arguments))

@@ -253,9 +253,12 @@ def changed(settings: Settings | None, changes: Mapping[str, object]) -> Setting
     """
     for name in changes:
         if name not in _ABOUT:
-            raise InputError("settings", "the name of a setting", f"'{name}'", nearest(name, _ABOUT))
+            hint = _ELSEWHERE.get(name) or nearest(name, _ABOUT)
+            raise InputError("settings", "the name of a setting", f"'{name}'", hint)
     base = Settings() if settings is None else arguments.of_kind("settings", settings, Settings, "Settings")
     return replace(base, **cast(dict[str, Any], dict(changes)))
 
 
+#: Arguments of single runs that are not among their settings, and what to do.
+_ELSEWHERE = {"sensitivities": "single runs have them: simulate(settings, sensitivities=...) for each row"}
 _ABOUT: dict[str, About] = {f.name: f.metadata["about"] for f in fields(Settings)}

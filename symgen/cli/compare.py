@@ -49,6 +49,11 @@ if TYPE_CHECKING:
     help="Errors [m] at which run times are interpolated between settings; all lines are timed in turn.",
 )
 @click.option("--laws", metavar="A,B", help="Laws of dry friction: exact, tanh:speed=1e-3; the exact one by default.")
+@click.option(
+    "--gradient",
+    metavar="A,B",
+    help="Parameters by which motions are differentiated: columns gradient_error and gradient_seconds.",
+)
 @setting_options(
     *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_step"),
     *("max_attempts", "repeat", "shape"),
@@ -92,6 +97,7 @@ def command(
     rtols: str | None,
     error_at: str | None,
     laws: str | None,
+    gradient: str | None,
     states: str | None,
     reference_by: str,
     quantities: tuple[str, ...],
@@ -138,6 +144,7 @@ def command(
         runs = Combinations(
             *(method_list, integrator_list, step_list, rtol_list),
             *(comma_list("--coordinates", states), errors, comma_list("--laws", laws)),
+            comma_list("--gradient", gradient),
         )
         settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)

@@ -147,7 +147,7 @@ def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> 
         value = value[part]
     key = path[1] if path[0] == "mechanism" else path[2] if path[0] == "bodies" and len(path) > 2 else ""
     entry = {"value": float(value), "unit": _UNITS.get(str(key), ""), "note": name}
-    result = _put(raw, path, parameter)
+    result: dict[str, Any] = _put(raw, path, parameter)
     result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
     return result
 
@@ -156,6 +156,6 @@ def _put(value: Any, path: Path, new: str) -> Any:
     """Return a copy of tables and lists on a path, with another end of it."""
     if not path:
         return new
-    copied = dict(value) if isinstance(value, Mapping) else list(value)
+    copied: Any = dict(value) if isinstance(value, Mapping) else list(value)
     copied[path[0]] = _put(value[path[0]], path[1:], new)
     return copied

@@ -117,7 +117,7 @@ def _one(study: Study) -> Section:
         study.mechanism,
         text,
         findings_of_rows(study),
-        (_summary(study), *_contact_table(study), *_at_table(study), *_cost_table(study)),
+        (_summary(study), *_contact_table(study), *_gradient_table(study), *_at_table(study), *_cost_table(study)),
         pictures(study),
         (Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),),
     )
@@ -195,6 +195,24 @@ def _contact_table(study: Study) -> tuple[DocumentTable, ...]:
     caption = (
         "Dry friction and stops. Creep is the largest rate of a coordinate with dry friction at outputs at which it "
         "rests in the reference, of an angle times the length of the mechanism."
+    )
+    return (DocumentTable(caption, headings, rows, words=3),)
+
+
+def _gradient_table(study: Study) -> tuple[DocumentTable, ...]:
+    if not any(row.gradient_seconds is not None for row in study.rows):
+        return ()
+    rows = tuple(
+        (
+            *(row.label, row.integrator, words.setting(row.step, row.rtol), _error_text(row)),
+            *(words.rounded(row.gradient_error), words.seconds(row.run_seconds), words.seconds(row.gradient_seconds)),
+        )
+        for row in study.rows
+    )
+    headings = "method", "integrator", "setting", "error [m]", "error of derivatives", "run time", "with derivatives"
+    caption = (
+        "Derivatives of coordinates by parameters against differences of references: largest error over the largest "
+        "derivative."
     )
     return (DocumentTable(caption, headings, rows, words=3),)
 

@@ -30,6 +30,7 @@ from symgen.runs.directions import Course, run_with_directions
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
+    from symgen.layout.compiled import CompiledModel
     from symgen.result.result import Result
     from symgen.runs.outcome import Outcome
 
@@ -118,6 +119,17 @@ class Differentiated:
         seeds = self._start.seeds()
         self._course = run_with_directions(run.compiled, run.plan.integrator, run.start, run.spec, seeds, progress)
         return self._course.outcome
+
+    @property
+    def seconds(self) -> float:
+        """Run time of all loops that `integrate` entered [s]."""
+        assert self._course is not None, "the run was made"
+        return sum(part.outcome.run_seconds for part in self._course.parts)
+
+    @property
+    def bodies(self) -> CompiledModel:
+        """Code whose coordinates tables have: of bodies."""
+        return self._start.compiled
 
     def sensitivities(self, outcome: Outcome) -> Sensitivities:
         """Return the sensitivities of the run that `integrate` made.

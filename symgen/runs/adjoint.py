@@ -73,6 +73,8 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
     if corrects(compiled):
         _compile(_adjoint(law.accept, 0), CORRECTION, f"corrections of {method}")
         read |= _correction_accesses(law.accept).read
+    if read & passing and compiled.info.windings > HEAD - ANGLES:
+        raise _refusal(f"at most {HEAD - ANGLES} angles that count turns", f"{compiled.info.windings}")
     if read & passing or ("w", -1) in own.read | own.stored:
         raise _refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
 

@@ -2,6 +2,7 @@
 
 import pytest
 from running.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, SLIDER_CRANK, model
+from running.test_reset_sensitivities import BALL
 
 import symgen
 from symgen import InputError
@@ -98,7 +99,7 @@ def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
 
 def test_whichever_costs_less_is_taken(four_bar):
     settings = {"until": 0.2, "integrator": "rk4", "step": 1e-2}
-    assert four_bar.gradient("crank.theta", by=("a", "b"), **settings).way == "forward"
+    assert four_bar.gradient("crank.theta", by=tuple(BY_NAME), **settings).way == "forward"
     many = four_bar.gradient("crank.theta", by=(*BY_NAME, "crank.omega"), **settings)
     assert many.way == "adjoint"
     other = four_bar.gradient("crank.theta", by=(*BY_NAME, "crank.omega"), method="null-space", **settings)
@@ -122,6 +123,25 @@ def test_what_has_no_adjoint_is_refused(four_bar, settings, expected):
     usual = {"way": "adjoint", "integrator": "rk4", "step": 1e-2, "until": 0.1}
     with pytest.raises(InputError, match=expected):
         four_bar.gradient("crank.theta", by=("a", "b"), **usual | settings)
+
+
+@pytest.mark.parametrize("way", ["adjoint", "auto"])
+def test_events_that_change_the_state_are_for_forward_directions(tmp_path, way):
+    ball, settings = model(tmp_path, BALL), {"until": 1.0, **TIGHT}
+    if way == "adjoint":
+        with pytest.raises(InputError, match=r"adjoint: expected a run without events, .* forward directions take it"):
+            ball.gradient("ball.y", by=("h0", "e"), way=way, **settings)
+        return
+    many = ball.gradient("ball.y", by=("h0", "e", "g", *(f"ball.{c}" for c in ("x", "vx", "vy"))), way=way, **settings)
+    assert many.way == "forward"
+    assert many.by["h0"] == pytest.approx(1.365029880359517, rel=1e-11)
+
+
+def test_many_angles_that_count_turns_are_for_forward_directions():
+    with pytest.raises(InputError, match="adjoint: expected at most 5 angles that count turns, got 7; forward"):
+        symgen.load("chain:8").gradient(
+            "rod8.z", by="bodies.rod8.mass", way="adjoint", until=0.01, integrator="rk4", method="lagrange"
+        )
 
 
 @pytest.mark.slow

@@ -281,6 +281,15 @@ def test_what_has_no_sensitivities_is_refused(four_bar, settings, said):
         four_bar.simulate(until=0.1, **settings)
 
 
+def test_rows_of_sweeps_and_steps_from_python_have_none(four_bar):
+    for many in (
+        lambda: four_bar.sweep({"a": [1.9, 2.0]}, sensitivities="a"),
+        lambda: four_bar.start(sensitivities="a"),
+    ):
+        with pytest.raises(InputError, match=r"got 'sensitivities'; single runs have them: simulate\(settings, sens"):
+            many()
+
+
 def test_a_length_that_destroys_mobility_is_refused(tmp_path):
     # a double parallelogram moves because three cranks are equally long
     bar = "[bodies.{0}]\nmass = 1.0\ninertia = 0.1\nposition = [{1}, 0.5]\nangle = 1.5707963267948966\n"

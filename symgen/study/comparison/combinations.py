@@ -51,11 +51,12 @@ class Combinations:
     coordinates: Sequence[str] = ()
     error_at: Sequence[float] = ()
     laws: Sequence[str] = ()
+    gradient: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         words = {
             name: arguments.words(name, getattr(self, name))
-            for name in ("methods", "integrators", "coordinates", "laws")
+            for name in ("methods", "integrators", "coordinates", "laws", "gradient")
         }
         for state in words["coordinates"]:
             arguments.one_of("coordinates", state, COORDINATES)

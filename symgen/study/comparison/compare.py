@@ -24,6 +24,7 @@ from symgen.running.prepare import preparation
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Study, Trace, save_csv
+from symgen.study.comparison.gradients import check_parameters
 from symgen.study.comparison.laws import mechanisms_of_laws
 from symgen.study.comparison.model_comparison import PATIENCE, PREPARATION, REPEAT, ModelComparison, compute
 from symgen.study.journal import Journal
@@ -71,6 +72,7 @@ def compare(
     max_step: float | None = None,
     error_at: Sequence[float] = (),
     laws: Sequence[str] = (),
+    gradient: Sequence[str] = (),
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -121,6 +123,9 @@ def compare(
     laws : sequence of str
         Laws of dry friction, each with lines of its own: ``exact``, the default, and ``tanh:speed=1e-3``, the bound
         times tanh(rate / speed).
+    gradient : sequence of str
+        Parameters by which the motion is differentiated: rows have the error of the derivatives of coordinates, beside
+        differences of references, and the run time with derivatives.
 
     Returns
     -------
@@ -145,7 +150,7 @@ def compare(
         repeat=repeat,
         shape=shape,
     )
-    runs = Combinations(methods, integrators, steps, rtols, coordinates, error_at, laws)
+    runs = Combinations(methods, integrators, steps, rtols, coordinates, error_at, laws, gradient)
     return compare_all([model], common, runs, reference_by, progress, jobs, journal)[0]
 
 
@@ -199,10 +204,11 @@ def compare_all(
         if chosen.mechanism.bounded and reference_by != AUTO:
             expected = "auto, as these solvers have no modes of dry friction or stops"
             raise InputError("reference", expected, f"'{reference_by}'")
+        check_parameters(chosen.mechanism, runs.gradient)
         step, modes = chosen.mechanism.defaults.step, bool(chosen.mechanism.bounded)
         cases = [(law, s) for law in mechanisms for s in runs.settings(base, step, modes)]
         runs_of_model = [preparation(mechanisms[law], s) for law, s in cases]  # raises errors before the first run
-        measures = (reference_by, records, tuple(runs.error_at), tuple(law for law, _ in cases))
+        measures = (reference_by, records, tuple(runs.error_at), tuple(law for law, _ in cases), tuple(runs.gradient))
         works.append(ModelComparison(chosen, common, end, times, [s for _, s in cases], runs_of_model, *measures))
     ahead = jobs > 1 and cache_location().persistent  # else the code that another process compiles would be lost
     reached, total = 0.0, sum(work.total(ahead) for work in works)

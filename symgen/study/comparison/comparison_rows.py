@@ -32,7 +32,7 @@ YARDSTICK = "lagrange"
 
 #: Units of columns.
 UNITS = {
-    **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
+    **dict.fromkeys(("step", "gradient_seconds", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
     **{"error": "m", "velocity_error": "m/s", "reaction_error": "N", "energy_drift_max": "J"},
     **{"dissipated": "J", "creep": "m/s"},
     **{
@@ -107,6 +107,11 @@ class Row:
     creep : float or None
         Largest rate along a coordinate with dry friction at outputs at which it rests in the reference [m/s]; of an
         angle times the mechanism's length. None where none rests.
+    gradient_error : float or None
+        Largest error of the derivatives of coordinates by a parameter, over the largest derivative; angles count by the
+        mechanism's length. None without `gradient`, and for schemes without derivatives.
+    gradient_seconds : float or None
+        Run time with these derivatives [s].
     """
 
     method: str
@@ -146,6 +151,8 @@ class Row:
     impacts: int | None = None
     dissipated: float | None = None
     creep: float | None = None
+    gradient_error: float | None = None
+    gradient_seconds: float | None = None
 
     @property
     def label(self) -> str:

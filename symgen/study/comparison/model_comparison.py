@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, NotRequired, TypedDict
 
@@ -23,6 +23,7 @@ from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import Study, check_entry, from_entry, to_entry, with_ratios
 from symgen.study.comparison.distances import Distances, exact_rates, exact_reactions
 from symgen.study.comparison.equal_error import ROUNDS, times_at
+from symgen.study.comparison.gradients import FACTORS, Gradients, slopes_of, width_of
 from symgen.study.comparison.measured_runs import measured
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.limits import WATCHES, unlimited
@@ -124,6 +125,7 @@ class ModelComparison:
     journal: Journal
     error_at: tuple[float, ...]
     laws: tuple[str, ...]
+    gradient: tuple[str, ...] = ()
 
     @property
     def plans(self) -> list[Plan]:
@@ -156,12 +158,38 @@ class ModelComparison:
         return Cell(cell_key(what="reference", **self._parts), self.model.name, task, check=_check_motion)
 
     @cached_property
+    def shifted(self) -> dict[str, tuple[float, dict[int, Cell]]]:
+        """Cells of references with other values of the parameters of `gradient`, and by what these differ."""
+        base, found = self.settings[0], dict[str, tuple[float, dict[int, Cell]]]()
+        values = parameter_values(self.model.mechanism, base.parameters)
+        for name in self.gradient:
+            width, cells = width_of(values[name]), dict[int, Cell]()
+            for k in FACTORS:
+                own = replace(base, parameters={**base.parameters, name: values[name] + k * width})
+                parts = {**self._parts, "parameters": dict(own.parameters)}
+                task = ReferenceTask(self.model.mechanism, own, self.times, self.reference_by)
+                cells[k] = Cell(cell_key(what="reference", **parts), self.model.name, task, check=_check_motion)
+            found[name] = width, cells
+        return found
+
+    def _gradients(self, motions: Mapping[str, Outcome], distances: Distances | None) -> Gradients | None:
+        """Return the derivatives of the reference; None without `gradient`, or where a reference is missing."""
+        keys = [cell.key for _, cells in self.shifted.values() for cell in cells.values()]
+        if not keys or distances is None or any("q" not in motions[key] for key in keys):
+            return None
+        slopes = dict[str, Array]()
+        for name, (width, cells) in self.shifted.items():
+            slopes[name] = slopes_of({k: np.array(motions[cell.key]["q"]) for k, cell in cells.items()}, width)
+        return Gradients(slopes, distances)
+
+    @cached_property
     def rows(self) -> list[Cell]:
         """Cells of the rows; their tasks are indices of the settings."""
         cells = []
         for i, settings in enumerate(self.settings):
             own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in self._parts}
             own |= {"law": self.laws[i]} if self.laws[i] else {}
+            own |= {"gradient": self.gradient} if self.gradient else {}
             cells.append(Cell(cell_key(what="comparison", **self._parts, **own), "", i, check=check_entry))
         return cells
 
@@ -175,7 +203,8 @@ class ModelComparison:
         tasks = [CodeTask(mechanisms[key], tuple(group.values())) for key, group in groups.items()]
         codes = [Cell(f"{self.model.name} {i}", self.model.name, task) for i, task in enumerate(tasks)]
         # the reference comes last: it always takes time; cached code takes none, so that no process is started
-        return [*codes, self.reference] if groups else []
+        shifted = (cell for _, cells in self.shifted.values() for cell in cells.values())
+        return [*codes, self.reference, *shifted] if groups else []
 
     def run(self, show: Callable[[str, float], None], ahead: bool) -> Study:
         """Run the rows that the journal lacks, one at a time; `ahead` says whether their code was compiled before."""
@@ -184,10 +213,12 @@ class ModelComparison:
             show("reference", 0.0)
             return task.outcome()
 
-        motions, interrupted = run_cells([self.reference], motion, self.journal)
+        shifted = [cell for _, cells in self.shifted.values() for cell in cells.values()]
+        motions, interrupted = run_cells([self.reference, *shifted], motion, self.journal)
         if interrupted:
             return self.study(True)
         distances, shared = self._distances(motions[self.reference.key]), dict[str, dict[Any, Assembled]]()
+        gradients = self._gradients(motions, distances)
         compiled = set[Any]()
 
         def begun(i: int) -> Prepared:
@@ -211,7 +242,11 @@ class ModelComparison:
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
             variant = words_of_variant(settings, self.common)
-            return to_entry(*measured(run, runs, distances, variant, stopped, self.laws[i]))
+            entry, trace = measured(run, runs, distances, variant, stopped, self.laws[i])
+            if gradients is not None:
+                error, seconds = gradients.measured(self.model.mechanism, settings)
+                entry = replace(entry, gradient_error=error, gradient_seconds=seconds)
+            return to_entry(entry, trace)
 
         def in_turn(indices: list[int]) -> Outcome:
             runs, seconds = [unlimited(begun(i)) for i in indices], list[list[float]]()
