@@ -5,15 +5,18 @@ Only numbers that are named become parameters, so that code of other runs stays 
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.kinds import FORCES, JOINTS
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.names import LONGEST
 from symgen.describe.origins import Origin, origin_of
+from symgen.describe.schema import described
 from symgen.describe.validate import validate
 
 #: Sections whose numbers have paths; those of parameters, inputs and starts have names.
@@ -145,11 +148,30 @@ def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> 
     value: Any = raw
     for part in path:
         value = value[part]
-    key = path[1] if path[0] == "mechanism" else path[2] if path[0] == "bodies" and len(path) > 2 else ""
-    entry = {"value": float(value), "unit": _UNITS.get(str(key), ""), "note": name}
+    entry = {"value": float(value), "unit": _unit(raw, path), "note": name}
     result: dict[str, Any] = _put(raw, path, parameter)
     result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
     return result
+
+
+def _unit(raw: Mapping[str, Any], path: Path) -> str:
+    """Return the unit of a number; empty where the texts on its table have none, or one for each of several."""
+    section, key = path[0], str(path[1] if path[0] == "mechanism" else path[2] if len(path) > 2 else "")
+    if section in ("joints", "forces"):
+        kinds, kind = JOINTS if section == "joints" else FORCES, raw[section][path[1]].get("type")
+        return "m" if key == "at" else _units_of(kinds.get(str(kind), section)).get(key, "")
+    return _UNITS.get(key, "") if section in ("mechanism", "bodies") else ""
+
+
+@functools.cache
+def _units_of(kind: type[Any]) -> dict[str, str]:
+    """Return the units of keys of a joint or a force, as the texts on its keys have these in brackets."""
+    units = dict[str, str]()
+    for names, text in re.findall(r"^(\w+(?:, \w+)*) : .*\n((?:    .*\n?)+)", described(kind), re.MULTILINE):
+        keys, own = names.split(", "), re.findall(r"\[([^\]]+)\]", text)
+        if len(keys) == len(own) and not any(" or " in unit or " with " in unit for unit in own):
+            units |= dict(zip(keys, own, strict=True))
+    return units
 
 
 def _put(value: Any, path: Path, new: str) -> Any:

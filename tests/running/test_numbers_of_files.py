@@ -77,6 +77,34 @@ def test_only_numbers_that_are_named_become_parameters(rod):
     assert {**own.keys} == {"bodies.rod.mass": "bodies_rod_mass"}
 
 
+def test_units_of_numbers_of_joints_and_forces(tmp_path):
+    spring = """
+[forces.spring]
+type = "torsional-spring-damper"
+between = ["ground", "rod"]
+stiffness = 2.0
+damping = 0.1
+free_angle = 0.2
+[forces.rope]
+type = "spring-damper"
+between = ["ground", "rod"]
+at = [[2.0, 0.0], "pin"]
+stiffness = 3.0
+"""
+    units = {
+        "forces.spring.stiffness": "N m/rad",
+        "forces.spring.damping": "N m s/rad",
+        "forces.spring.free_angle": "rad",
+        "forces.rope.stiffness": "N/m",
+        "forces.rope.at[0][0]": "m",
+        "joints.pin.at[0][1]": "m",
+        "bodies.rod.mass": "kg",
+        "mechanism.gravity[0]": "m/s^2",
+    }
+    run = model(tmp_path, ROD + spring).simulate(until=0.1, sensitivities=tuple(units), integrator="rk4", step=0.05)
+    assert dict(zip(run.sensitivities.names, run.sensitivities.units, strict=True)) == units
+
+
 def test_numbers_of_tables_that_a_description_has_twice():
     # both couplers of this module have the same list, and a parameter is in the place of one number
     model, path = symgen.load("n-four-bar:2"), "bodies.coupler1.points.B[0]"
