@@ -79,8 +79,8 @@ docs: $(DOCS_INSTALLED)  ## build the site into out/site; a warning is an error
 gallery: $(INSTALLED)  ## measure the catalogue anew: data, pictures and pages of docs/gallery and docs/pictures
 	@"$(BIN)/python" -m benchmarks.gallery
 
-findings: $(INSTALLED)  ## measure tables of pages anew and write them into the pages; without run times, which need a quiet machine
-	@"$(BIN)/python" -m benchmarks.findings
+findings: $(INSTALLED)  ## measure tables of pages and write them there: TABLES=names, TIMES=--times on a quiet machine
+	@"$(BIN)/python" -m benchmarks.findings $(TABLES) $(TIMES)
 
 bench: $(INSTALLED)  ## measure: right-hand side against gcc, time to first result, singular passages, space, peers if installed
 	@"$(BIN)/python" -m benchmarks.against_gcc

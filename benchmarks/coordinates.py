@@ -1,6 +1,6 @@
 """Coordinates of bodies beside those of joints: operations, run time, and error against run time.
 
-    python -m benchmarks.coordinates [MODEL ...]
+    python -m benchmarks.coordinates
 
 Operations are those of the emitted right-hand side of `lagrange`, and of the tangent of its descriptor form. Run times
 are of `direct-correction`: with `rk4` at the mechanism's own step, runs in both coordinates in turns, medians of their
@@ -11,24 +11,29 @@ shortest times of all turns, and the straight line through the logarithms of tho
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from functools import partial
 from statistics import median
 from typing import Any
 
 import numpy as np
 
 import symgen
+from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
 from symgen.api import Model
 from symgen.compiling.choices import on_tree
+from symgen.compiling.closing import free_velocities
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
+from symgen.lower.plans import cheapest_plan, closing_plan
 from symgen.methods import METHODS
 from symgen.result.points import Points
 
 MODELS = (
     *("four-bar", "slider-crank", "andrews", "n-four-bar:10", "bricard", "spatial-slider-crank"),
-    *("front-suspension", "stewart-platform", "flyball-governor", "chain:6"),
+    "flyball-governor",
 )
 #: Error that `dop853` is asked for [m], and what is tried.
 ERROR = 1e-6
@@ -41,7 +46,9 @@ def operations(mechanism: Mechanism) -> tuple[int, int]:
     """Return those of the right-hand side and of the tangent."""
     method = METHODS.get("lagrange", "")
     equations = formulate(mechanism)
-    law = lower_law(equations, lower_model(equations, ""), method, method.complete_options({}), implicit=True)
+    closing = closing_plan(equations, cheapest_plan(equations), free_velocities(mechanism))
+    options = method.complete_options({})
+    law = lower_law(equations, lower_model(equations, ""), method, options, implicit=True, closing=closing)
     counts = {block.name: block.operations for block in law.blocks}
     return counts["rhs"], counts["tangent"]
 
@@ -85,28 +92,35 @@ def crossing(curve: np.ndarray) -> float:
     return float(np.exp(height + slope * np.log(ERROR)))
 
 
-def main(names: list[str]) -> None:
-    """Print a line a model."""
-    print(f"{'':22} {'rhs':>12} {'tangent':>14}   rk4 (spread)      dop853 to {ERROR:g} m")
-    for name in names:
+def relative_time(model: Model) -> str:
+    """Return the median ratio of run times with `rk4`, bodies over joints, of runs in turns."""
+    ratios = []
+    for _ in range(TURNS):
+        a, b = (run(model, c, integrator="rk4").outcome.cpu_seconds for c in COORDINATES)
+        ratios.append(a / b)
+    return f"{median(ratios):.2g}"
+
+
+def table(times: bool = False) -> PageTable:
+    """Return operations and ratios of run times of both coordinates."""
+
+    def cells(name: str) -> Iterator[str]:
         model = symgen.load(name)
-        absolute, joint = operations(model.mechanism), operations(on_tree(model.mechanism))
-        ratios, seconds = [], [0.0, 0.0]
-        for _ in range(TURNS):
-            a, b = (run(model, c, integrator="rk4").seconds.run for c in COORDINATES)
-            ratios.append(a / b)
-            seconds = [a, b]
-        points = Points.of(model.mechanism, model.parameters())
+        counts = operations(model.mechanism), operations(on_tree(model.mechanism))
+        yield f"{counts[0][0]} / {counts[1][0]}"
+        yield f"{counts[0][1]} / {counts[1][1]}"
+        if not times:
+            yield from (KEPT, KEPT)
+            return
+        yield relative_time(model)
         exact = np.asarray(run(model, "joint", integrator="dop853", rtol=1e-13, atol=1e-14).q)
-        timed = at_equal_error(model, exact, points)
-        low, high = np.quantile(ratios, [0.1, 0.9])
-        print(
-            f"{name:22} {absolute[0]:5}/{joint[0]:<6} {absolute[1]:6}/{joint[1]:<7} "
-            f"{median(ratios):5.2f} ({low:.2f}-{high:.2f})   {timed[0] / timed[1]:5.2f}"
-            f"   {1e3 * seconds[0]:.3g}/{1e3 * seconds[1]:.3g} ms, {1e3 * timed[0]:.3g}/{1e3 * timed[1]:.3g} ms",
-            flush=True,
-        )
+        timed = at_equal_error(model, exact, Points.of(model.mechanism, model.parameters()))
+        yield f"{timed[0] / timed[1]:.2g}"
+
+    rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in MODELS)
+    headings = ("mechanism", "right-hand side", "tangent", "`rk4`", f"`dop853` to {ERROR:g} m".replace("e-0", "e-"))
+    return PageTable("coordinates", "docs/findings/coordinates.md", headings, rows, (3, 4))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or list(MODELS))
+    sys.exit(print_tables({"coordinates": table(times=True)}, sys.argv[1:]))

@@ -1,29 +1,27 @@
 """Run time of methods at equal errors, as ratios to `lagrange`: five mechanisms, three integrators, two errors.
 
-    python -m benchmarks.equal_error [--workers N] [--seconds S] [-o ROWS] [MECHANISM ...]
+    python -m benchmarks.equal_error                       the table of its page, from the record
+    python -m benchmarks.records equal_error --workers N   measures the record, two minutes with 15 cores
 
 A mechanism with an integrator is a study of `symgen compare --at`: nine steps or eleven tolerances a method, all timed
-in turn, nine rounds. Errors are shares of the mechanism's length. Cells are the median of the rounds' ratios, with
-quartiles, of the CPU time of one process each, so that several processes want a core each; one that is empty has no two
-settings with errors on both sides. A study is a line of JSON in the file of rows, and is not measured again where it is
-there.
+in turn, nine rounds. Errors are shares of the mechanism's length. Cells are the medians of the rounds' ratios at both
+errors, of the CPU time of one process each, so that several processes want a core each; one that is empty has no two
+settings with errors on both sides.
 """
 
 from __future__ import annotations
 
-import argparse
-import contextlib
-import json
+import itertools
 import math
+import random
+import statistics
 import sys
-import time
-from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from typing import Any, NamedTuple
 
-from benchmarks.page_tables import markdown
-from benchmarks.statistics import Line, lines_in
-from benchmarks.verification.workers import answers
+from benchmarks.page_tables import BAND, PageTable, list_of, print_tables
+from benchmarks.records import Line, Pair, Record
 from symgen.study.comparison.combinations import DEFAULT_METHODS
 from symgen.study.comparison.compare import compare
 
@@ -36,36 +34,41 @@ MECHANISMS = {
     "spatial-slider-crank": (0.15, 2.0, 8e-3),
 }
 INTEGRATORS = ("rk4", "dop853", "picard")
-METHODS = (*DEFAULT_METHODS, "velocity-projection", "direct-correction:weight=mass")
+METHODS = (
+    *("lagrange", "baumgarte", "velocity-projection", "direct-correction", "direct-correction:weight=mass"),
+    *(name for name in reversed(DEFAULT_METHODS) if name not in ("lagrange", "baumgarte", "direct-correction")),
+)
 #: Errors, as largest distances of points of bodies over the length of the mechanism [1].
 ERRORS = (1e-6, 1e-8)
 #: Number of constant steps of a method, each half of the one before it, and tolerances.
 STEPS, RTOLS = 9, tuple(10.0**-k for k in range(2, 13))
+#: What is stored of a run time at an error.
+NUMBERS = ("seconds", "ratio", "ratio_low", "ratio_high")
 #: Processor time of a study at most [s].
 PATIENCE = 280.0
 
-Job = tuple[str, str]
+
+class Job(NamedTuple):
+    """A mechanism with an integrator, in one of two sessions on different machines."""
+
+    mechanism: str
+    integrator: str
+    session: int = 2
 
 
-def examine(job: Job) -> dict[str, Any]:
-    """Return the line of a mechanism with an integrator."""
-    name, integrator = job
-    length, until, step = MECHANISMS[name]
+def examine(job: Job, methods: Sequence[str] = METHODS) -> dict[str, Any]:
+    """Return, for each method, its run times [s], and their ratio to `lagrange` with quartiles, at all errors."""
+    length, until, step = MECHANISMS[job.mechanism]
     steps, errors = [step / 2**k for k in range(STEPS)], [length * error for error in ERRORS]
-    table = compare(name, METHODS, (integrator,), steps, RTOLS, until=until, repeat=1, error_at=errors).to_json()
-    return {"mechanism": name, "integrator": integrator, "reference": table["reference"], "at": table["at"]}
-
-
-def cells(line: Line, error: float) -> Iterator[str]:
-    """Yield the cells of an error: milliseconds of `lagrange`, then the ratio of each method with its quartiles."""
-    absolute = error * MECHANISMS[line["mechanism"]][0]
-    times = {time["method"]: time for time in line["at"] if math.isclose(time["error"], absolute)}
-    base = times["lagrange"]["seconds"]
-    yield "" if base is None else f"{1e3 * base:.2g}"
-    for method in METHODS[1:]:
-        time_ = times.get(label(method), {"ratio": None})
-        middle = time_["ratio"]
-        yield "" if middle is None else f"{middle:.2f} ({time_['ratio_low']:.2f}-{time_['ratio_high']:.2f})"
+    study = compare(
+        job.mechanism, methods, (job.integrator,), steps, RTOLS, until=until, repeat=1, error_at=errors
+    ).to_json()
+    at: dict[str, list[list[float | None]]] = {method: [] for method in methods}
+    for error in errors:
+        for method in methods:
+            times = [x for x in study["at"] if x["method"] == label(method) and math.isclose(x["error"], error)]
+            at[method].append([times[0][key] if times else None for key in NUMBERS])
+    return {"at": at}
 
 
 def label(method: str) -> str:
@@ -73,46 +76,104 @@ def label(method: str) -> str:
     return method.replace(":", ", ")
 
 
-def rows(lines: Sequence[Line]) -> Iterator[list[str]]:
-    """Yield the rows of the table in the order of mechanisms, integrators and errors."""
-    own = {(line["mechanism"], line["integrator"]): line for line in lines if "at" in line}
-    for name in MECHANISMS:
-        for integrator in INTEGRATORS:
-            if (name, integrator) in own:
-                for error in ERRORS:
-                    yield [f"`{name}`", f"`{integrator}`", f"{error:g}", *cells(own[name, integrator], error)]
+def ratio(cell: Sequence[float | None]) -> str:
+    """Return a ratio as a cell, empty if there is none."""
+    middle = cell[1]
+    return "" if middle is None else f"{middle:.2f}" if middle < 9.95 else f"{middle:.0f}"
 
 
-def main() -> None:
-    """Measure, and print the table."""
-    parser = argparse.ArgumentParser(description="Run time at equal errors.")
-    parser.add_argument("mechanisms", nargs="*", default=list(MECHANISMS))
-    parser.add_argument("--workers", type=int, default=1, help="processes, a core each")
-    parser.add_argument("--seconds", type=float, default=math.inf, help="no study begins after so many seconds")
-    parser.add_argument("-o", "--output", type=Path, help="file of rows; the studies that it has are not measured")
-    chosen = parser.parse_args()
-    lines, began = lines_in(chosen.output), time.monotonic()
-    done = {(line["mechanism"], line["integrator"]) for line in lines}
-    wanted = ((name, integrator) for integrator in INTEGRATORS for name in chosen.mechanisms)
-    jobs = (job for job in wanted if job not in done and time.monotonic() - began < chosen.seconds)
-    with contextlib.ExitStack() as stack:
-        file = None if chosen.output is None else stack.enter_context(chosen.output.open("a", encoding="utf-8"))
-        for answer in answers(examine, jobs, chosen.workers, PATIENCE):
-            line = answer.value or dict(zip(("mechanism", "integrator"), answer.job, strict=True), died=answer.died)
-            lines.append(line)
-            if file is not None:
-                file.write(json.dumps(line) + "\n")
-                file.flush()
-            print(*answer.job, f"{time.monotonic() - began:.0f} s", answer.died, file=sys.stderr, flush=True)
-    headings = (
-        "mechanism",
-        "integrator",
-        "error / length",
-        "`lagrange` [ms]",
-        *(f"`{method}`" for method in METHODS[1:]),
+def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
+    """Yield the ratios of one method on a mechanism beside those measured again."""
+    method = dice.choice(METHODS[1:])
+    job = Job(stored["mechanism"], stored["integrator"], stored["session"])
+    new = examine(job, ("lagrange", method))["at"][method]
+    for error, one, other in zip(ERRORS, stored["at"][method], new, strict=True):
+        yield Pair(f"{job.mechanism}, {job.integrator}, {method} at {error:g}", one[1], other[1], BAND)
+
+
+def page_table() -> PageTable:
+    """Return the ratios at both errors."""
+    lines = studies()
+
+    def cells(job: Job) -> Iterator[str]:
+        for method in METHODS[1:]:
+            yield ", ".join(map(ratio, lines[job][method]))
+
+    rows = tuple(
+        ((f"`{job.mechanism}`", f"`{job.integrator}`"), partial(list_of, cells, job))
+        for job in lines
+        if job.session == 2
     )
-    print("\n".join(markdown(headings, list(rows(lines)))))
+    headings = ("mechanism", "integrator", *(f"`{m}`".replace(":weight=mass`", "`, mass") for m in METHODS[1:]))
+    return PageTable("equal_error", "docs/findings/equal-error.md", headings, rows, stored=True, claims=claims)
+
+
+def claims() -> Iterator[str]:
+    """Yield what the page says of the ratios."""
+
+    def span(method: str, *integrators: str) -> tuple[str, str, str]:
+        found = [x for i in integrators for x in ratios(method, i)]
+        low, middle, high = min(found), statistics.median(found), max(found)
+        return f"{low:.2f} to {high:.2f}", f"{middle:.2f}", f"{high:.0f}"
+
+    velocity, direct = "velocity-projection", "direct-correction"
+    yield (
+        f"With `rk4`, the source's integrator, `{velocity}` takes {span(velocity, 'rk4')[0]} and `{direct}` "
+        f"{span(direct, 'rk4')[0]} times as long as `lagrange` on all five mechanisms."
+    )
+    others = INTEGRATORS[1:]
+    yield (
+        f"With `dop853` and `picard` `{velocity}` takes {span(velocity, *others)[0]} times as long, "
+        f"{span(velocity, *others)[1]} in the middle, and `{direct}` {span(direct, *others)[0]}, "
+        f"{span(direct, *others)[1]} in the middle."
+    )
+    low = min(ratios("direct-correction:weight=mass", "rk4"))
+    yield f"The metric of M is worth most in space with `rk4`: {low:.2f}."
+    dear = [x for m in METHODS[5:] for i in INTEGRATORS for x in ratios(m, i)]
+    yield (
+        f"`baumgarte` takes {span('baumgarte', *INTEGRATORS)[0]} times as long; `coordinate-partitioning` and what "
+        f"iterates {statistics.median(dear):.1f} times in the middle, up to {max(dear):.0f} times."
+    )
+    lines, both = studies(), []
+    for job in lines:
+        for method in METHODS[1:] if job.session == 2 else ():
+            for one, other in zip(lines[job][method], lines[job._replace(session=1)][method], strict=True):
+                if one[1] and other[1]:
+                    both.append((other[1] / one[1], (one[1] - 1.0) * (other[1] - 1.0) < 0.0, one[1], other[1]))
+    quotients, crossed = sorted(row[0] for row in both), [x for row in both if row[1] for x in row[2:]]
+    edge = len(both) // 20
+    yield (
+        f"On another machine nine in ten of the {len(both)} ratios were {quotients[edge]:.2f} to "
+        f"{quotients[-edge - 1]:.2f} times these; {len(crossed) // 2}, all between {min(crossed):.2f} and "
+        f"{max(crossed):.2f}, lay on the other side of 1."
+    )
+    spread = [(c[3] - c[2]) / c[1] for at in lines.values() for m in METHODS[1:] for c in at[m] if c[1]]
+    yield f"The quartiles of the nine rounds lie {100 * statistics.median(spread):.0f} % apart in the middle."
+
+
+def studies() -> dict[Job, Mapping[str, Any]]:
+    """Return the cells of the record."""
+    own = {
+        Job(line["mechanism"], line["integrator"], line["session"]): line["at"]
+        for line in RECORD.lines()
+        if "at" in line
+    }
+    return {job: own[job] for job in jobs() if job in own}
+
+
+def ratios(method: str, integrator: str) -> list[float]:
+    """Return the ratios of a method with an integrator in the second session."""
+    found = (at[method] for job, at in studies().items() if (job.integrator, job.session) == (integrator, 2))
+    return [cell[1] for both in found for cell in both if cell[1]]
+
+
+def jobs() -> Iterator[Job]:
+    """Yield the mechanisms with each integrator."""
+    return (Job(*pair, session) for session in (1, 2) for pair in itertools.product(MECHANISMS, INTEGRATORS))
+
+
+RECORD = Record("equal_error", jobs, examine, again, PATIENCE)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(print_tables({"equal_error": page_table()}, ()))

@@ -4,7 +4,8 @@
 
 Each table is the output of a module, whose command the page names before the table. Cells that agree with what is
 measured stay as they are, and with all of them the date does. Run times are measured with ``--times`` only, on a quiet
-machine; else the page keeps its own.
+machine; else the page keeps its own. Tables of records (`benchmarks.records`) follow from what is stored. Sentences
+that follow from the same numbers are compared with the page, and those that it has otherwise are printed.
 """
 
 from __future__ import annotations
@@ -12,31 +13,49 @@ from __future__ import annotations
 import sys
 from datetime import date
 
-from benchmarks import literature, long, shared_loads, stiff
-from benchmarks.page_tables import ROOT, PageTable, written
+from benchmarks import (
+    all_methods,
+    coordinates,
+    equal_error,
+    literature,
+    long,
+    shared_loads,
+    singular,
+    statistics,
+    stiff,
+)
+from benchmarks.page_tables import ROOT, PageTable, missing, written
 
 
 def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
     """Return every table that has a module; run times are measured only if asked for."""
-    return (*literature.tables(times).values(), shared_loads.table(), stiff.table(), long.table())
+    return (
+        *literature.tables(times).values(),
+        *(shared_loads.table(), stiff.table(), long.table(), singular.table(), coordinates.table(times)),
+        *all_methods.tables().values(),
+        *(equal_error.page_table(), statistics.page_table()),
+    )
 
 
 TABLES = measured_tables()
 
 
 def main(arguments: list[str]) -> int:
-    """Measure the tables that are named, or all, and write them into their pages."""
+    """Measure the tables that are named, or all, and write them into their pages; 1 if a page lacks a sentence."""
     tables = measured_tables(times="--times" in arguments)
-    names = [name for name in arguments if name != "--times"]
+    names, lacking = [name for name in arguments if name != "--times"], 0
     for table in tables:
-        if names and table.command.split()[-1] not in names:
+        if names and not {table.command, table.command.split()[-1], table.command.split()[0]} & set(names):
             continue
         page = ROOT / table.page
         text = page.read_text(encoding="utf-8")
         new = written(table, text, table.measured(), date.today().isoformat())
         page.write_text(new, encoding="utf-8")
         sys.stdout.write(f"{table.command}: {'written into' if new != text else 'as in'} {table.page}\n")
-    return 0
+        for claim in missing(table, new):
+            lacking += 1
+            sys.stdout.write(f"  {table.page} has no sentence '{claim}'\n")
+    return int(lacking > 0)
 
 
 if __name__ == "__main__":

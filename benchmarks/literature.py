@@ -1,12 +1,13 @@
 """Claims of the literature on constraint stabilisation, measured: one table each.
 
-    python -m benchmarks.literature [gains] [adaptive] [energy] [violation] [projection] [classes]
+    python -m benchmarks.literature [gains] [adaptive] [energy] [violation] [projection] [classes] [closing]
 
 `gains`: errors of `baumgarte` with gains from the step, alpha = beta = g / h, against g, by schemes of order 1 to 8;
 `adaptive`: errors of `adaptive-baumgarte` against its largest gain; `energy`: errors with and without scaling
 velocities to the energy, on one and on three degrees of freedom; `violation`: violations beside errors of the motion;
 `projection`: the energy that velocity projections take beside the energy error of the integrator; `classes`: run times
-of methods that are the same in exact arithmetic, in turns.
+of methods that are the same in exact arithmetic, in turns; `closing`: violations, energy and run times of formulations
+at one step, in turns.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ Options = Mapping[str, str | float]
 UNWATCHED = {"max_violation": 1e3, "max_energy_error": 1e3}
 SCHEMES = {"euler": 1e-4, "heun": 1e-3, "rk4": 2e-3, "dopri5": 8e-3, "dop853": 3.125e-2}
 MASS: Options = {"method.weight": "mass"}
-FINDINGS = "docs/findings.md"
+PAGES = "docs/findings/"
 #: An order is shown where the smallest error is above this: below, errors are those of the reference and of rounding.
 RESOLVED = 5e-12
 #: Methods that solve one and the same equations: name of the class at its first line, label, method, options.
@@ -53,6 +54,17 @@ CLASSES: tuple[tuple[str, str, str, Options], ...] = (
     ("stabilised invariants", "`invariant-stabilization`", "invariant-stabilization", {}),
     ("", "`braun-goldfarb`", "braun-goldfarb", {}),
 )
+#: Methods by integrator, beside one another at one step.
+CLOSING = {
+    "rk4": (
+        *("lagrange", "udwadia-kalaba", "baumgarte", "velocity-projection", "direct-correction"),
+        *("mass-orthogonal-projection", "post-stabilization", "augmented-hamiltonian", "null-space"),
+        *("augmented-lagrangian", "index1-augmented-lagrangian", "coordinate-partitioning"),
+    ),
+    "trapezoidal": ("index3-augmented-lagrangian",),
+    "generalized-alpha": ("generalized-alpha",),
+    "radau5": ("ggl",),
+}
 
 
 def opened_four_bar() -> Model:
@@ -123,7 +135,7 @@ def gains() -> PageTable:
         for name, first in SCHEMES.items()
     ]
     headings = ("scheme", "order", "h [s]", "none", *(f"g = {g:g}" for g in values[1:]))
-    return PageTable("literature gains", FINDINGS, headings, tuple(rows))
+    return PageTable("literature gains", PAGES + "gains.md", headings, tuple(rows))
 
 
 def adaptive() -> PageTable:
@@ -160,7 +172,7 @@ def energy() -> PageTable:
     cases += [("open", "open, 3 degrees", until) for until in (2.0, 5.0)]
     rows = tuple(((label, f"{until:g}"), partial(list_of, cells, name, until)) for name, label, until in cases)
     errors = ("`direct-correction`, mass", "its energy error [J]", "`energy-projection`", "its energy error [J]")
-    return PageTable("literature energy", FINDINGS, ("mechanism", "end [s]", *errors, "gain"), rows)
+    return PageTable("literature energy", PAGES + "energy.md", ("mechanism", "end [s]", *errors, "gain"), rows)
 
 
 def violation() -> PageTable:
@@ -181,7 +193,7 @@ def violation() -> PageTable:
         for method, options in kinds
     )
     headings = ("method", r"\|Phi\| [m]", r"\|D v - nu\| [m/s]", "error [m, rad]")
-    return PageTable("literature violation", FINDINGS, headings, rows)
+    return PageTable("literature violation", PAGES + "violations.md", headings, rows)
 
 
 def energy_taken(step: float, until: float, order: int) -> tuple[float, float]:
@@ -222,28 +234,57 @@ def projection() -> PageTable:
     cases = ((4, 1e-2), (4, 5e-3), (2, 5e-3), (2, 2e-3))
     rows = tuple(((str(order), step_size(step)), partial(list_of, cells, order, step)) for order, step in cases)
     headings = ("order", "step [s]", "taken by all projections [J]", "energy error at the end [J]", "share")
-    return PageTable("literature projection", FINDINGS, headings, rows)
+    return PageTable("literature projection", PAGES + "energy.md", headings, rows)
 
 
 def classes(times: bool = False, turns: int = 9) -> PageTable:
     """Return run times and errors by class of methods that are one in exact arithmetic, times in turns."""
 
     def cells(method: str, options: Options) -> Iterator[str]:
-        model, ratios = load("four-bar"), list[float]()
+        model = load("four-bar")
         one = run(model, method, 1e-3, 10.0, options)
-        for _ in range(turns if times else 0):
-            base = run(model, "lagrange", 1e-3, 10.0, {}, repeat=9).seconds.run
-            ratios.append(run(model, method, 1e-3, 10.0, options, repeat=9).seconds.run / base)
-        yield f"{statistics.median(ratios):.2f}" if ratios else KEPT
+        yield relative_time(model, method, options, turns if times else 0)
         yield number(error(one, "four-bar", 10.0))
 
     rows = tuple(((label, name), partial(list_of, cells, method, options)) for label, name, method, options in CLASSES)
-    return PageTable("literature classes", FINDINGS, ("class", "method", "time", "error [m, rad]"), rows, (2,))
+    return PageTable(
+        "literature classes", PAGES + "closed-joints.md", ("class", "method", "time", "error [m, rad]"), rows, (2,)
+    )
+
+
+def closing(times: bool = False, turns: int = 9) -> PageTable:
+    """Return violations, energy errors and run times of formulations at one step, times in turns."""
+
+    def cells(method: str, integrator: str) -> Iterator[str]:
+        model = load("four-bar")
+        one = run(model, method, 1e-3, 10.0, {}, integrator)
+        yield from map(number, (one.position_violation_max, one.velocity_violation_max, one.energy_drift_max))
+        yield relative_time(model, method, {}, turns if times else 0, integrator)
+
+    rows = tuple(
+        ((f"`{method}`",), partial(list_of, cells, method, integrator))
+        for integrator, methods in CLOSING.items()
+        for method in methods
+    )
+    headings = ("method", r"\|Phi\| [m]", r"\|D v - nu\| [m/s]", "energy [J]", "time")
+    return PageTable("literature closing", PAGES + "closed-joints.md", headings, rows, (4,))
+
+
+def relative_time(model: Model, method: str, options: Options, turns: int, integrator: str = "rk4") -> str:
+    """Return the processor time of a run over that of `lagrange`, median of some turns."""
+    ratios = []
+    for _ in range(turns):
+        base, own = (
+            run(model, name, 1e-3, 10.0, chosen, scheme, repeat=3).outcome.cpu_seconds
+            for name, chosen, scheme in (("lagrange", {}, "rk4"), (method, options, integrator))
+        )
+        ratios.append(own / base)
+    return f"{statistics.median(ratios):.2f}" if ratios else KEPT
 
 
 def tables(times: bool = False) -> dict[str, PageTable]:
     """Return all tables by name; run times are measured only if asked for."""
-    measured = (gains(), adaptive(), energy(), violation(), projection(), classes(times))
+    measured = (gains(), adaptive(), energy(), violation(), projection(), classes(times), closing(times))
     return {table.command.split()[-1]: table for table in measured}
 
 

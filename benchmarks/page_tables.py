@@ -6,7 +6,7 @@ import platform
 import random
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,8 @@ ROOT = Path(__file__).parents[1]
 ROUNDING = 1e-10
 #: Times that agree differ by no more than this factor.
 BAND = 2.0
+#: Errors that rounding decides agree if they differ by no more than this factor.
+DECADE = 10.0
 #: Stands for a cell that is not measured: the page keeps its own.
 KEPT = "-"
 
@@ -41,6 +43,12 @@ class PageTable:
         Cells of the first columns, which name a row, and a function that measures the others.
     times : tuple of int
         Columns of run times.
+    loose : tuple of int
+        Columns of errors that rounding decides.
+    stored : bool
+        Whether cells follow from a record: then they are equal, and nothing is measured.
+    claims : callable
+        Returns sentences of the page that follow from the same numbers, word for word.
     """
 
     command: str
@@ -48,6 +56,13 @@ class PageTable:
     headings: tuple[str, ...]
     rows: tuple[Row, ...]
     times: tuple[int, ...] = ()
+    loose: tuple[int, ...] = ()
+    stored: bool = False
+    claims: Callable[[], Iterable[str]] = tuple
+
+    def band(self, column: int) -> float:
+        """Return the factor by which numbers of a column may differ, 0 where their digits count."""
+        return BAND if column in self.times else DECADE if column in self.loose else 0.0
 
     def measured(self) -> list[list[str]]:
         """Return all rows as they are measured now."""
@@ -71,7 +86,7 @@ class Difference:
 def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     """Return the lines of a table."""
     lines = [headings, ["---"] * len(headings), *rows]
-    return ["| " + " | ".join(line).replace("|  |", "| |") + " |" for line in lines]
+    return [re.sub(r"\|  (?=\|)", "| ", "| " + " | ".join(line) + " |") for line in lines]
 
 
 def number(x: float) -> str:
@@ -119,8 +134,8 @@ def unit(number: str) -> float:
     return float(10.0 ** (int(power or 0) - decimals))
 
 
-def agrees(printed: str, measured: str, time: bool = False) -> bool:
-    """Whether cells agree: counts and words exactly, other numbers to one unit of the last digit, times by a band."""
+def agrees(printed: str, measured: str, band: float = 0.0) -> bool:
+    """Whether cells agree: counts and words exactly, other numbers to one unit of the last digit, or within a band."""
     if measured == KEPT:
         return True
     if _NUMBER.sub("#", printed) != _NUMBER.sub("#", measured):
@@ -128,11 +143,13 @@ def agrees(printed: str, measured: str, time: bool = False) -> bool:
     for one, other in zip(_NUMBER.findall(printed), _NUMBER.findall(measured), strict=True):
         a, b = (float(x.replace(",", "")) for x in (one, other))
         exact = not any(c in one + other for c in ".e")
-        if time and not max(abs(a), abs(b)) <= BAND * min(abs(a), abs(b)):
+        if band and not max(abs(a), abs(b)) <= band * min(abs(a), abs(b)):
             return False
         rounding = not exact and max(abs(a), abs(b)) < ROUNDING
         least = 0.0 if exact else 1.01 * max(unit(one), unit(other))
-        if not time and not rounding and not abs(a - b) <= least:
+        if "e" in one + other and not rounding and not band and max(abs(a), abs(b)) > 2.1 * min(abs(a), abs(b)):
+            return False
+        if not band and not rounding and not abs(a - b) <= least:
             return False
     return True
 
@@ -147,7 +164,7 @@ def differences(table: PageTable, text: str, measured: Mapping[int, Sequence[str
     for number, row in measured.items():
         printed = cells_of(lines[number + 2])
         for column, cell in enumerate(row):
-            if not agrees(printed[column], cell, column in table.times):
+            if not agrees(printed[column], cell, table.band(column)):
                 where = first + number + 3
                 yield Difference(table.page, where, table.headings[column], printed[column], cell)
 
@@ -162,7 +179,7 @@ def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date
     for number, row in enumerate(measured):
         old = printed[number] if same else [KEPT] * len(row)
         pairs = enumerate(zip(old, row, strict=True))
-        rows.append([a if same and agrees(a, b, i in table.times) else b for i, (a, b) in pairs])
+        rows.append([a if same and agrees(a, b, table.band(i)) else b for i, (a, b) in pairs])
     behind = end + 1
     stamped = behind < len(lines) and lines[behind].startswith(_DATE.partition("{")[0])
     whole = not any(KEPT in row[1:] for row in measured)
@@ -173,6 +190,12 @@ def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date
         "\n".join([*lines[:first], *markdown(table.headings, rows), *stamp, *lines[behind + 1 if stamped else end :]])
         + "\n"
     )
+
+
+def missing(table: PageTable, text: str) -> list[str]:
+    """Return the claims of a table that its page does not have."""
+    page = " ".join(text.split())
+    return [claim for claim in table.claims() if claim not in page]
 
 
 def drawn(tables: Sequence[PageTable], share: float, seed: int) -> list[tuple[PageTable, int]]:
@@ -192,5 +215,6 @@ def drawn(tables: Sequence[PageTable], share: float, seed: int) -> list[tuple[Pa
 def print_tables(tables: Mapping[str, PageTable], names: Sequence[str]) -> int:
     """Measure and print the tables that are named, or all."""
     for name in names or tables:
-        sys.stdout.write("\n".join(markdown(tables[name].headings, tables[name].measured())) + "\n\n")
+        lines = markdown(tables[name].headings, tables[name].measured())
+        sys.stdout.write("\n".join([*lines, "", *(f"- {claim}" for claim in tables[name].claims()), ""]))
     return 0

@@ -1,31 +1,29 @@
 """Errors, reactions, violations and run times over random mechanisms: quantiles by method.
 
-    python -m benchmarks.statistics [--count N] [--seeds S,S] [--until T] [--integrators A,B]
-        [--methods A,B:OPTION=VALUE] [--workers N] [--seconds S] [-o ROWS]
+    python -m benchmarks.statistics                    the table of its page, from the record
+    python -m benchmarks.records statistics --workers N    measures the record
+    python -m benchmarks.statistics --count N [--seeds S,S] [--until T] [--integrators A,B]
+        [--methods A,B:OPTION=VALUE] [--workers N] [--seconds S] [-o ROWS]     another sample
 
 Mechanisms are drawn in the plane and in space by turns (`benchmarks.mechanisms.draw`): trees and closed loops of one to
 six freedoms, with dependent rows here and there. Those whose motion does not stay regular are left out, and counted.
 Constant steps are 0.03 over the rate rms(v') / rms(v) of a mechanism's motion, tolerances 1e-7. Errors are distances to
 `direct-correction` in the metric of M with `dop853` at 1e-11, at 201 outputs, and ratios are the error of `lagrange`
-over that of the method: above 1 the method is better.
-
-Each mechanism is a line of JSON in the file of rows as soon as it is measured, and mechanisms that the file has are not
-measured again: what was measured anywhere gives the tables here.
+over that of the method: above 1 the method is better. Where no method comes near with `dop853` at 1e-7 the motion is
+not predictable, and the mechanism is left out as well.
 """
 
 from __future__ import annotations
 
 import argparse
-import contextlib
-import json
 import math
-import sys
+import random
 import tempfile
-import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import astuple, dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +31,9 @@ from rich.table import Table
 
 from benchmarks.mechanisms.draw import Refused, draw
 from benchmarks.mechanisms.toml import text
+from benchmarks.page_tables import PageTable, list_of, print_tables
+from benchmarks.records import Line, Pair, Record, measure
 from benchmarks.show import show
-from benchmarks.verification.workers import answers
 from symgen.api import Model, load
 from symgen.base.errors import SymgenError
 from symgen.result.result import FAILED, Result
@@ -63,8 +62,14 @@ RESOLVED, STANDS = 1e-9, 1e-3
 PATIENCE = 60.0
 HEADINGS = ("method", "n", "10 %", "50 %", "90 %", "better", "worse", "mean", "reactions", "|Phi|", "time")
 
-#: A mechanism of the file of rows: seed, index, what it is, and its runs by integrator and method.
-Line = Mapping[str, Any]
+#: The record: seeds, mechanisms of each, end of the runs [s] and integrators.
+SEEDS, COUNT, UNTIL, INTEGRATORS = (2026, 54), 300, 4.0, ("rk4", "dop853", "picard")
+#: Errors over the length that a predictable motion keeps below with one method at least.
+FOLLOWED = 1e-3
+#: Errors of runs that are lost, which small changes decide.
+LOST = 0.1
+#: Numbers of the record that are below are not resolved; ratio of errors within which processors agree.
+UNRESOLVED, WITHIN = 1e-8, {"picard": 4.0}
 
 
 @dataclass(frozen=True)
@@ -131,15 +136,11 @@ class Case:
         return Measured(error, reactions, result.position_violation_max, outcome.cpu_seconds)
 
 
-@dataclass(frozen=True)
-class Job:
-    """One mechanism and its runs."""
+class Job(NamedTuple):
+    """One mechanism."""
 
     seed: int
-    index: int
-    until: float
-    integrators: tuple[str, ...]
-    methods: tuple[str, ...]
+    number: int
 
 
 def case_of(seed: int, index: int, until: float) -> Case | None:
@@ -153,51 +154,39 @@ def case_of(seed: int, index: int, until: float) -> Case | None:
             return None
 
 
-def examine(job: Job) -> dict[str, Any]:
-    """Return the line of a mechanism: without runs where its motion is not regular."""
-    line: dict[str, Any] = {"seed": job.seed, "index": job.index}
-    case = case_of(job.seed, job.index, job.until)
+def examine(
+    job: Job,
+    until: float = UNTIL,
+    integrators: Sequence[str] = INTEGRATORS,
+    methods: Sequence[str] = METHODS,
+) -> dict[str, Any]:
+    """Return what a mechanism is, with the numbers of `Measured` by integrator and method; empty if it is left out."""
+    case = case_of(*job, until)
     if case is None:
-        return line
-    runs = []
-    for integrator in job.integrators:
+        return {"freedoms": None}
+    runs = dict[str, dict[str, tuple[float | None, ...]]]()
+    for integrator in integrators:
         base = case.run("lagrange", integrator)
         if base is None or base.error < RESOLVED:
             continue
-        runs.append({"integrator": integrator, "method": "lagrange", **asdict(base)})
-        for method in job.methods:
+        runs[integrator] = {"lagrange": astuple(base)}
+        for method in methods:
             own = case.run(method, integrator)
             if own is not None:
-                runs.append({"integrator": integrator, "method": method, **asdict(own)})
-    return line | {"freedoms": case.freedoms, "dependent": case.dependent, "step": case.step, "runs": runs}
+                runs[integrator][method] = astuple(own)
+    return {"freedoms": case.freedoms, "dependent": case.dependent, "step": case.step, "runs": runs}
 
 
-def measured(jobs: Iterable[Job], workers: int, seconds: float) -> Iterator[dict[str, Any]]:
-    """Yield the lines of mechanisms as processes finish them; none begins after so many seconds."""
-    began = time.monotonic()
-    timely = (job for job in jobs if time.monotonic() - began < seconds)
-    for answer in answers(examine, timely, workers, PATIENCE):
-        yield answer.value or {"seed": answer.job.seed, "index": answer.job.index, "died": answer.died}
-
-
-def lines_in(path: Path | None) -> list[Line]:
-    """Return the lines of a file of rows."""
-    if path is None or not path.exists():
-        return []
-    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines() if line.strip()]
+def predictable(line: Line) -> bool:
+    """Whether a mechanism is regular, and a method follows its reference with `dop853`."""
+    runs = line.get("runs")
+    return runs is not None and min([m[0] for m in runs.get("dop853", {}).values()], default=0.0) <= FOLLOWED
 
 
 def pairs_of(lines: Iterable[Line], integrator: str, method: str) -> list[tuple[Measured, Measured]]:
-    """Return `lagrange` and a method on the same mechanisms."""
-    pairs = []
-    for line in lines:
-        runs = {run["method"]: run for run in line.get("runs", ()) if run["integrator"] == integrator}
-        if method in runs:
-            base, own = (
-                Measured(**{f.name: runs[name][f.name] for f in fields(Measured)}) for name in ("lagrange", method)
-            )
-            pairs.append((base, own))
-    return pairs
+    """Return `lagrange` and a method on the same predictable mechanisms."""
+    found = (line["runs"].get(integrator, {}) for line in lines if predictable(line))
+    return [(Measured(*runs["lagrange"]), Measured(*runs[method])) for runs in found if method in runs]
 
 
 def quantiles(values: Sequence[float]) -> tuple[str, ...]:
@@ -222,7 +211,7 @@ def tables(lines: Sequence[Line], integrators: Sequence[str], methods: Sequence[
     """Yield a table for each seed and integrator."""
     for seed in sorted({line["seed"] for line in lines}):
         own = [line for line in lines if line["seed"] == seed]
-        regular = sum("runs" in line for line in own)
+        regular = sum(map(predictable, own))
         for integrator in integrators:
             title = f"{integrator}, {until:g} s, seed {seed}: {regular} regular of {len(own)} mechanisms"
             table = Table(title=title)
@@ -234,31 +223,127 @@ def tables(lines: Sequence[Line], integrators: Sequence[str], methods: Sequence[
             yield table
 
 
+def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
+    """Yield the numbers of a mechanism beside those measured again, with one integrator."""
+    job, runs = Job(stored["seed"], stored["number"]), stored.get("runs") or {}
+    integrator = dice.choice(INTEGRATORS)
+    new = examine(job, integrators=(integrator,))
+    where = f"seed {job.seed}, mechanism {job.number}"
+    yield Pair(f"{where}, freedoms", stored["freedoms"], new["freedoms"])
+    if not runs or not predictable(stored):
+        return
+    for name in ("dependent", "step"):
+        yield Pair(f"{where}, {name}", stored[name], new[name])
+    old, own = runs.get(integrator, {}), new["runs"].get(integrator, {})
+    yield Pair(f"{where}, {integrator}, methods", sorted(old), sorted(own))
+    for method in old:
+        # a vector of another width rounds other sums, and the iteration of `picard` ends otherwise
+        within, floor = WITHIN.get(integrator, 1.1), UNRESOLVED
+        if method not in own or old[method][0] > LOST:
+            continue
+        for name, a, b in zip(("error", "reactions"), old[method], own[method], strict=False):
+            yield Pair(f"{where}, {integrator}, {method}, {name}", a, b, within, floor)
+
+
+def page_table() -> PageTable:
+    """Return the table of both seeds, the second in brackets."""
+    lines = RECORD.lines()
+    first, second = ([line for line in lines if line["seed"] == seed] for seed in SEEDS)
+
+    def cells(method: str) -> Iterator[str]:
+        both = [line(pairs_of(own, "rk4", method)) for own in (first, second)]
+        a, b = (dict(zip(HEADINGS[1:], one, strict=True)) for one in both)
+        yield ", ".join(digits(a[name]) for name in ("10 %", "50 %", "90 %"))
+        yield f"{a['better']}, {a['worse']} ({b['better']}, {b['worse']})".replace(" %,", ",")
+        yield f"{digits(a['mean'])} ({digits(b['mean'])})"
+        yield f"{digits(a['reactions'])} ({digits(b['reactions'])})"
+        yield digits(a["time"])
+        for integrator in INTEGRATORS[1:]:
+            means = [line(pairs_of(own, integrator, method))[6] for own in (first, second)]
+            yield f"{digits(means[0])} ({digits(means[1])})"
+
+    headings = (
+        *("method", "`rk4`: 10, 50, 90 %", "better, worse by 5 %", "geometric mean", "of reactions, 50 %"),
+        *("time, 50 %", "`dop853`: mean", "`picard`: mean"),
+    )
+    rows = tuple(((label(method),), partial(list_of, cells, method)) for method in METHODS)
+    return PageTable("statistics", "docs/findings/random-mechanisms.md", headings, rows, stored=True, claims=claims)
+
+
+def claims() -> Iterator[str]:
+    """Yield what the page says of the sample and of the quantiles."""
+    lines = RECORD.lines()
+    samples = [[line for line in lines if line["seed"] == seed] for seed in SEEDS]
+    regular = [[line for line in own if line.get("runs") is not None] for own in samples]
+    followed = [[line for line in own if predictable(line)] for own in samples]
+    both = [line for own in followed for line in own]
+    freedoms, dependent = [line["freedoms"] for line in both], sum(line["dependent"] > 0 for line in both)
+    yield (
+        f"{len(regular[0])} and {len(regular[1])} of {COUNT} move regularly, {len(followed[0])} and {len(followed[1])} "
+        f"predictably; nine in ten of these have up to {np.percentile(freedoms, 90):.0f} freedoms, "
+        f"{dependent} dependent rows."
+    )
+    resolved = [len(pairs_of(own, "rk4", METHODS[0])) for own in samples]
+    yield f"With `rk4` the error of `lagrange` is resolved on {resolved[0]} and {resolved[1]}."
+    cells = {
+        m: [dict(zip(HEADINGS[1:], line(pairs_of(own, "rk4", m)), strict=True)) for own in samples] for m in METHODS
+    }
+
+    def both_of(method: str, name: str) -> str:
+        return " and ".join(digits(one[name].removesuffix(" %")) for one in cells[method])
+
+    motion = "baumgarte:rule=motion"
+    yield (
+        f"`baumgarte` with 5 1/s does harm on {both_of('baumgarte', 'worse')} %, by the rule of the motion on "
+        f"{both_of(motion, 'worse')} %."
+    )
+    yield (
+        f"In the geometric mean velocities alone are worth {both_of('velocity-projection', 'mean')}, with positions "
+        f"{both_of('direct-correction', 'mean')}, in the metric of M {both_of(METHODS[5], 'mean')}."
+    )
+
+
+def digits(cell: str) -> str:
+    """Return a number with two digits."""
+    x = float(cell)
+    return f"{x:.0f}" if abs(x) >= 9.95 else f"{x:.2g}" if abs(x) < 0.995 else f"{x:.1f}"
+
+
+def label(method: str) -> str:
+    """Return the name of a line, such as `direct-correction`, mass."""
+    name, _, option = method.partition(":")
+    own = {"": "", "weight=mass": ", mass"}.get(option, f", `{option}`")
+    return f"`{name}`{own}" + (", 5 1/s" if method == "baumgarte" else "")
+
+
+RECORD = Record(
+    "statistics",
+    lambda: (Job(seed, number) for number in range(COUNT) for seed in SEEDS),
+    examine,
+    again,
+    PATIENCE,
+)
+
+
 def main() -> None:
-    """Measure, and print a table for each seed and integrator."""
+    """Print the table of the page, or measure another sample and print a table for each seed and integrator."""
     parser = argparse.ArgumentParser(description="Quantiles over random mechanisms.")
-    parser.add_argument("--count", type=int, default=48, help="mechanisms of each seed")
+    parser.add_argument("--count", type=int, help="mechanisms of each seed of another sample than the record's")
     parser.add_argument("--seeds", default="1")
-    parser.add_argument("--until", type=float, default=4.0)
+    parser.add_argument("--until", type=float, default=UNTIL)
     parser.add_argument("--integrators", default="rk4")
     parser.add_argument("--methods", default=",".join(METHODS))
     parser.add_argument("--workers", type=int, default=1, help="processes; run times want a core each")
     parser.add_argument("--seconds", type=float, default=math.inf, help="no mechanism begins after so many seconds")
     parser.add_argument("-o", "--output", type=Path, help="file of rows; the mechanisms that it has are not measured")
     chosen = parser.parse_args()
+    if chosen.count is None:
+        print_tables({"statistics": page_table()}, ())
+        return
     integrators, methods = tuple(chosen.integrators.split(",")), tuple(chosen.methods.split(","))
-    lines = lines_in(chosen.output)
-    done = {(line["seed"], line["index"]) for line in lines}
-    pairs = ((int(seed), index) for index in range(chosen.count) for seed in chosen.seeds.split(","))
-    jobs = (Job(*pair, chosen.until, integrators, methods) for pair in pairs if pair not in done)
-    with contextlib.ExitStack() as stack:
-        file = None if chosen.output is None else stack.enter_context(chosen.output.open("a", encoding="utf-8"))
-        for row in measured(jobs, chosen.workers, chosen.seconds):
-            lines.append(row)
-            if file is not None:
-                file.write(json.dumps(row) + "\n")
-                file.flush()
-            print(f"{len(lines)} mechanisms", end="\r", file=sys.stderr, flush=True)
+    jobs = (Job(int(seed), number) for number in range(chosen.count) for seed in chosen.seeds.split(","))
+    own = partial(examine, until=chosen.until, integrators=integrators, methods=methods)
+    lines = measure(own, jobs, chosen.output, PATIENCE, chosen.workers, chosen.seconds)
     for table in tables(lines, integrators, methods, chosen.until):
         show(table)
 

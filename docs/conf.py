@@ -34,7 +34,7 @@ NAVIGATION = {
         "docs/tutorials/README",
         "docs/gallery/README",
         "examples/README",
-        "docs/findings",
+        "docs/findings/README",
     ),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),

@@ -2,11 +2,14 @@
 
 import json
 import sys
+from functools import partial
+from random import Random
 
 import pytest
 
 from benchmarks import statistics
-from benchmarks.statistics import Job, Measured, case_of, examine, line, measured
+from benchmarks.records import measure
+from benchmarks.statistics import COUNT, SEEDS, Job, Measured, again, case_of, examine, line, pairs_of, predictable
 
 
 def test_cells_are_quantiles_of_ratios_to_lagrange():
@@ -30,24 +33,42 @@ def test_a_case_measures_a_method_against_its_reference():
 
 
 def test_processes_give_the_lines_of_one_process_and_a_file_of_rows_gives_the_table(tmp_path, monkeypatch, capsys):
-    jobs = [Job(2026, index, 1.0, ("rk4",), ("baumgarte",)) for index in range(3)]
-    own = {job.index: examine(job) for job in jobs}
-    for line_ in measured(jobs, 2, 60.0):
-        expected = own[line_["index"]]
-        assert untimed(line_) == untimed(expected)
-    assert any("runs" in line_ for line_ in own.values()) and not list(measured(jobs, 1, 0.0))
+    jobs = [Job(2026, number) for number in range(3)]
+    own = partial(examine, until=1.0, integrators=("rk4",), methods=("baumgarte",))
     rows = tmp_path / "rows.jsonl"
-    rows.write_text("".join(json.dumps(line_) + "\n" for line_ in own.values()), encoding="utf-8")
+    lines = measure(own, jobs, rows, 60.0, 2)
+    assert sorted(line_["number"] for line_ in lines) == [0, 1, 2] and any("runs" in line_ for line_ in lines)
+    for line_ in lines:
+        expected = own(Job(2026, line_["number"]))
+        assert errors(line_) == pytest.approx(errors(expected), rel=1e-2)
     command = ["statistics", "--count", "3", "--seeds", "2026", "--methods", "baumgarte", "-o", str(rows)]
     monkeypatch.setattr(sys, "argv", command)
-    monkeypatch.setattr(statistics, "examine", None)  # nothing is measured again
+    monkeypatch.setattr(statistics, "case_of", None)  # nothing is measured again
     statistics.main()
-    regular = sum("runs" in line_ for line_ in own.values())
+    regular = sum(map(predictable, lines))
     assert f"seed 2026: {regular} regular of 3" in capsys.readouterr().out
-    assert len(rows.read_text(encoding="utf-8").splitlines()) == 3
+    assert [json.loads(text) for text in rows.read_text(encoding="utf-8").splitlines()] == lines
 
 
-def untimed(line_):
-    """Return a line without its run times."""
-    runs = [{k: x for k, x in run.items() if k != "seconds"} for run in line_.get("runs", ())]
-    return {**line_, "runs": runs}
+def errors(line_):
+    """Return the errors of a line."""
+    runs = line_.get("runs") or {}
+    return [numbers[0] for methods in runs.values() for numbers in methods.values()]
+
+
+def test_the_record_has_the_sample_and_a_motion_that_no_method_follows_does_not_count():
+    lines = statistics.RECORD.lines()
+    assert {(line_["seed"], line_["number"]) for line_ in lines} == {(s, k) for k in range(COUNT) for s in SEEDS}
+    lost = [line_ for line_ in lines if line_.get("runs") is not None and not predictable(line_)]
+    assert lost and not pairs_of(lost, "rk4", "baumgarte")
+
+
+def test_a_line_measured_again_stands_beside_the_stored_one(monkeypatch):
+    monkeypatch.setattr(statistics, "INTEGRATORS", ("rk4",))
+    lines = (line_ for line_ in statistics.RECORD.lines() if predictable(line_) and "rk4" in line_["runs"])
+    stored = next(line_ for line_ in lines if line_["runs"]["rk4"]["lagrange"][0] < 1e-3)
+    pairs = list(again(stored, Random(1)))
+    assert len(pairs) > 20 and all(pair.agree for pair in pairs)
+    spoilt = json.loads(json.dumps(stored))
+    spoilt["runs"]["rk4"]["velocity-projection"][0] *= 1.5
+    assert [str(p).split(",")[3] for p in again(spoilt, Random(1)) if not p.agree] == [" velocity-projection"]
