@@ -16,7 +16,7 @@ INSTALLED := $(VENV)/.installed
 DOCS_INSTALLED := $(VENV)/.installed-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow browser lint format generated docs gallery findings bench clean
+.PHONY: help demo test slow browser lint format generated docs gallery findings peers bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -82,11 +82,17 @@ gallery: $(INSTALLED)  ## measure the catalogue anew: data, pictures and pages o
 findings: $(INSTALLED)  ## measure tables of pages and write them there: TABLES=names, TIMES=--times on a quiet machine
 	@"$(BIN)/python" -m benchmarks.findings $(TABLES) $(TIMES)
 
+peers: $(INSTALLED)  ## measure other tools beside symgen into README, on a quiet machine; installs them into $(BENCH_VENV)
+	@test -x "$(BENCH_VENV)/bin/python" || { echo "installing other tools into $(BENCH_VENV), once"; \
+	  "$(BIN)/python" -m venv "$(BENCH_VENV)" && \
+	  "$(BENCH_VENV)/bin/python" -m pip install -qq --disable-pip-version-check -r benchmarks/peers/requirements.txt; }
+	@BENCH_PYTHON="$(abspath $(BENCH_VENV))/bin/python" "$(BIN)/python" -m benchmarks.records beside_tools --anew
+	@"$(BIN)/python" -m benchmarks.findings beside_tools
+
 bench: $(INSTALLED)  ## measure: right-hand side against gcc, time to first result, singular passages, space, peers if installed
 	@"$(BIN)/python" -m benchmarks.against_gcc
 	@"$(BIN)/python" -m benchmarks.first_result
 	@"$(BIN)/python" -m benchmarks.singular
-	@"$(BIN)/python" -m benchmarks.against_peers --peers-python "$(BENCH_VENV)/bin/python"
 	@"$(BIN)/python" -m benchmarks.space --peers-python "$(BENCH_VENV)/bin/python"
 
 clean:  ## remove .venv and everything that can be made again

@@ -15,6 +15,7 @@ from datetime import date
 
 from benchmarks import (
     all_methods,
+    beside_tools,
     coordinates,
     equal_error,
     literature,
@@ -33,7 +34,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *literature.tables(times).values(),
         *(shared_loads.table(), stiff.table(), long.table(), singular.table(), coordinates.table(times)),
         *all_methods.tables().values(),
-        *(equal_error.page_table(), statistics.page_table()),
+        *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
     )
 
 

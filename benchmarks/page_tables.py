@@ -120,7 +120,7 @@ def place(table: PageTable, text: str) -> tuple[int, int]:
         If the page does not name its command before a table.
     """
     lines, command = text.splitlines(), f"`python -m benchmarks.{table.command}`"
-    named = next((i for i, line in enumerate(lines) if command in line), len(lines))
+    named = next((i for i, line in enumerate(lines) if command in line and line[:1] != "|"), len(lines))
     first = next((i for i in range(named, len(lines)) if lines[i].startswith("|")), None)
     if first is None:
         raise ValueError(f"{table.page}: expected {command} and a table behind it")

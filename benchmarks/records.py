@@ -26,7 +26,7 @@ from benchmarks.verification.workers import answers
 
 FOLDER = Path(__file__).with_name("records")
 #: Modules that have a record, by its name.
-NAMES = ("statistics", "equal_error", "all_methods")
+NAMES = ("statistics", "equal_error", "all_methods", "beside_tools")
 #: Digits of stored numbers.
 DIGITS = 3
 
@@ -97,7 +97,7 @@ class Record:
     def differences(self, seed: int) -> Iterator[str]:
         """Yield the numbers of drawn lines that are others now."""
         dice, lines = random.Random(seed), self.lines()
-        for line in dice.sample(lines, max(1, round(self.share * len(lines)))):
+        for line in dice.sample(lines, round(self.share * len(lines) + 0.5)):
             yield from (f"{self.name}, {pair}" for pair in self.again(line, dice) if not pair.agree)
 
 

@@ -40,16 +40,17 @@ def printed(table):
     return [cells_of(line) for line in text_of(table).splitlines()[first + 2 : end]]
 
 
-@pytest.mark.parametrize("table", TABLES, ids=lambda table: table.command)
+@pytest.mark.parametrize("table", TABLES, ids=lambda table: f"{table.page} {table.command}")
 def test_a_page_has_the_table_with_its_headings_and_rows(table):
     assert not list(differences(table, text_of(table), dict(enumerate(printed(table)))))
     for (names, _), row in zip(table.rows, printed(table), strict=True):
         assert row[: len(names)] == list(names)
 
 
-@pytest.mark.parametrize("table", STORED, ids=lambda table: table.command)
+@pytest.mark.parametrize("table", STORED, ids=lambda table: f"{table.page} {table.command}")
 def test_a_table_of_a_record_and_its_sentences_are_those_of_the_page(table):
-    assert printed(table) == table.measured()
+    for row, own in zip(printed(table), table.measured(), strict=True):
+        assert all(cell in (shown, KEPT) for shown, cell in zip(row, own, strict=True))
     assert not missing(table, text_of(table))
 
 
@@ -146,7 +147,7 @@ def test_a_tenth_of_the_cells_is_measured_again():
     assert not found, "\n".join(map(str, found))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [name for name in NAMES if record_of(name).lines()])
 @pytest.mark.slow  # measures: a part of a tenth of the lines, others on another day
 def test_drawn_lines_of_a_record_are_measured_again(name):
     found = list(record_of(name).differences(datetime.datetime.now(tz=datetime.UTC).date().toordinal()))

@@ -1,0 +1,154 @@
+"""Error against run time beside other tools: the tables of README and of benchmarks/README.md.
+
+    python -m benchmarks.beside_tools                      both tables, from the record
+    python -m benchmarks.records beside_tools --anew       measures it, on a quiet machine (`make peers`)
+
+Each tool runs a mechanism with all of its settings (`benchmarks.against_peers`, `benchmarks.peers`). The record has the
+runs of each tool that no other run of the same tool beats in both error and time. The interpreter of the other tools is
+``.bench-venv/bin/python``, or what BENCH_PYTHON names.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from benchmarks.against_peers import ROOT, TARGET, peers, rows
+from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
+from benchmarks.peers import models
+from benchmarks.peers.measure import Row
+from benchmarks.records import Line, Pair, Record
+
+MECHANISMS = ("four-bar-peers", "four-bar", "andrews", "n-four-bar:10")
+OWN, HEYOKA = "symgen", "heyoka"
+TOOLS = {OWN: "symgen", "casadi": "CasADi with gcc", HEYOKA: "heyoka", "exudyn": "Exudyn", "mujoco": "MuJoCo"}
+#: Tools of README's table, whose readers ask for a simulator or an interpreter's code.
+SHORT = {name: label for name, label in TOOLS.items() if name != HEYOKA}
+#: Mechanism and error [rad] of README's sentence.
+FINE = ("four-bar-peers", 1e-9)
+#: Errors [rad] below are those of references.
+RESOLVED = 1e-11
+#: Processor time of a tool on a mechanism at most [s].
+PATIENCE = 1800.0
+
+
+class Job(NamedTuple):
+    """A mechanism in a tool."""
+
+    mechanism: str
+    tool: str
+
+
+class Run(NamedTuple):
+    """A run of the record: loop time [s] and largest error of a body angle [rad]."""
+
+    setting: str
+    seconds: float
+    error: float
+
+
+def interpreter() -> Path:
+    """Return the interpreter of the other tools."""
+    return Path(os.environ.get("BENCH_PYTHON", ROOT / ".bench-venv" / "bin" / "python"))
+
+
+def front(runs: Iterable[Row]) -> list[Run]:
+    """Return the runs that no other one beats in error and time, the fastest first."""
+    best = list[Run]()
+    done = (Run(r["setting"], r["seconds"], r["error"]) for r in runs if r["seconds"] is not None and r["error"])
+    for run in sorted(done, key=lambda run: (run.seconds, run.error)):
+        if not best or run.error < best[-1].error:
+            best.append(run)
+    return best
+
+
+def examine(job: Job) -> dict[str, Any]:
+    """Return the version of a tool, and its front."""
+    if job.tool == OWN:
+        found = list(rows(models.load(job.mechanism)))
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            found = peers([job.mechanism], interpreter(), Path(folder) / "rows.json", job.tool)
+    return {"version": found[0]["version"] if found else "", "runs": front(found)}
+
+
+def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
+    """Yield the errors of two of symgen's runs beside those measured again."""
+    resolved = [Run(*run) for run in stored.get("runs", ()) if run[2] > RESOLVED]
+    for run in dice.sample(resolved, min(2, len(resolved))) if stored["tool"] == OWN else ():
+        # settings begin alike: 1e-08 and 1e-085 do not occur
+        found = [row for row in rows(models.load(stored["mechanism"]), run.setting) if row["setting"] == run.setting]
+        within = 4.0 if "picard" in run.setting else 1.1
+        yield Pair(f"{stored['mechanism']}, {run.setting}", run.error, found[0]["error"], within)
+
+
+def runs_of(mechanism: str, tool: str) -> list[Run] | None:
+    """Return the front of a tool, None if it was not measured."""
+    lines = (line for line in RECORD.lines() if (line["mechanism"], line["tool"]) == (mechanism, tool))
+    line = next(lines, {})
+    return [Run(*run) for run in line["runs"]] if "runs" in line else None
+
+
+def fastest(mechanism: str, tool: str, error: float = TARGET, text: str = "") -> Run | None:
+    """Return the fastest run within an error whose setting contains a text."""
+    good = (run for run in runs_of(mechanism, tool) or () if run.error <= error and text in run.setting)
+    return next(good, None)
+
+
+def cells(tools: Iterable[str], settings: bool, mechanism: str) -> Iterator[str]:
+    """Yield milliseconds of each tool within the error, with the multiple of symgen's and the setting."""
+    own = fastest(mechanism, OWN)
+    for tool in tools:
+        run = fastest(mechanism, tool)
+        if runs_of(mechanism, tool) is None or own is None:
+            yield KEPT
+        elif run is None:
+            yield "not reached"
+        else:
+            multiple = "" if tool == OWN else f"{run.seconds / own.seconds:.2g}"
+            notes = [x for x in (multiple, f"`{run.setting}`" if settings else "") if x]
+            yield f"{1e3 * run.seconds:.3g} ms" + (f" ({'; '.join(notes)})" if notes else "")
+
+
+def claims() -> Iterator[str]:
+    """Yield README's sentence on small errors."""
+    name, error = FINE
+    chosen = ((OWN, "picard"), (OWN, "dop853"), (HEYOKA, ""))
+    found = [fastest(name, tool, error, text) for tool, text in chosen]
+    a, b, c = ("" if run is None else f"{1e3 * run.seconds:.3f} ms" for run in found)
+    if a and b and c:
+        yield f"needs {a} for a four-bar, `dop853` {b} and heyoka {c}."
+
+
+def tables() -> tuple[PageTable, ...]:
+    """Return the tables of both pages."""
+    made = []
+    for page, tools, settings, names in (
+        ("README.md", SHORT, False, MECHANISMS[1:]),
+        ("benchmarks/README.md", TOOLS, True, MECHANISMS),
+    ):
+        lines = tuple(((f"`{name}`",), partial(list_of, cells, tools, settings, name)) for name in names)
+        headings = ("mechanism", *tools.values())
+        sentences = claims if page == "README.md" else tuple
+        made.append(PageTable("beside_tools", page, headings, lines, stored=True, claims=sentences))
+    return tuple(made)
+
+
+def jobs() -> Iterator[Job]:
+    """Yield the mechanisms in each tool."""
+    if not interpreter().exists():
+        sys.exit(f"{interpreter()} does not exist: make peers makes it, benchmarks/peers/README.md says how")
+    return (Job(name, tool) for name in MECHANISMS for tool in TOOLS)
+
+
+RECORD = Record("beside_tools", jobs, examine, again, PATIENCE, share=0.5)
+
+
+if __name__ == "__main__":
+    sys.exit(print_tables({table.page: table for table in tables()}, ()))
