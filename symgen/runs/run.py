@@ -20,6 +20,7 @@ from symgen.native.machine import vector_width
 from symgen.runs.outcome import Outcome, RankEvent
 from symgen.runs.simulation import Simulation
 from symgen.starts.assembly import Start
+from symgen.store.stats import seconds_in_cache
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel
@@ -183,6 +184,7 @@ def _in_thread(
 
     Returns the end code of the loop, its seconds, those of the processor, and whether it was interrupted, even if too
     late to stop it. A loop beyond its budget of evaluations is stopped as well, but does not count as interrupted.
+    Functions that a run compiles on its way, for modes and effects that come up, are no part of its seconds.
     """
     result: list[Any] = []
     interrupted = False
@@ -190,10 +192,11 @@ def _in_thread(
     clock, control = simulation.state.clock, simulation.state.control
 
     def work() -> None:
-        began, cpu = time.perf_counter(), CPU_CLOCK()
+        began, compiled, cpu = time.perf_counter(), seconds_in_cache(), CPU_CLOCK()
         try:
             code = simulation.enter(outputs)
-            result.append((code, time.perf_counter() - began, CPU_CLOCK() - cpu))
+            seconds = time.perf_counter() - began - (seconds_in_cache() - compiled)
+            result.append((code, max(seconds, 0.0), CPU_CLOCK() - cpu))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)
         finally:
