@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
@@ -18,13 +18,22 @@ from symgen.layout.manifold import stay
 from symgen.layout.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.layout.probe import Ready
 from symgen.layout.redundancy import choose_rows, room_of_choice
-from symgen.layout.start_records import Instant, Layout, StartConditions, Work, new_work
+from symgen.layout.start_records import Closing, Instant, Layout, StartConditions, Work, new_work
 from symgen.loopcode.exact import compiled_form, plain_form
 from symgen.starts import decisions
 from symgen.starts import start_solvers as solvers
+from symgen.starts.closing import is_light
 from symgen.starts.held import Held
 from symgen.starts.joint_starts import Joints, joints_held
-from symgen.starts.starting import close_alone, close_rows, follow_nothing, observe_nothing, prepare_rows
+from symgen.starts.starting import (
+    close_alone,
+    close_rows,
+    follow_nothing,
+    observe_nothing,
+    prepare_rows,
+    rate_nothing,
+)
+from symgen.store.modules import whole_plain_function
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel, ModelInfo
@@ -160,6 +169,10 @@ class Assembly:
         p : Array
             Parameters.
         """
+        if self.layout.ask_light and self.compiled.shape == "straight":
+            w, summary = replace(self, ask_light=False).close(y, v, p)
+            summary[e.LIGHT] = float(summary[e.START] == e.ASSEMBLED and self._is_light(Instant(y, p, w)))
+            return w, summary
         held, velocities = self.held, v.copy()
         velocities[list(held.velocities)] = list(held.velocities.values())
         targets = np.array(held.targets, dtype=np.float64)
@@ -167,6 +180,21 @@ class Assembly:
         conditions = StartConditions(*one_row(velocities, targets, np.zeros(e.N_SUMMARY)))
         self.close_all(now, conditions, *ALONE)
         return now.w[0], conditions.summary[0]
+
+    def _is_light(self, now: Instant) -> bool:
+        """Whether bodies are too light for the law's solver at a start, by one evaluation in plain Python.
+
+        Runs in joint coordinates do not need the code of bodies, which takes long to compile.
+        """
+        law, model, (_, work) = self.compiled.law_module, self.compiled.model, self.memory()
+        plain = whole_plain_function(law.rhs), whole_plain_function(model.geometry)
+        machine = Ready(law.rhs, abi.RHS), Ready(model.geometry, abi.MEASURE)
+        judge = plain_form(is_light)
+        with np.errstate(all="ignore"):
+            try:
+                return bool(judge(plain[0], Closing(plain[1], *[None] * 4), self.layout, now, work))
+            except (ArithmeticError, ValueError):  # undefined numbers are errors where nothing is compiled
+                return bool(judge(machine[0], Closing(machine[1], *[None] * 4), self.layout, now, work))
 
     def close_all(self, now: Instant, conditions: StartConditions, selected: Integers, control: Integers) -> int:
         """Make the selected rows consistent.
@@ -260,6 +288,6 @@ class Assembly:
             model.spread if layout.sparse else stay,
             (solvers.iterated_change if held else solvers.sparse_change) if layout.sparse else solvers.dense_change,
             solvers.choose_turns if layout.windings else solvers.choose_no_turns,
-            law.rhs,
+            law.rhs if layout.ask_light else rate_nothing,
             model.observe if held else observe_nothing,
         )

@@ -323,3 +323,9 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 def follow_nothing(t: float, y: Any, p: Any, w: Any) -> int:
     """Replace the emitted ``measure`` where no angle counts turns, so that it is not compiled."""
     return 0
+
+
+@exact(types.int64(types.float64, _A, _A, _A, _I, _A))
+def rate_nothing(t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
+    """Replace the emitted ``rhs`` where light bodies are not looked for, so that it is not compiled."""
+    return 0

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.machinery import ModuleSpec
 from pathlib import Path
-from types import CodeType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 from symgen.base.errors import InputError
@@ -204,3 +204,13 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
 def plain_function(function: Any) -> Any:
     """Return the plain Python form of an emitted function: one call a run is not worth compilation."""
     return getattr(function, "py_func", function)
+
+
+def whole_plain_function(function: Any) -> Any:
+    """Return the plain Python form of an emitted function, with those that it calls."""
+    plain = plain_function(function)
+    scope = plain.__globals__
+    called = {name: scope[name] for name in plain.__code__.co_names if hasattr(scope.get(name), "py_func")}
+    if not called:
+        return plain
+    return FunctionType(plain.__code__, scope | {name: whole_plain_function(f) for name, f in called.items()})
