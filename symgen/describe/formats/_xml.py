@@ -121,3 +121,34 @@ def origin_of(where: str, element: ET.Element | None) -> Frame:
         return Frame()
     xyz = triple(f"{where}, xyz", element.get("xyz", "0 0 0"))
     return Frame(xyz, of_rpy(triple(f"{where}, rpy", element.get("rpy", "0 0 0"))))
+
+
+def inner_text(element: ET.Element, path: str) -> str:
+    """Return the text of an inner element; empty without it."""
+    return (element.findtext(path) or "").strip()
+
+
+def inner_flag(element: ET.Element, path: str) -> bool:
+    """Return whether an inner element says yes."""
+    return inner_text(element, path) in ("true", "1")
+
+
+def inner_number(where: str, element: ET.Element | None, key: str, default: float = 0.0) -> float:
+    """Return the number of an inner element, or `default` without it."""
+    text = "" if element is None else inner_text(element, key)
+    if text.lower() in ("inf", "+inf", "-inf"):  # of limits
+        return -1e16 if text[0] == "-" else 1e16
+    return numbers(f"{where}, {key}", text, 1)[0] if text else default
+
+
+def positive(where: str, element: ET.Element, key: str) -> float:
+    """Return the number of an inner element, which must be above 0."""
+    return sizes_of(where, " ".join([inner_text(element, key)] * 3))[0]
+
+
+def sizes_of(where: str, text: str) -> Vector:
+    """Return three numbers above 0."""
+    sizes = triple(where, text)
+    if min(sizes) <= 0.0:
+        raise InputError(where, "sizes above 0", quoted(text))
+    return sizes

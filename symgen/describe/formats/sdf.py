@@ -6,10 +6,11 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.formats._frames import Frame, Vector, of_quaternion, of_rpy, transposed, turned
+from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
@@ -22,8 +23,16 @@ from symgen.describe.formats._robot import (
     turned_inertia,
 )
 from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, together
-from symgen.describe.formats._xml import colour_of, numbers, read_tree, triple
-from symgen.describe.mesh_files import MeshFiles
+from symgen.describe.formats._xml import (
+    colour_of,
+    inner_flag,
+    inner_number,
+    inner_text,
+    numbers,
+    positive,
+    sizes_of,
+    triple,
+)
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -66,18 +75,34 @@ class _Placed:
     attached: str
 
 
-class _Reader:
+class _Reader(RobotReader):
     """The robot of a file; names have their models before them, ``arm::hand``."""
 
+    ROOT, MESH, RESERVED = "sdf", "uri", "::"
+
     def __init__(self, path: Path) -> None:
-        self.source, self.folder, self.meshes = path.name, path.parent, MeshFiles(path.parent)
-        self.tree = read_tree(path, "sdf")
+        super().__init__(path)
         self.version = self._version(self.tree.get("version", ""))
         self.frames = {_WORLD: _Placed("", Frame(), _WORLD)}
         self.places = {_WORLD: Frame()}
-        self.links, self.left_out = dict[str, Link](), list[LeftOut]()
+        self.links = dict[str, Link]()
         self.elements = list[tuple[str, ET.Element]]()  # joints, each with the prefix of its model
         self.static = list[str]()
+
+    def text(self, element: ET.Element, key: str) -> str:
+        """Return the text of an inner element."""
+        return inner_text(element, key)
+
+    def frame(self, where: str, element: ET.Element) -> Frame:
+        """Return the pose of a look."""
+        return self._pose(element)
+
+    def colour(self, where: str, look: ET.Element) -> str:
+        """Return the colour of a material."""
+        for key in ("diffuse", "ambient"):
+            if text := inner_text(look, f"material/{key}"):
+                return colour_of(f"{where}, {key}", " ".join([*text.split()[:3], "1"]))
+        return ""
 
     def robot(self) -> Robot:
         worlds = self.tree.findall("world")
@@ -89,9 +114,9 @@ class _Reader:
             raise InputError(self.source, "a file with a model", "none")
         for element in self.tree.iter("include"):
             hint = "insert the file: gz sdf -p FILE"
-            raise InputError(f"{self.source}: include", "one file", quoted(_text(element, "uri")), hint)
+            raise InputError(f"{self.source}: include", "one file", quoted(inner_text(element, "uri")), hint)
         for model in models:
-            own = self._name(model)
+            own = self.name(model)
             prefix = "" if len(models) == 1 else f"{own}::"
             self._model(model, prefix, _WORLD, self._pose(model, "", _WORLD), False)
         for name, link in self.links.items():
@@ -104,9 +129,9 @@ class _Reader:
             followers += self._mimic(element, prefix, names)
         connections = self._fixed(connections)
         self._leave_out()
-        gravity = _text(outer, "gravity")
+        gravity = inner_text(outer, "gravity")
         return Robot(
-            self._name(models[0]),
+            self.name(models[0]),
             self.links,
             connections,
             followers,
@@ -120,30 +145,30 @@ class _Reader:
 
     def _model(self, model: ET.Element, prefix: str, base: str, pose: Frame, static: bool) -> None:
         """Note the frames of a model, its links and joints, and the models in it."""
-        where = f"{self.source}: model {quoted(self._name(model))}"
+        where = f"{self.source}: model {quoted(self.name(model))}"
         if model.get("placement_frame"):
             raise InputError(where, "a model placed by its own frame", "a placement_frame", "write its pose instead")
-        own, static = f"{prefix}{_MODEL}", static or _flag(model, "static")
-        links = [prefix + self._name(link) for link in model.findall("link")]
-        inner = [(nested, f"{prefix}{self._name(nested)}") for nested in model.findall("model")]
+        own, static = f"{prefix}{_MODEL}", static or inner_flag(model, "static")
+        links = [prefix + self.name(link) for link in model.findall("link")]
+        inner = [(nested, f"{prefix}{self.name(nested)}") for nested in model.findall("model")]
         canonical = model.get("canonical_link", "")
         attached = prefix + canonical if canonical else next(iter(links), "")
         if not attached and inner:
             attached = f"{inner[0][1]}::{_MODEL}"
         self._add(own, _Placed(base, pose, attached), where)
         for link in model.findall("link"):
-            name = prefix + self._name(link)
+            name = prefix + self.name(link)
             self._add(name, _Placed(self._base(link, prefix, own), self._pose(link), name), where)
             self.links[name] = self._link(link, name)
             self.static += [name] * static
         for frame in model.findall("frame"):
             to = frame.get("attached_to", "")
             to = prefix + to if to else own
-            self._add(prefix + self._name(frame), _Placed(self._base(frame, prefix, to), self._pose(frame), to), where)
+            self._add(prefix + self.name(frame), _Placed(self._base(frame, prefix, to), self._pose(frame), to), where)
         for joint in model.findall("joint"):
-            child = _text(joint, "child")
+            child = inner_text(joint, "child")
             to = _WORLD if child == _WORLD else prefix + child
-            self._add(prefix + self._name(joint), _Placed(self._base(joint, prefix, to), self._pose(joint), to), where)
+            self._add(prefix + self.name(joint), _Placed(self._base(joint, prefix, to), self._pose(joint), to), where)
             self.elements.append((prefix, joint))
         for nested, name in inner:
             self._model(nested, f"{name}::", self._base(nested, prefix, own), self._pose(nested), static)
@@ -222,38 +247,31 @@ class _Reader:
             solid = self._from_shapes(element, inertial, where)
         else:  # what a file leaves out is 1 there
             at = Frame() if inertial is None else self._pose(inertial)
-            mass = _number(where, inertial, "mass", 1.0)
+            mass = inner_number(where, inertial, "mass", 1.0)
             inertia = None if inertial is None else inertial.find("inertia")
-            a = {
-                key: _number(where, inertia, f"i{key}", 1.0 if key[0] == key[1] else 0.0)
-                for key in ("xx", "yy", "zz", "xy", "xz", "yz")
-            }
-            tensor = (a["xx"], a["xy"], a["xz"]), (a["xy"], a["yy"], a["yz"]), (a["xz"], a["yz"], a["zz"])
-            solid = Solid(mass, at.origin, turned_inertia(tensor, at.rotation))
+            own = tensor(lambda key: inner_number(where, inertia, key, 1.0 if key[1] == key[2] else 0.0))
+            solid = Solid(mass, at.origin, turned_inertia(own, at.rotation))
         if solid.mass < 0.0:
             raise InputError(f"{where}, mass", "a mass of 0 or above", repr(solid.mass))
         link.mass, link.centre, link.inertia = solid.mass, solid.centre, solid.inertia
-        looks = element.findall("visual")
-        link.shapes = [x for look in looks for x in self._shape(look, where)]
-        if looks and not link.shapes:  # where the link is can be seen by what collides
-            link.shapes = [x for look in element.findall("collision") for x in self._shape(look, where)]
-        if _text(element, "gravity") in ("false", "0"):
+        link.shapes = self.looks(where, element)
+        if inner_text(element, "gravity") in ("false", "0"):
             self.left_out.append(LeftOut("a link without gravity", name, "gravity acts on all bodies", True))
         return link
 
     def _from_shapes(self, element: ET.Element, inertial: ET.Element, where: str) -> Solid:
         """Return the inertia of the shapes of all collisions."""
-        usual, solids = _number(where, inertial, "density", _DENSITY), list[Solid]()
+        usual, solids = inner_number(where, inertial, "density", _DENSITY), list[Solid]()
         for collision in element.findall("collision"):
             at = f"{where}, collision {quoted(collision.get('name', ''))}"
-            density = _number(at, collision, "density", usual)
+            density = inner_number(at, collision, "density", usual)
             solid, pose = self._solid(collision, at), self._pose(collision)
             tensor = turned_inertia(solid.inertia, pose.rotation)
             solids.append(Solid(solid.mass, pose.point(solid.centre), tensor).times(density))
         if not solids:
             raise InputError(f"{where}, inertial auto", "a link with collisions", "none")
         whole = together(solids)
-        mass = _number(where, inertial, "mass", whole.mass)
+        mass = inner_number(where, inertial, "mass", whole.mass)
         return whole.times(mass / whole.mass)
 
     def _solid(self, collision: ET.Element, where: str) -> Solid:
@@ -261,54 +279,30 @@ class _Reader:
         for part in collision.iterfind("geometry/*"):
             at = f"{where}, {part.tag}"
             if part.tag == "box":
-                return box(_sizes(at, _text(part, "size")))
+                return box(sizes_of(at, inner_text(part, "size")))
             if part.tag == "ellipsoid":
-                return ellipsoid(_sizes(at, _text(part, "radii")))
+                return ellipsoid(sizes_of(at, inner_text(part, "radii")))
             if part.tag in ("sphere", "cylinder", "capsule"):
-                radius = _positive(at, part, "radius")
+                radius = positive(at, part, "radius")
                 if part.tag == "sphere":
                     return ellipsoid((radius,) * 3)
-                length = _positive(at, part, "length")
+                length = positive(at, part, "length")
                 return (cylinder if part.tag == "cylinder" else capsule)(radius, length)
             solids = "box, sphere, cylinder, capsule or ellipsoid"
             raise InputError(f"{where}, inertial auto", solids, quoted(part.tag), "write mass and inertia")
         raise InputError(where, "a collision with a shape", "none")
 
-    def _shape(self, visual: ET.Element, where: str) -> list[dict[str, Any]]:
-        look: dict[str, Any] = {"frame": self._pose(visual)}
-        for key in ("diffuse", "ambient"):
-            if (text := _text(visual, f"material/{key}")) and "colour" not in look:
-                rgb = text.split()[:3]
-                look["colour"] = colour_of(f"{where}, {key}", " ".join([*rgb, "1"]))
-        for part in visual.iterfind("geometry/*"):
-            at = f"{where}, {part.tag}"
-            if part.tag == "box":
-                return [look | {"type": "box", "size": triple(at, _text(part, "size"))}]
-            if part.tag == "sphere":
-                return [look | {"type": "sphere", "radius": _positive(at, part, "radius")}]
-            if part.tag in ("cylinder", "capsule"):
-                sizes = {key: _positive(at, part, key) for key in ("radius", "length")}
-                return [look | {"type": "cylinder"} | sizes]
-            if part.tag == "mesh":
-                if part.find("submesh") is not None:
-                    self.meshes.lose("whole files are drawn, no parts of them")
-                    return []
-                if (file := self.meshes.path(_text(part, "uri"))) is None:
-                    return []
-                return [look | {"type": "mesh", "file": file, "scale": triple(at, _text(part, "scale") or "1 1 1")}]
-        return []
-
     # -- joints ------------------------------------------------------------------------------------------------------
 
     def _joint(self, element: ET.Element, prefix: str) -> Connection:
-        name = prefix + self._name(element)
+        name = prefix + self.name(element)
         where = f"{self.source}: joint {quoted(name)}"
         sort = element.get("type", "")
         if sort not in _KINDS:
             raise InputError(f"{where}, type", f"one of {', '.join(_KINDS)}", quoted(sort), nearest(sort, _KINDS))
         ends = list[str]()
         for tag in ("parent", "child"):
-            text = _text(element, tag)
+            text = inner_text(element, tag)
             ends.append(self._link_of(_WORLD if text == _WORLD else prefix + text, f"{where}, {tag}"))
         connection = Connection(name, _KINDS[sort], ends[0], ends[1], self._place(name))
         axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
@@ -319,11 +313,11 @@ class _Reader:
         if axis is None or connection.kind not in ("revolute", "translational"):
             return connection
         dynamics, limit = axis.find("dynamics"), axis.find("limit")
-        connection.damping = _number(where, dynamics, "damping")
-        connection.friction = _number(where, dynamics, "friction")
-        connection.stiffness = _number(where, dynamics, "spring_stiffness")
-        connection.rest = _number(where, dynamics, "spring_reference")
-        lower, upper = (_number(where, limit, key, side) for key, side in (("lower", -1e16), ("upper", 1e16)))
+        connection.damping = inner_number(where, dynamics, "damping")
+        connection.friction = inner_number(where, dynamics, "friction")
+        connection.stiffness = inner_number(where, dynamics, "spring_stiffness")
+        connection.rest = inner_number(where, dynamics, "spring_reference")
+        lower, upper = (inner_number(where, limit, key, side) for key, side in (("lower", -1e16), ("upper", 1e16)))
         if sort != "continuous" and lower < upper:
             connection.lower = lower if lower > -1e15 else None
             connection.upper = upper if upper < 1e15 else None
@@ -339,7 +333,7 @@ class _Reader:
         if not any(direction):
             raise InputError(where, "an axis other than 0 0 0", "0 0 0")
         frame = "" if xyz is None else xyz.get("expressed_in", "")
-        if _flag(axis, "use_parent_model_frame") or self.version < (1, 5):
+        if inner_flag(axis, "use_parent_model_frame") or self.version < (1, 5):
             frame = frame or _MODEL
         if not frame:
             return direction
@@ -350,12 +344,12 @@ class _Reader:
         mimic = element.find("axis/mimic")
         if mimic is None or _KINDS[element.get("type", "")] not in ("revolute", "translational"):
             return
-        name = prefix + self._name(element)
+        name = prefix + self.name(element)
         where = f"{self.source}: joint {quoted(name)}, mimic"
         leader = prefix + mimic.get("joint", "")
         if leader not in names or leader == name:
             raise InputError(where, "the name of another joint", quoted(leader), nearest(leader, names))
-        ratio, offset, zero = (_number(where, mimic, key) for key in ("multiplier", "offset", "reference"))
+        ratio, offset, zero = (inner_number(where, mimic, key) for key in ("multiplier", "offset", "reference"))
         yield Follower(f"{name}_mimic", name, leader, (offset - ratio * zero, ratio))
 
     def _fixed(self, connections: list[Connection]) -> list[Connection]:
@@ -382,12 +376,6 @@ class _Reader:
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 
-    def _name(self, element: ET.Element) -> str:
-        name = element.get("name", "")
-        if not name.strip() or "::" in name:
-            raise InputError(f"{self.source}: {element.tag}", "an element with a name without '::'", quoted(name))
-        return name
-
     def _version(self, text: str) -> tuple[int, ...]:
         parts = text.split(".")
         if not all(part.isdecimal() for part in parts) or len(parts) != 2:
@@ -395,46 +383,13 @@ class _Reader:
         return tuple(map(int, parts))
 
     def _leave_out(self) -> None:
-        touching = sum(1 for link in self.tree.iter("link") if link.find("collision") is not None)
-        if touching:
-            self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
-        for why, count in self.meshes.left_out():
-            self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
+        self.leave_out(
+            sum(1 for link in self.tree.iter("link") if link.find("collision") is not None),
+            sum(1 for limit in self.tree.iter("limit") if inner_text(limit, "effort") or inner_text(limit, "velocity")),
+        )
         for tag, why in _SILENT.items():
             if count := sum(1 for _ in self.tree.iter(tag)):
                 self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", why, tag == "plugin"))
-        limited = sum(1 for limit in self.tree.iter("limit") if _text(limit, "effort") or _text(limit, "velocity"))
-        if limited:
-            what = "limits of effort and speed"
-            self.left_out.append(LeftOut(what, f"{limited} joints", "inputs take any value", False))
-
-
-def _text(element: ET.Element, path: str) -> str:
-    """Return the text of an inner element; empty without it."""
-    return (element.findtext(path) or "").strip()
-
-
-def _flag(element: ET.Element, path: str) -> bool:
-    return _text(element, path) in ("true", "1")
-
-
-def _number(where: str, element: ET.Element | None, key: str, default: float = 0.0) -> float:
-    """Return the number of an inner element, or `default` without it."""
-    text = "" if element is None else _text(element, key)
-    if text.lower() in ("inf", "+inf", "-inf"):  # of limits
-        return -1e16 if text[0] == "-" else 1e16
-    return numbers(f"{where}, {key}", text, 1)[0] if text else default
-
-
-def _positive(where: str, element: ET.Element, key: str) -> float:
-    return _sizes(where, " ".join([_text(element, key)] * 3))[0]
-
-
-def _sizes(where: str, text: str) -> Vector:
-    sizes = triple(where, text)
-    if min(sizes) <= 0.0:
-        raise InputError(where, "sizes above 0", quoted(text))
-    return sizes
 
 
 KIND = Sdf

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Frame, Matrix, about, scaled
+from symgen.describe.formats._frames import Frame, about, scaled
+from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
@@ -19,8 +20,7 @@ from symgen.describe.formats._robot import (
     actuators_of,
     turned_inertia,
 )
-from symgen.describe.formats._xml import colour_of, number, origin_of, read_tree, triple
-from symgen.describe.mesh_files import MeshFiles
+from symgen.describe.formats._xml import colour_of, number, origin_of, triple
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -53,16 +53,31 @@ class Urdf:
         return _Reader(path, floating).robot()
 
 
-class _Reader:
+class _Reader(RobotReader):
+    ROOT, MESH = "robot", "filename"
+
     def __init__(self, path: Path, floating: bool) -> None:
-        self.source, self.floating = path.name, floating
-        self.tree = read_tree(path, "robot")
+        super().__init__(path)
+        self.floating = floating
         self.colours = {
             m.get("name", ""): _colour(f"{self.source}: material", m.find("color"))
             for m in self.tree.findall("material")
         }
-        self.left_out = list[LeftOut]()
-        self.folder, self.meshes = path.parent, MeshFiles(path.parent)
+
+    def text(self, element: ET.Element, key: str) -> str:
+        """Return an attribute."""
+        return element.get(key, "")
+
+    def frame(self, where: str, element: ET.Element) -> Frame:
+        """Return the frame of an origin."""
+        return origin_of(f"{where}, {element.tag} origin", element.find("origin"))
+
+    def colour(self, where: str, look: ET.Element) -> str:
+        """Return a colour of the look's own, or of a material of the file."""
+        if (material := look.find("material")) is None:
+            return ""
+        own = _colour(f"{where}, material", material.find("color"))
+        return own or self.colours.get(material.get("name", ""), "")
 
     def robot(self) -> Robot:
         links = {}
@@ -97,7 +112,7 @@ class _Reader:
     # -- links -------------------------------------------------------------------------------------------------------
 
     def _link(self, element: ET.Element) -> Link:
-        name = self._name(element)
+        name = self.name(element)
         where = f"{self.source}: link {quoted(name)}"
         link = Link(name)
         if (inertial := element.find("inertial")) is not None:
@@ -108,48 +123,15 @@ class _Reader:
                 raise InputError(f"{where}, mass", "a mass of 0 or above", repr(link.mass))
             link.centre = frame.origin
             if inertia is not None:
-                a = {
-                    k: number(f"{where}, inertia", inertia.attrib, f"i{k}")
-                    for k in ("xx", "yy", "zz", "xy", "xz", "yz")
-                }
-                tensor: Matrix = (
-                    (a["xx"], a["xy"], a["xz"]),
-                    (a["xy"], a["yy"], a["yz"]),
-                    (a["xz"], a["yz"], a["zz"]),
-                )
-                link.inertia = turned_inertia(tensor, frame.rotation)
-        looks = element.findall("visual")
-        link.shapes = [x for look in looks for x in self._shape(where, look)]
-        if looks and not link.shapes:  # where the link is can be seen by what collides
-            link.shapes = [x for look in element.findall("collision") for x in self._shape(where, look)]
+                own = tensor(lambda key: number(f"{where}, inertia", inertia.attrib, key))
+                link.inertia = turned_inertia(own, frame.rotation)
+        link.shapes = self.looks(where, element)
         return link
-
-    def _shape(self, where: str, visual: ET.Element) -> list[dict[str, Any]]:
-        frame, geometry = origin_of(f"{where}, {visual.tag} origin", visual.find("origin")), visual.find("geometry")
-        look: dict[str, Any] = {"frame": frame}
-        if (material := visual.find("material")) is not None:
-            own = _colour(f"{where}, material", material.find("color"))
-            if colour := own or self.colours.get(material.get("name", ""), ""):
-                look["colour"] = colour
-        for part in geometry if geometry is not None else ():
-            at = f"{where}, {part.tag}"
-            if part.tag == "box":
-                return [look | {"type": "box", "size": triple(at, part.get("size", ""))}]
-            if part.tag == "sphere":
-                return [look | {"type": "sphere", "radius": number(at, part.attrib, "radius")}]
-            if part.tag in ("cylinder", "capsule"):
-                sizes = {key: number(at, part.attrib, key) for key in ("radius", "length")}
-                return [look | {"type": "cylinder"} | sizes]
-            if part.tag == "mesh":
-                if (file := self.meshes.path(part.get("filename", ""))) is None:
-                    return []
-                return [look | {"type": "mesh", "file": file, "scale": triple(at, part.get("scale", "1 1 1"))}]
-        return []
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
     def _joint(self, element: ET.Element, links: dict[str, Link]) -> Connection:
-        name = self._name(element)
+        name = self.name(element)
         where = f"{self.source}: joint {quoted(name)}"
         sort = element.get("type", "")
         if sort not in _KINDS:
@@ -228,12 +210,12 @@ class _Reader:
     def _loops(self, links: dict[str, Link]) -> list[Connection]:
         """Return the joints of ``loop_joint`` (two links with places) and ``loop`` (predecessor and successor)."""
         for element in self.tree.findall("coupling"):
-            where = f"{self.source}: coupling {quoted(self._name(element))}"
+            where = f"{self.source}: coupling {quoted(self.name(element))}"
             raise InputError(where, "joints that follow others by <mimic>", "<coupling>", "write the ratio as a mimic")
         closing = list[Connection]()
         for tag, first, second in (("loop_joint", "link1", "link2"), ("loop", "predecessor", "successor")):
             for element in self.tree.findall(tag):
-                name = self._name(element)
+                name = self.name(element)
                 where = f"{self.source}: {tag} {quoted(name)}"
                 sort = element.get("type", "")
                 kind = "rigid" if sort == "fixed" else _KINDS.get(sort)
@@ -255,22 +237,16 @@ class _Reader:
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 
-    def _name(self, element: ET.Element) -> str:
-        name = element.get("name", "")
-        if not name.strip():
-            raise InputError(f"{self.source}: {element.tag}", "an element with a name", "none")
-        return name
-
     def _leave_out(self, joints: list[tuple[ET.Element, Connection]]) -> None:
         counts = dict[str, int]()
         for element in self.tree:
             counts[element.tag] = counts.get(element.tag, 0) + 1
         links = self.tree.findall("link")
-        touching = sum(1 for link in links if link.find("collision") is not None)
-        if touching:
-            self.left_out.append(LeftOut("contacts", f"{touching} links", "bodies pass through each other", True))
-        for why, count in self.meshes.left_out():
-            self.left_out.append(LeftOut("meshes", f"{count} in pictures", why, False))
+        limits = [x for e, _ in joints if (x := e.find("limit")) is not None]
+        self.leave_out(
+            sum(1 for link in links if link.find("collision") is not None),
+            sum(1 for x in limits if x.get("effort") or x.get("velocity")),
+        )
         for tag, why in _SILENT.items():
             if counts.pop(tag, 0):
                 self.left_out.append(LeftOut(f"<{tag}>", "the file", why, False))
@@ -278,12 +254,6 @@ class _Reader:
             counts.pop(tag, None)
         for tag, count in counts.items():
             self.left_out.append(LeftOut(f"<{tag}>", f"{count} in the file", "it is no element of URDF", False))
-        limited = [
-            e for e, _ in joints if (x := e.find("limit")) is not None and (x.get("effort") or x.get("velocity"))
-        ]
-        if limited:
-            what = "limits of effort and speed"
-            self.left_out.append(LeftOut(what, f"{len(limited)} joints", "inputs take any value", False))
 
 
 def _colour(where: str, element: ET.Element | None) -> str:
