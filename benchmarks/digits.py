@@ -5,9 +5,10 @@
 The emitted right-hand side of `direct-correction` in doubles, as compiled, beside the same equations in extended
 precision: M v' + D^T lambda = f, D v' = gamma from the emitted descriptor form, solved by a dense inverse whose errors
 are refined away. First at random states that satisfy the constraints, then at every evaluation of a run with `rk4`.
-Errors are relative to the largest acceleration or multiplier of a state. Beside them stands what a dense solution in
-doubles loses, and the largest ratio of an error to what the condition of a state explains: rounding times the
-condition of the matrix (Skeel's), or the dense solution's error, as f and gamma lose digits, too.
+Errors are relative to the largest acceleration of a state, with its joints or without them, or multiplier. Beside them
+stands what a dense solution in doubles loses, and the largest ratio of an error to what the condition of a state
+explains: rounding times the condition of the matrix (Skeel's), or the dense solution's error, as f and gamma lose
+digits, too.
 """
 
 from __future__ import annotations
@@ -162,7 +163,9 @@ class Equations:
         size = np.abs(x.astype(float))
         terms = np.abs(inverse) @ (np.abs(matrix) @ size + np.abs(right))
         parts = [part for part in (slice(0, nv), slice(nv, n)) if part.stop > part.start]
-        scales = [float(size[part].max()) or 1.0 for part in parts]
+        masses = matrix.diagonal()[:nv]
+        alone = np.divide(np.abs(right[:nv]), masses, out=np.zeros(nv), where=masses > 0.0)
+        scales = [float(max(size[part].max(), 0.0 if part.start else alone.max())) or 1.0 for part in parts]
 
         def largest(values: Array) -> Array:
             return np.array([float(values[part].max()) / scale for part, scale in zip(parts, scales, strict=True)])

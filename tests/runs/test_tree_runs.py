@@ -11,7 +11,8 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import InputError
 from symgen.catalogue import raw
-from symgen.compiling.choices import on_tree
+from symgen.compiling.choices import choose_coordinates, on_tree
+from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 
@@ -109,6 +110,20 @@ def test_what_the_state_is():
     assert model.simulate(until=0.01).state[:3] == ("cart.x", "cart.y", "cart.theta")
     assert model.simulate(until=0.01, coordinates="auto", shape="straight").coordinates == "joint"
     assert model.simulate(until=0.01, coordinates="auto", shape="looped").coordinates == "absolute"
+
+
+@pytest.mark.parametrize(
+    "name", ["four-bar", "andrews", "jansen-leg", "wiper", "heavy-top", "pendulum", "free-rigid-body", "rolling-disc"]
+)
+def test_auto_takes_the_coordinates_with_fewer_operations(name):
+    """`auto` counts velocities and rows, without code; the operations of emitted code agree with it."""
+    mechanism = symgen.load(name).mechanism
+    choice = choose_method("direct-correction", {"weight": "mass"})
+    of_bodies, of_joints = (
+        compile_model(each, choice).law.operations["rhs"] for each in (mechanism, on_tree(mechanism))
+    )
+    taken = choose_coordinates(mechanism, "auto", "straight").name
+    assert taken == ("joint" if of_joints < of_bodies else "absolute")
 
 
 def test_which_joint_is_cut():
