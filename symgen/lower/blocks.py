@@ -229,13 +229,13 @@ class SaddleMatrix:
             if self._once(step):
                 for i, entries in step.motion.items():
                     b[i] = self.simpler(g.add(g.sub(b[i], g.dot(entries, right)), g.dot(step.weighed[i], known)))
-                others = step.beside.keys() - step.motion.keys()
+                others = sorted(step.beside.keys() - step.motion.keys())
             else:
                 force = self._less(right, [g.dot(line, known) for line in step.mass])
                 for i, entries in step.motion.items():
                     b[i] = self.simpler(g.sub(b[i], g.dot(entries, force)))
-                others = step.beside.keys()
-            for i in sorted(others):
+                others = list(step.beside)
+            for i in others:
                 b[i] = self.simpler(g.sub(b[i], g.dot(step.beside[i], known)))
         for single in self.singles:
             for i, factor in single.factors.items():
