@@ -247,7 +247,8 @@ class Model(Analysed, Shown):
         from symgen.targets import TARGETS, Request
 
         kind = TARGETS.get(arguments.text("target", target, "the name of a target"), "target")
-        refuse_bounds(f"target '{target}'", self.mechanism)
+        if not kind.bounded:
+            refuse_bounds(f"target '{target}'", self.mechanism)
         texts = {
             name: arguments.text(f"option '{name}'", value)
             for name, value in arguments.mapping("options", options, "texts by the names of options").items()

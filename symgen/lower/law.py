@@ -73,10 +73,10 @@ def lower_law(
         expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
         raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
     if any(row.held is not None for row in equations.rows):
-        _refuse_switching(method, options, implicit)
+        refuse_bounds(method, options, implicit, bool(equations.drags))
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
-    apart = _refuse_drags(method, recorded) if equations.drags else frozenset[str]()
+    apart = frozenset(("constrained",) if equations.drags else ())
     record = recorded.resolved(model.plan.schur, apart)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.compute(record.ends)
@@ -131,13 +131,35 @@ def lower_law(
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
 
 
-def _refuse_switching(method: Method, options: Mapping[str, str], implicit: bool) -> None:
-    """Refuse methods that read D without its factorisation, and forms with projections behind the equations."""
+def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pressed: bool) -> None:
+    """Refuse methods that do not take rows with bounds: those that read D of all rows.
+
+    Parameters
+    ----------
+    method : Method
+        The method.
+    options : mapping
+        Its structural options, complete.
+    implicit : bool
+        Whether a descriptor form is wanted.
+    pressed : bool
+        Whether friction depends on reactions, which is for methods that eliminate multipliers.
+
+    Raises
+    ------
+    InputError
+        With the method.
+    """
     law = record_law(method, options)
     behind = implicit and record_form(method, options).form in BEHIND
     if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
         expected = "one that eliminates multipliers or solves for them, where rows may be off"
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
+    outputs = [output for part in law.parts for output in part.outputs]
+    kinds = {law.operations[index].kind for place, index in outputs if place == "rates.v"}
+    if pressed and (law.form != "direct" or kinds != {"constrained"}):
+        expected = "one that eliminates multipliers, where friction depends on reactions"
+        raise InputError(f"method '{method.name}'", expected, "one for constant friction only", "--method lagrange")
 
 
 def _without_bounded_rows(
@@ -161,16 +183,6 @@ def _with_closed_loops(
     behind = replace(block, name=BY_PIVOTS, purpose=f"the same with a pivot for each row of a loop, {block.purpose}")
     closed = law_block(hoister, closing, part)
     return [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
-
-
-def _refuse_drags(method: Method, record: RecordedLaw) -> frozenset[str]:
-    """Refuse methods that do not eliminate multipliers; return the operations that have friction by reactions."""
-    outputs = [output for part in record.parts for output in part.outputs]
-    kinds = {record.operations[index].kind for place, index in outputs if place == "rates.v"}
-    if record.form != "direct" or kinds != {"constrained"}:
-        expected = "one that eliminates multipliers, where friction depends on reactions"
-        raise InputError(f"method '{method.name}'", expected, "one for constant friction only", "--method lagrange")
-    return frozenset(kinds)
 
 
 def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:

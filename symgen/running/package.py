@@ -26,6 +26,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import DOES
 from symgen.emit.module import render
 from symgen.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
+from symgen.lower.law import refuse_bounds
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.running.plan import Plan, Purpose
@@ -101,7 +102,7 @@ def write_package(
     coordinates = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped").name
     plans = [_plan(mechanism, c.method.name, own[c.method.name], coordinates) for c in chosen]
     if not methods:
-        plans = [p for p in plans if _suits(for_coordinates(mechanism, p.choice), shape, target)]
+        plans = [p for p in plans if _suits(for_coordinates(mechanism, p.choice), mechanism, shape, target)]
     check_name("-o", folder)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
@@ -164,8 +165,14 @@ def _stem(choice: MethodChoice) -> str:
     return choice.method.name.replace("-", "_")
 
 
-def _suits(choice: MethodChoice, shape: str, target: str) -> bool:
-    """Whether a method can be emitted in a shape and for a target."""
+def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) -> bool:
+    """Whether a method can be emitted for a mechanism in a shape and for a target."""
+    if mechanism.bounded:
+        try:
+            pressed = any(friction.pressed for friction in mechanism.frictions)
+            refuse_bounds(choice.method, choice.options, choice.implicit, pressed)
+        except InputError:
+            return False
     if shape == "looped":
         return is_loopable(choice.method, choice.options, choice.implicit)
     return target != "cuda" or not choice.implicit
@@ -187,6 +194,8 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
     solver = assembled.compiled.law.options.get("solver", "")
     if usual.solver_is_free and solver != usual.choice.options["solver"]:
         plans = [replace(p, choice=p.choice.with_options(solver=solver)) if p.solver_is_free else p for p in plans]
+    if usual.mechanism.bounded:
+        return list(plans), None, "modes of dry friction and stops are chosen by who calls this code"
     try:
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:

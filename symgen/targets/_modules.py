@@ -19,4 +19,4 @@ def modules_for(processor: str) -> Target:
         choices = request.methods, request.options or {}, request.coordinates, request.shape
         return write_package(request.mechanism, request.path, *choices, processor)
 
-    return Target(write)
+    return Target(write, bounded=processor == "cpu")

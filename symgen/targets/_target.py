@@ -83,7 +83,10 @@ class Target:
         Writes the files of a request.
     ending : str
         Suffix of the mechanism's name in the default path.
+    bounded : bool
+        Whether its code may have dry friction and stops, whose modes are those that callers write.
     """
 
     write: Callable[[Request], Package]
     ending: str = ""
+    bounded: bool = False

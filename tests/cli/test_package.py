@@ -14,7 +14,11 @@ import pytest
 import symgen
 from symgen import catalogue
 from symgen.cli import main
+from symgen.layout import abi
+from symgen.layout.probe import Ready
 from symgen.methods import METHODS
+from symgen.running.prepare import prepare
+from symgen.store.modules import load_module, plain_function
 
 #: What numpy and numba consist of.
 ALONE = ("numpy", "numpy.libs", "numba", "llvmlite", "numba.libs", "llvmlite.libs")
@@ -333,3 +337,30 @@ def test_a_file_of_somebody_else_is_left_alone(options, name, tmp_path, capsys):
     (folder / "README.md").write_text("mine")
     assert main(command) == 0
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == files | {"README.md": b"mine"}
+
+
+@pytest.mark.parametrize("name", ["dry-four-bar", "toggle-press"])
+def test_code_of_dry_friction_and_stops_is_that_of_runs(name, tmp_path, monkeypatch):
+    """Callers choose modes: with rows in force, with signs and with none, accelerations are those of runs."""
+    assert main(["generate", name, "-o", str(tmp_path)]) == 0
+    assert not (tmp_path / "simulate.py").exists()
+    assert "modes of dry friction and stops" in (tmp_path / "README.md").read_text()
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "model", raising=False)
+    law = load_module(tmp_path / "direct_correction.py")
+    monkeypatch.delitem(sys.modules, "model")
+    settings = symgen.Settings(method="direct-correction", integrator="rk4", coordinates="absolute")
+    run = prepare(symgen.load(name).mechanism, settings)
+    compiled, start = run.compiled, run.start
+    signs = np.random.default_rng(1).choice([-1.0, 1.0], len(compiled.info.switchable))
+    for held in (0.0, 1.0):
+        found = []
+        for rhs in (plain_function(law.rhs), Ready(compiled.law_module.rhs, abi.RHS)):
+            w, rate = start.w.copy(), np.zeros_like(start.y)
+            modes = compiled.modes(w)
+            modes[:, 0], modes[:, 2] = 0.0, signs * (1.0 - held)
+            modes[0, 0] = held
+            flag = rhs(0.0, start.y.copy(), start.p, w, np.zeros(abi.N_COUNTERS, dtype=np.int64), rate)
+            found.append([np.array([flag]), rate, compiled.section(w, "multipliers")])
+        for mine, other in zip(*found, strict=True):
+            np.testing.assert_allclose(mine, other, rtol=1e-11, atol=1e-11 * np.abs(other).max())
