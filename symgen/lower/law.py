@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from symgen.base.errors import InputError
@@ -76,10 +76,12 @@ def lower_law(
         refuse_bounds(method, options, implicit, bool(equations.drags))
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
-    apart = frozenset(("constrained",) if equations.drags else ())
+    eliminates = _eliminates(recorded)
+    apart = frozenset(("constrained",) if equations.drags and eliminates else ())
     record = recorded.resolved(model.plan.schur, apart)
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
-    scalars.compute(record.ends)
+    scalars.pushing = bool(equations.drags) and not eliminates
+    _compute(scalars, record.parts[0], record.ends)
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
     accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
     closing = closing or closing_plan(equations, model.plan, ())
@@ -143,7 +145,7 @@ def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pr
     implicit : bool
         Whether a descriptor form is wanted.
     pressed : bool
-        Whether friction depends on reactions, which is for methods that eliminate multipliers.
+        Whether friction depends on reactions, which is for methods that find multipliers at once.
 
     Raises
     ------
@@ -155,11 +157,9 @@ def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pr
     if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
         expected = "one that eliminates multipliers or solves for them, where rows may be off"
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
-    outputs = [output for part in law.parts for output in part.outputs]
-    kinds = {law.operations[index].kind for place, index in outputs if place == "rates.v"}
-    if pressed and (law.form != "direct" or kinds != {"constrained"}):
-        expected = "one that eliminates multipliers, where friction depends on reactions"
-        raise InputError(f"method '{method.name}'", expected, "one for constant friction only", "--method lagrange")
+    if pressed and law.form != "direct":
+        expected = "one that finds multipliers at once, where friction depends on reactions"
+        raise InputError(f"method '{method.name}'", expected, "one that iterates", "--method lagrange")
 
 
 def _without_bounded_rows(
@@ -168,8 +168,21 @@ def _without_bounded_rows(
     """Return the right-hand side of motions with no row with bounds in force, by a plan for them."""
     record = record.resolved(plan.schur, apart)
     loose, part = scalars.without_bounded_rows(record.operations, plan, closed), record.parts[0]
-    loose.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    _compute(loose, part, [*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
     return loose, part
+
+
+def _compute(scalars: ScalarNodes, part: Part, ends: Sequence[int]) -> None:
+    """Evaluate operations, and friction by reactions in a right-hand side that eliminates no multipliers."""
+    scalars.compute(ends)
+    if scalars.pushing:
+        scalars.settle_drags(dict(part.outputs)["multipliers"], (index for _, index in part.outputs))
+
+
+def _eliminates(record: RecordedLaw) -> bool:
+    """Whether v' of a right-hand side is that of an elimination."""
+    outputs = [output for part in record.parts for output in part.outputs]
+    return {record.operations[index].kind for place, index in outputs if place == "rates.v"} == {"constrained"}
 
 
 def _with_closed_loops(

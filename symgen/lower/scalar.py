@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Self
 
 from symgen.formulate.equations import Equations, without_bounded_rows
+from symgen.ir.derivative import jacobian
 from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import PARALLEL, SKIP, SUSPICIOUS, TINY
 from symgen.ir.polynomial import NormalForms
@@ -74,6 +75,16 @@ class ScalarNodes(OfMass):
         without, *solved = (self._completed(x, self._rest(x))[1] for x in (given, *effects))
         alone = [self.reaction(drag, without) for drag in drags]
         parts = [[self.reaction(drag, effect) for effect in solved] for drag in drags]
+        forces, rest = self._drag_forces(alone, parts), self._rest(given)
+        for force, effect in zip(forces, effects, strict=True):
+            own = self._rest(effect)
+            rest = {k: g.sub(x, g.mul(force, own[k])) for k, x in rest.items()}
+            given = tuple(g.sub(x, g.mul(force, y)) for x, y in zip(given, effect, strict=True))
+        return self._completed(given, rest)
+
+    def _drag_forces(self, alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]) -> list[int]:
+        """Return friction by reactions; leave its power and the squares of jamming numbers."""
+        g, drags = self.graph, self.equations.drags
         signed = [g.mul(drag.sign, drag.coefficient) for drag in drags]
         forces, doubtful = drag_forces(g, signed, alone, parts, self.brief)
         self.flags += [] if doubtful is None else [doubtful]
@@ -81,12 +92,23 @@ class ScalarNodes(OfMass):
         for i, (drag, force) in enumerate(zip(drags, forces, strict=True)):
             self.drag_power = g.sub(self.drag_power, g.mul(drag.rate, force))
             self.jamming.append(g.mul(g.mul(drag.coefficient, drag.coefficient), g.dot(parts[i][i], parts[i][i])))
-        rest = self._rest(given)
-        for force, effect in zip(forces, effects, strict=True):
-            own = self._rest(effect)
-            rest = {k: g.sub(x, g.mul(force, own[k])) for k, x in rest.items()}
-            given = tuple(g.sub(x, g.mul(force, y)) for x, y in zip(given, effect, strict=True))
-        return self._completed(given, rest)
+        return forces
+
+    def settle_drags(self, multipliers: int, ends: Iterable[int]) -> None:
+        """Put friction by reactions in place of its unknowns in f, in the values of some operations.
+
+        Multipliers are linear in f: their derivatives are those of unit forces.
+        """
+        g, keys = self.graph, [("drag", i) for i in range(len(self.equations.drags))]
+        reactions = [self.reaction(drag, self.values[multipliers]) for drag in self.equations.drags]
+        alone = [tuple(g.replaced(n, dict.fromkeys(keys, g.zero))) for n in reactions]
+        slopes = [jacobian(g, n, keys) for n in reactions]
+        parts = [[tuple(g.neg(x.get(key, g.zero)) for x in each) for key in keys] for each in slopes]
+        forces = dict(zip(keys, self._drag_forces(alone, parts), strict=True))
+        for index in dict.fromkeys(ends):
+            value = self.values[index]
+            new = g.replaced(value if isinstance(value, tuple) else (value,), forces)
+            self.values[index] = tuple(new) if isinstance(value, tuple) else new[0]
 
     def _rest(self, given: Nodes) -> Mapping[int, int]:
         """Return the unknowns of v' and lambda that no row alone fixes, linear in f and gamma."""

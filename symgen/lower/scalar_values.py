@@ -58,6 +58,8 @@ class NodeValues(Replay):
         #: Of friction by reactions: its power, the squares of its jamming numbers, and the multipliers of unknowns.
         self.drag_power, self.jamming = self.graph.zero, list[int]()
         self.pressing: Nodes = ()
+        #: Whether friction by reactions is an unknown of f, one number an element.
+        self.pushing = False
 
     def following(self, operations: tuple[FormulaStep, ...]) -> Self:
         """Return the same for another tape, in the same graph."""
@@ -82,10 +84,12 @@ class NodeValues(Replay):
         return self._forces() if name == "f" else quantities[name]
 
     def _forces(self) -> Nodes:
-        """Return f; where multipliers are unknowns, with friction by reactions."""
-        g, forces = self.graph, list(self.equations.forces)
-        for drag, force in self._pressed_forces():
-            for j, node in self.rows[drag.row]:
+        """Return f; where multipliers or this friction are unknowns, with friction by reactions."""
+        g, forces, pressed = self.graph, list(self.equations.forces), self._pressed_forces()
+        if self.pushing:
+            pressed = ((drag, g.input("drag", i)) for i, drag in enumerate(self.equations.drags))
+        for drag, force in pressed:
+            for j, node in self.directions[drag.row]:
                 forces[j] = g.sub(forces[j], g.mul(force, node))
         return tuple(forces)
 

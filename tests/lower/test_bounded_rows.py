@@ -94,11 +94,20 @@ def test_friction_in_motion_is_a_torque(coordinates: str) -> None:
         np.testing.assert_allclose(mine, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
 
 
-@pytest.mark.parametrize(("pins", "radius", "doubtful"), [("AB", 0.1, 0), ("ABCD", 0.1, 0), ("ABCD", 1.6, 1)])
-def test_friction_by_reactions_is_a_torque_of_their_size(pins: str, radius: float, doubtful: int) -> None:
+@pytest.mark.parametrize(
+    ("pins", "radius", "doubtful", "method"),
+    [
+        ("AB", 0.1, 0, "direct-correction"),
+        ("ABCD", 0.1, 0, "direct-correction"),
+        ("ABCD", 1.6, 1, "direct-correction"),
+        ("ABC", 0.1, 0, "invariant-stabilization"),  # which does not eliminate
+        ("BC", 0.1, 0, "udwadia-kalaba"),
+    ],
+)
+def test_friction_by_reactions_is_a_torque_of_their_size(pins: str, radius: float, doubtful: int, method: str) -> None:
     """Where few iterations do not find the forces, the function for rows in force does."""
     signs = {"A": 1.0, "B": -1.0, "C": 1.0, "D": -1.0}
-    settings = Settings(method="direct-correction", integrator="dop853")
+    settings = Settings(method=method, integrator="dop853", coordinates="absolute")
     dry = prepare(four_bar(BY_REACTION | {"radius": radius}, pins), settings)
     accelerations, multipliers = rates(dry, signs, 0.7, doubtful)
     rows = [row.name for i, row in enumerate(dry.compiled.info.rows) if i not in dry.compiled.info.bounded]

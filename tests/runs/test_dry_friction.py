@@ -373,7 +373,7 @@ def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None
     try:
         outcome = prepare(mechanism, settings).integrate()
     except InputError as error:
-        assert str(error).startswith(f"method '{method}': expected one that eliminates multipliers")
+        assert str(error).startswith(f"method '{method}': expected one that ")
         return
     if outcome.reason:
         assert "max_violation" in outcome.reason
