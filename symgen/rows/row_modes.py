@@ -55,8 +55,11 @@ def strike_stops(t: float, modes: Any, state: Any) -> int:
         return int(e.NO_MODES)
     if strike(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt) != SAME:
         return int(e.NO_MODES)
-    control[abi.BEGUN], control[abi.KNOWN], control[abi.POINTS], control[abi.REFUSED] = abi.AFRESH, 0, 0, 0
-    state.clock[abi.ALLOWED] = 0.0
+    if control[abi.BEGUN] == 0:  # the balance of energies begins behind an impact at the start
+        state.y[c.layout.nq + c.layout.nv] = 0.0
+    else:
+        control[abi.BEGUN], control[abi.KNOWN], control[abi.POINTS], control[abi.REFUSED] = abi.AFRESH, 0, 0, 0
+        state.clock[abi.ALLOWED] = 0.0
     return int(abi.DONE) if read_rows(t, c, state.y, state.p, state.w) == SAME else int(e.NO_MODES)
 
 

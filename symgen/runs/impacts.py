@@ -98,7 +98,10 @@ class Impacts:
         impact = effects.impact(numbers, s.v, s.impulses, float(s.energy[0]))
         self.latest = dict.fromkeys(active, impact)
         self.left = {int(i): float(s.left[i]) for i in np.flatnonzero(~np.isnan(s.left))}
-        self._events.begin_anew(state)
+        if state.control[abi.BEGUN] != 0:
+            self._events.begin_anew(state)
+        else:  # the balance of energies begins behind an impact at the start
+            state.y[self.simulation.compiled.info.work] = 0.0
 
 
 def strikes_of(watched: Watched, rows: BoundedRows, effects: Any, work: Any, past: Any) -> Any:

@@ -355,6 +355,23 @@ def test_rows_of_a_sweep_have_the_impacts_of_single_runs(
 
 
 @pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
+def test_an_impact_at_the_start(steps: dict[str, Any]) -> None:
+    """A ball that is thrown from the floor into it: the run and its balance of energies begin behind the impact."""
+    text = BALL.replace("[bodies.ball]", "[parameters]\npart = 0.7\n\n[bodies.ball]").replace(
+        "= 0.7\n\n[s", "= 0.7\n[s"
+    )
+    text = text.replace("position = [0.0, 1.0]", "position = [0.0, 0.0]\nvelocity = [0.0, -1.0]")
+    model, settings = symgen.load(described(text)), {"until": 0.15, "times": [0.0, 0.1, 0.15], **steps}
+    run = model.simulate(verify=False, **settings)
+    assert run.status == "ok" and run.energy_drift_max < 1e-13
+    np.testing.assert_allclose([event.t for event in run.events], [0.0, 1.4 / G], rtol=0, atol=1e-13)
+    height = np.array([0.0, 0.07, 0.49 * (0.15 - 1.4 / G)]) - G / 2 * np.array([0.0, 0.1, 0.15 - 1.4 / G]) ** 2
+    np.testing.assert_allclose(run["ball.y"], height, rtol=0, atol=1e-13)
+    rows = model.sweep({"part": [0.7]}, quantities=("ball.y", "energy.error"), **settings)
+    assert rows.status[0] == "ok" and rows["ball.y"][0].tolist() == run["ball.y"].tolist()
+
+
+@pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
 def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str, Any]) -> None:
     """A ball on a wire with a corner at 0.8 m, which some rows have: they fail there, with the words of single runs."""
     text = BALL.replace("[bodies.ball]", "[parameters]\ncorner = 0.0\n\n[bodies.ball]")
