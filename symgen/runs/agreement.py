@@ -148,7 +148,7 @@ def set_bounds(c: Any, n: int) -> None:
 
 @exact()
 def follow_sizes(c: Any) -> bool:
-    """Set the sizes of reactions by the present forces; return whether they are those of the bounds."""
+    """Set the sizes of reactions by the present forces; return whether they agree with the bounds."""
     k, agree = c.count, True
     for i in range(k):
         if c.pressed[i] != 0:
