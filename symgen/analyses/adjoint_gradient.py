@@ -169,7 +169,7 @@ def adjoint_gradient(
         slopes[first : first + model.lanes] += slope[: n - first]
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
-    result = replace(result, notes=(*result.notes, *notes))
+    result = replace(result, notes=(*result.notes, *notes, *start.notes))
     if result.status == "ok" and (doubt := doubt_of_motion(result)):
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])

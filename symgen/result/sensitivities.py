@@ -145,7 +145,8 @@ class Differentiated:
     def result(self, result: Result) -> Result:
         """Return a result with its sensitivities, with notes and warnings on them."""
         own = self.sensitivities(result.outcome)
-        notes, reason, status = (*result.notes, *self._notes), result.reason, result.status
+        notes = *result.notes, *self._notes, *self._start.notes
+        reason, status = result.reason, result.status
         still = [name for name, moves in zip(own.names, own.moves, strict=True) if not moves]
         warnings = (*result.warnings, *(f"{name} changes nothing in this run" for name in still))
         doubt = own.doubt(result)

@@ -177,9 +177,9 @@ class StartDirections:
         """Directions of the state of bodies at the start, shape (ny, n)."""
         info, n = self.info, self.count
         p = self.parameters(self.compiled)
-        q, v = described_start(self.run.plan.mechanism, self.duals)
+        _, v = described_start(self.run.plan.mechanism, self.duals)
         y = np.zeros((info.ny, n))
-        y[: info.nq] = self._positions(np.array(list(slopes_of(q, n))).reshape(info.nq, n), p)
+        y[: info.nq] = self._closed[0]
         y[info.nq : info.work] = self._velocities(v, y, p)
         y[info.own_states] = self._states()
         return y
@@ -207,9 +207,24 @@ class StartDirections:
         """Values of formulas without directions."""
         return scalars({name: x.value for name, x in self.duals.values.items()})
 
-    def _positions(self, described: Array, p: Array) -> Array:
-        """Return the directions of coordinates: the described ones, and the shortest change that keeps loops closed."""
-        info, motion = self.info, self._turning
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was chosen for directions of the start."""
+        moved = [d.name for d, chosen in zip(self.directions, self._closed[1].tolist(), strict=True) if chosen]
+        if not moved:
+            return ()
+        words = "the start is not held: derivatives are those of the shortest change that keeps it closed"
+        return (f"sensitivities to {', '.join(moved)}: {words}",)
+
+    @cached_property
+    def _closed(self) -> tuple[Array, NDArray[np.bool_]]:
+        """Directions of coordinates: the described ones, and the shortest change that keeps loops closed.
+
+        With these whether what is not held moves where others would close the loops as well.
+        """
+        info, motion, p = self.info, self._turning, self.parameters(self.compiled)
+        q, _ = described_start(self.run.plan.mechanism, self.duals)
+        described = np.array(list(slopes_of(q, self.count))).reshape(info.nq, self.count)
         along = np.linalg.pinv(motion) @ described
         y = np.zeros((info.ny, self.count))
         y[: info.nq] = motion @ along
@@ -233,7 +248,10 @@ class StartDirections:
         names = [info.rows[i].name for i in holonomic] + [info.joint_coordinates[k].name for k in held]
         scales = np.sqrt(self.compiled.section(self.start.w, "gauge"))
         change = shortest(rows, -violated, fixed, names, np.zeros((info.nv, self.count)), scales, self.directions)
-        return np.asarray(motion @ (along + change))
+        free = [j for j in range(info.nv) if j not in fixed]
+        moved = np.abs(change[free]).max(axis=0, initial=0.0) > _KEPT * np.abs(along + change).max(axis=0, initial=0.0)
+        loose = rows.shape[1] > 0 and np.linalg.matrix_rank(rows[:, free]) < len(free)
+        return np.asarray(motion @ (along + change)), moved & loose
 
     @cached_property
     def _scratch(self) -> Array:

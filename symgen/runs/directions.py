@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.layout import abi
 from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.runs.reset_directions import with_directions
+from symgen.runs.reset_directions import events_at_start, with_directions
 from symgen.runs.run import Progress, completed
 from symgen.runs.simulation import Simulation
 
@@ -115,7 +115,7 @@ def run_with_directions(
         own = seeds.part(first, model.lanes)
         p = model.parameters(start.p, own.p)
         begun = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
-        doubts = list[str]()
+        doubts = events_at_start(spec, model, begun)
         simulation = Simulation(model.whole, integrator, begun, with_directions(spec, model, doubts))
         outcome = completed(simulation, progress)
         parts.append(Part(model, outcome, doubts))

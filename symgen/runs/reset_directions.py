@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.events import RECORD
 from symgen.effects.effects import Effects, Impact
 from symgen.layout import abi
 from symgen.runs.directed_observer import Observer
@@ -23,11 +24,14 @@ from symgen.runs.directed_observer import Observer
 if TYPE_CHECKING:
     from symgen.loops.run_spec import RunSpec, Watched
     from symgen.runs.directed_model import DirectedModel
+    from symgen.starts.assembly import Start
 
 Array = NDArray[np.float64]
 
 #: Part of the largest singular value of rows below which they depend on each other.
 _NONE = 1e-10
+#: Roundings of a switching function up to which it is 0 at the start.
+_AT_START = 8.0
 #: Relative difference of the derivatives of the times of two events up to which these stay together.
 _TOGETHER = 1e-8
 
@@ -50,6 +54,32 @@ def with_directions(spec: RunSpec, model: DirectedModel, doubts: list[str]) -> R
     plain = {f.name: getattr(watched.effects, f.name) for f in fields(Effects)}
     effects = DirectedEffects(**plain, model_with=model, watched=watched, doubts=doubts)
     return replace(spec, events=replace(watched, effects=effects))
+
+
+def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[str]:
+    """Return what is in doubt since events that act are where the run starts, and directions move these.
+
+    Parameters
+    ----------
+    spec : RunSpec
+        Of the run.
+    model : DirectedModel
+        Its code.
+    start : Start
+        With directions.
+    """
+    watched = spec.events
+    if watched is None or all(action == RECORD for action in watched.actions):
+        return []
+    count = len(watched.names) + len(watched.switches)
+    windings = start.w[np.newaxis, abi.WINDING : abi.WINDING + model.plain.info.windings]
+    observer = Observer(model, np.array([start.t]), start.y[np.newaxis], windings, ((np.inf, start.p),), start.w)
+    values, slopes = (x[0] for x in observer.observed(watched.function, 3 * count))
+    return [
+        f"the event '{name}' is at the start: with other numbers it may happen behind it"
+        for k, (name, action) in enumerate(zip(watched.names, watched.actions, strict=True))
+        if action != RECORD and abs(values[k]) <= _AT_START * values[2 * count + k] and np.any(slopes[k] != 0.0)
+    ]
 
 
 @dataclass(frozen=True, kw_only=True)
