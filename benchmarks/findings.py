@@ -20,6 +20,7 @@ from benchmarks import (
     equal_error,
     literature,
     long,
+    picard,
     shared_loads,
     singular,
     statistics,
@@ -32,7 +33,8 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
     """Return every table that has a module; run times are measured only if asked for."""
     return (
         *literature.tables(times).values(),
-        *(shared_loads.table(), stiff.table(), long.table(), singular.table(), coordinates.table(times)),
+        *(shared_loads.table(), stiff.table(), long.table(), singular.table()),
+        *(coordinates.table(times), picard.work_table(times)),
         *all_methods.tables().values(),
         *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
     )

@@ -1,6 +1,6 @@
 """The integrator `picard` beside `dop853`: error against run time, random starts, hard cases, outputs.
 
-    python -m benchmarks.picard work [MODEL ...]     factors at equal error of the end, in one run, in turns
+    python -m benchmarks.picard work                 factors at equal error of the end, in one run, in turns
     python -m benchmarks.picard starts [COUNT]       errors over tolerances and failures from random starts
     python -m benchmarks.picard hard                 a kink, a damper, a stiff spring, long straight code
     python -m benchmarks.picard outputs              what 101 outputs cost, and their errors
@@ -14,8 +14,8 @@ runs with 21 tolerances.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from functools import lru_cache
+from collections.abc import Callable, Iterator
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from rich.table import Table
 
 import symgen
 from benchmarks.extended import reference
+from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
 from benchmarks.show import show
 from symgen import MechanismBuilder, Settings
 from symgen.running.prepare import Prepared, prepare
@@ -34,6 +35,7 @@ INTEGRATORS = ("dop853", "picard")
 LEVELS = (1e-6, 1e-9, 1e-12)
 TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(6, 27))
 REPEATS = 12
+METHODS = ("lagrange", "direct-correction")
 #: Model: end [s], and constant steps of the reference.
 MODELS = {
     "four-bar": (10.0, 400),
@@ -41,7 +43,6 @@ MODELS = {
     "bricard": (10.0, 200),
     "spatial-slider-crank": (5.0, 2500),
     "jansen-leg": (5.0, 400),
-    "n-four-bar:10": (0.5, 100),
 }
 
 
@@ -82,34 +83,41 @@ def exact(name: str, coordinates: str) -> tuple[Array, float]:
     return reference(run, steps)
 
 
-def work(names: list[str]) -> None:
-    """Print factors at equal error."""
-    table = Table("model", "coordinates", "method", "reference", *(f"{x:.0e} [us], factor" for x in LEVELS))
-    factors: dict[float, list[float]] = {level: [] for level in LEVELS}
-    for name in names or list(MODELS):
-        for coordinates in ("joint", "absolute"):
-            end, columns = exact(name, coordinates)
-            for method in ("lagrange", "direct-correction"):
-                rows: dict[str, list[tuple[float, float]]] = {integrator: [] for integrator in INTEGRATORS}
-                for tolerance in TOLERANCES:
-                    for integrator in INTEGRATORS:
-                        more = {"rtol": tolerance, "atol": tolerance, "method": method, "coordinates": coordinates}
-                        run = prepared(symgen.load(name).mechanism, integrator, MODELS[name][0], **more)
-                        outcome, seconds = best_of(run)
-                        q = at_end(outcome)
-                        if outcome.code == 0:
-                            rows[integrator].append((float(np.abs(q - end[: len(q)]).max()), seconds))
-                cells = []
-                for level in LEVELS:
-                    first, second = (time_at(rows[integrator], level) * 1e6 for integrator in INTEGRATORS)
-                    factors[level].append(first / second)
-                    cells.append(f"{first:.1f} / {second:.1f} = {first / second:.2f}")
-                table.add_row(name, coordinates, method, f"{columns:.0e}", *cells)
-    medians = (
-        f"{np.nanmedian(factors[x]):.2f} ({np.nanmin(factors[x]):.2f} to {np.nanmax(factors[x]):.2f})" for x in LEVELS
+def factors(name: str, coordinates: str, method: str) -> str:
+    """Return the time of `dop853` over that of `picard` at all levels of error."""
+    end, _ = exact(name, coordinates)
+    rows: dict[str, list[tuple[float, float]]] = {integrator: [] for integrator in INTEGRATORS}
+    for tolerance in TOLERANCES:
+        for integrator in INTEGRATORS:
+            more = {"rtol": tolerance, "atol": tolerance, "method": method, "coordinates": coordinates}
+            run = prepared(symgen.load(name).mechanism, integrator, MODELS[name][0], **more)
+            outcome, seconds = best_of(run)
+            q = at_end(outcome)
+            if outcome.code == 0:
+                rows[integrator].append((float(np.abs(q - end[: len(q)]).max()), seconds))
+    ratios = (time_at(rows["dop853"], level) / time_at(rows["picard"], level) for level in LEVELS)
+    return ", ".join("-" if np.isnan(ratio) else f"{ratio:.1f}" for ratio in ratios)
+
+
+def work_table(times: bool = False) -> PageTable:
+    """Return factors at equal error by model, coordinates and method; they are run times, measured if asked for."""
+
+    def cells(name: str, coordinates: str) -> Iterator[str]:
+        yield from (factors(name, coordinates, method) if times else KEPT for method in METHODS)
+
+    rows = tuple(
+        ((f"`{name}`" if coordinates == "joint" else "", coordinates), partial(list_of, cells, name, coordinates))
+        for name in MODELS
+        for coordinates in ("joint", "absolute")
     )
-    table.add_row("median (range)", "", "", "", *medians)
-    show(table)
+    levels = ", ".join(f"{level:.0e}".replace("e-0", "e-") for level in LEVELS)
+    headings = ("model", "coordinates", *(f"`{method}` {levels}" for method in METHODS))
+    return PageTable("picard work", "docs/picard.md", headings, rows, (2, 3))
+
+
+def work(arguments: list[str]) -> None:
+    """Print factors at equal error."""
+    print_tables({"work": work_table(times=True)}, ())
 
 
 #: Model of the random starts: its coordinate and its speed, which decide all others, and the end [s].
