@@ -27,6 +27,19 @@ _PATH = re.compile(r"[A-Za-z0-9_./+-]+")
 #: Coordinates and velocities of a body in the plane and in space.
 _PLANAR = ("x", "y", "theta", "vx", "vy", "omega")
 _SPATIAL = ("x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz")
+#: What results have of a body besides, of a point of it, and of a joint.
+_ACCELERATIONS = (("ax", "ay", "alpha"), ("e0", "e1", "e2", "e3", "ax", "ay", "az", "alphax", "alphay", "alphaz"))
+_POINT = (("x", "y", "vx", "vy", "ax", "ay"), ("x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"))
+_REACTION = (("F", "Fx", "Fy", "M"), ("F", "T", "Fx", "Fy", "Fz", "Mx", "My", "Mz"))
+#: Type of a joint or force -> its own columns; types with columns that depend on further keys have few or none here.
+_OWN = {
+    "revolute": ("angle", "angle.rate"),
+    **dict.fromkeys(("translational", "prismatic"), ("displacement", "displacement.rate")),
+    "driver": ("effort", "power", "rate"),
+    "spring-damper": ("length", "rate", "force", "power"),
+    "torque": ("torque", "power"),
+    "force": ("power",),
+}
 
 Candidates = Callable[[click.Context], Iterable[str]]
 Answer = Callable[[click.Context, str], list[CompletionItem[Any]]]
@@ -51,6 +64,8 @@ def complete(parameter: click.Parameter) -> None:
         answer = _names_of(_assigned(_parameters))
     elif name == "states" and metavar == "A,B":  # of compare
         answer = _names_of(lambda context: COORDINATES)
+    elif name in ("quantities", "over"):
+        answer = _names_of(_CANDIDATES[name], nested=True)
     elif name in _CANDIDATES:
         answer = _names_of(_CANDIDATES[name])
     elif "FILE" in metavar or "RESULT" in metavar:
@@ -86,12 +101,13 @@ def _file(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
     return [CompletionItem(typed, type="file")]
 
 
-def _names_of(candidates: Candidates) -> Answer:
-    """Return the completion of the last word of a comma-separated list."""
+def _names_of(candidates: Candidates, nested: bool = False) -> Answer:
+    """Return the completion of the last word of a comma-separated list; nested names up to the next dot."""
 
     def answer(context: click.Context, typed: str) -> list[CompletionItem[Any]]:
         before, comma, last = typed.rpartition(",")
-        return [CompletionItem(before + comma + x) for x in candidates(context) if x.startswith(last)]
+        found = [x for x in candidates(context) if x.startswith(last)]
+        return [CompletionItem(before + comma + x) for x in found if not (nested and "." in x[len(last) :])]
 
     return answer
 
@@ -124,18 +140,41 @@ def _inputs(context: click.Context) -> list[str]:
     return _section(_raw(context), "inputs")
 
 
-def _quantities(context: click.Context) -> list[str]:
+def _quantities(context: click.Context) -> Iterator[str]:
+    """Yield names of bodies, joints, forces and outputs, and of their columns."""
     raw = _raw(context)
-    return [
-        x for section in ("bodies", "joints", "forces", "outputs", "states", "points") for x in _section(raw, section)
-    ]
+    spatial = _is_spatial(raw)
+    for section in ("bodies", "joints", "forces", "outputs", "states", "points"):
+        for name in _section(raw, section):
+            yield name
+            table = raw[section][name]
+            if not isinstance(table, dict):
+                continue
+            if section == "bodies":
+                yield from (f"{name}.{x}" for x in _body(table, spatial))
+            elif section in ("joints", "forces"):
+                own = _OWN.get(str(table.get("type")), ())
+                yield from (f"{name}.{x}" for x in (*(_REACTION[spatial] if section == "joints" else ()), *own))
+
+
+def _body(table: Mapping[str, Any], spatial: bool) -> Iterator[str]:
+    """Yield columns of a body and of its points."""
+    turns = table.get("type") != "point"
+    columns = (*(_SPATIAL if spatial else _PLANAR), *_ACCELERATIONS[spatial])
+    yield from (x for x in columns if turns or x in _POINT[spatial])
+    for point in _section(table, "points"):
+        yield from (point, *(f"{point}.{x}" for x in _POINT[spatial]))
+
+
+def _is_spatial(raw: Mapping[str, Any]) -> bool:
+    head = raw.get("mechanism")
+    return isinstance(head, dict) and head.get("space") == "spatial"
 
 
 def _start(context: click.Context) -> list[str]:
     raw = _raw(context)
-    head = raw.get("mechanism")
-    spatial = isinstance(head, dict) and head.get("space") == "spatial"
-    return [f"{body}.{x}" for body in _section(raw, "bodies") for x in (_SPATIAL if spatial else _PLANAR)]
+    columns = _SPATIAL if _is_spatial(raw) else _PLANAR
+    return [f"{body}.{x}" for body in _section(raw, "bodies") for x in columns]
 
 
 def _assigned(candidates: Callable[[click.Context], list[str]]) -> Candidates:

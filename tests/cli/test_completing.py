@@ -6,6 +6,7 @@ import sys
 import pytest
 from click.shell_completion import BashComplete
 
+import symgen
 from symgen import catalogue
 from symgen.cli import group
 from symgen.integrators import INTEGRATORS
@@ -52,6 +53,9 @@ def folder(tmp_path, monkeypatch):
         ("run four-bar --start crank.v", ["crank.vx=", "crank.vy="]),
         ("run heavy-top --start top.w", ["top.wx=", "top.wy=", "top.wz="]),
         ("run four-bar --quantity crank,c", ["crank,coupler", "crank,crank"]),
+        ("run four-bar --quantity crank.a", ["crank.ax", "crank.ay", "crank.alpha"]),
+        ("run four-bar --over B.F", ["B.F", "B.Fx", "B.Fy"]),
+        ("run wiper --quantity arm.tip.a", ["arm.tip.ax", "arm.tip.ay"]),
         ("sweep n-four-bar:2 --integrator pi", ["picard"]),
         ("run own", ["own.toml"]),
         ("run m", ["models/"]),
@@ -71,6 +75,27 @@ def test_every_model_method_and_integrator_is_offered(folder):
     assert set(catalogue.all_names()) <= {*offered("run", "")}
     assert {*offered("run", "four-bar", "--method", "")} == {"auto", *METHODS.names}
     assert {*offered("run", "four-bar", "--integrator", "")} == {"auto", *INTEGRATORS.names}
+
+
+@pytest.mark.parametrize(
+    "name", ["toggle-press", "scissor-lift", "wiper", "pendulum", "front-suspension", "rolling-disc"]
+)
+def test_every_quantity_that_is_offered_is_one_of_a_result(name):
+    """Names are read from the file, not from a result: each is taken by it, and nearly all of bodies are offered."""
+    heads = offered("run", name, "--quantity", "")
+    below = [x for head in heads for x in offered("run", name, "--quantity", f"{head}.")]
+    deeper = [x for head in below for x in offered("run", name, "--quantity", f"{head}.")]
+    result = symgen.load(name).simulate(until=1e-3, verify=False)
+    for quantity in (*heads, *below, *deeper):
+        assert result.select([quantity]).names, quantity
+    columns = {*below, *deeper}
+    assert {
+        *result.q.names,
+        *result.v.names,
+        *result.a.names,
+        *result.points.names,
+        *result.magnitudes.names,
+    } <= columns
 
 
 def test_files_are_left_to_the_shell(folder):
