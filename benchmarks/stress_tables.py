@@ -94,17 +94,18 @@ def by_family(study: Stress) -> str:
 
 
 def by_method(study: Stress) -> str:
-    """Return the accurate cells of each method by family, with what became of the others."""
+    """Return the accurate cells of methods by family, with what became of the others; equal ones share a line."""
     rows = [row for row in map_rows(study.rows) if row.outcome not in (REFUSED, UNJUDGED)]
-    families, lines = tuple(dict.fromkeys(row.family for row in rows)), []
+    families = tuple(dict.fromkeys(row.family for row in rows))
+    lines: dict[tuple[str, ...], list[str]] = {}
     for method in dict.fromkeys(row.method for row in rows):
-        line = [f"`{method}`"]
+        line = []
         for family in families:
             count = Counter(row.outcome for row in rows if (row.method, row.family) == (method, family))
             others = ", ".join(f"{count[name]} {name}" for name in OUTCOMES if count[name] and name != GOOD)
             line.append(f"{count[GOOD]} of {count.total()}" + (f"; {others}" if others else ""))
-        lines.append(line)
-    return table(["method", *families], lines)
+        lines.setdefault(tuple(line), []).append(f"`{method}`")
+    return table(["methods", *families], ([", ".join(methods), *line] for line, methods in lines.items()))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
