@@ -15,6 +15,7 @@ from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, ShapeSection, SpatialBodySection
 from symgen.describe.start import Scalars, euler_parameters
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, call, literal_of, product, sum_of_terms
+from symgen.vocabulary.measures import GROUND
 from symgen.vocabulary.rotations import CONVENTIONS, IDENTITY, Matrix, Orientation, matrix
 
 if TYPE_CHECKING:
@@ -247,6 +248,13 @@ def shapes_of(scope: Scope, raw: object) -> tuple[Shape, ...]:
     return tuple(_shape(scope, table, f"shape[{i}]" if several else "shape") for i, table in enumerate(tables))
 
 
+def _at(scope: Scope, key: str, at: str | tuple[float | str, ...]) -> Vec:
+    """Return the middle of a shape: of the ground, which has no centre of mass, by default its origin."""
+    if scope.name == GROUND and at == CENTRE:
+        return (ZERO,) * scope.dimension
+    return scope.marker(key, scope.name, at).point
+
+
 def _shape(scope: Scope, raw: object, key: str) -> Shape:
     section = read_table(ShapeSection, raw, scope.where(key))
     needed, allowed = KEYS[section.type]
@@ -280,7 +288,7 @@ def _shape(scope: Scope, raw: object, key: str) -> Shape:
         section.type,
         points=tuple(scope.vector(f"{key}.points", point) for point in points),
         closed=section.closed,
-        at=scope.marker(f"{key}.at", scope.name, section.at).point,
+        at=_at(scope, f"{key}.at", section.at),
         sizes=tuple(scope.constant(f"{key}.{name}", e, positive=True) for name, e in numbers if e is not None),
         axis=up if section.axis is None else scope.direction(f"{key}.axis", scope.name, section.axis).vector,
         colour=section.colour.lower(),

@@ -27,7 +27,7 @@ class MechanismBuilder:
     name : str
         Lower-case words joined by dashes.
     **keys
-        Further keys of ``[mechanism]``: ``title``, ``source``, ``space``, ``gravity``.
+        Further keys of ``[mechanism]``: ``title``, ``source``, ``space``, ``gravity``, ``shape``.
 
     Examples
     --------

@@ -18,6 +18,7 @@ class MechanismKeys(TypedDict, total=False):
     source: str
     space: Literal["planar", "spatial"]
     gravity: Vector
+    shape: Mapping[str, Any] | Iterable[Mapping[str, Any]]
 
 
 class RunKeys(TypedDict, total=False):

@@ -111,8 +111,8 @@ def moved(raw: Mapping[str, Any], source: Path, target: Path) -> tuple[dict[str,
     source, target : Path
         The folder that meshes are named from, and the other one.
     """
-    bodies, lost = dict[str, Any](), 0
-    for name, body in raw["bodies"].items():
+    tables, lost = dict[str, Any](), 0
+    for name, body in {**raw["bodies"], "": raw["mechanism"]}.items():
         shapes = list[Mapping[str, Any]]()
         for shape in body.get("shape", ()):
             if shape["type"] != "mesh":
@@ -125,5 +125,6 @@ def moved(raw: Mapping[str, Any], source: Path, target: Path) -> tuple[dict[str,
             else:
                 lost += 1
         rest = {key: value for key, value in body.items() if key != "shape"}
-        bodies[name] = rest | ({"shape": shapes} if shapes else {})
-    return {**raw, "bodies": bodies}, lost
+        tables[name] = rest | ({"shape": shapes} if shapes else {})
+    head = tables.pop("")
+    return {**raw, "mechanism": head, "bodies": tables}, lost

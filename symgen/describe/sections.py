@@ -35,6 +35,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         ``"planar"`` or ``"spatial"``.
     gravity : vector
         Gravitational acceleration in the ground frame [m/s^2]; none by default.
+    shape : table, or list of tables
+        A look of the ground in pictures, as bodies have; none by default.
     """
 
     name: Text
@@ -42,6 +44,7 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     source: Text = ""
     space: Literal["planar", "spatial"] = "planar"
     gravity: Vector | None = None
+    shape: ShapeSection | tuple[ShapeSection, ...] | None = None
 
 
 class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -62,7 +62,7 @@ from symgen.describe.stops import check_stops, read_gap, read_limits, with_stop_
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.vocabulary.expressions import ONE, call, names_in
-from symgen.vocabulary.measures import Marker
+from symgen.vocabulary.measures import GROUND, Marker
 
 if TYPE_CHECKING:
     from symgen.describe.beams import Beams
@@ -146,6 +146,8 @@ class _Validator:
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         described = [(self.scope("bodies", body.name), self.raw["bodies"][body.name], body) for body in bodies]
+        ground = Scope(self.context, "mechanism", GROUND)
+        looks = [(ground, self.raw["mechanism"]), *((scope, raw) for scope, raw, _ in described)]
         holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
         holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
         frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
@@ -173,7 +175,7 @@ class _Validator:
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
             holds=tuple(holds),
-            shapes=tuple((body.name, shape) for scope, raw, body in described for shape in shapes_of(scope, raw)),
+            shapes=tuple((scope.name, shape) for scope, raw in looks for shape in shapes_of(scope, raw)),
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
         )

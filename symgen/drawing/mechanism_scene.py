@@ -17,6 +17,7 @@ from symgen.drawing.joint_parts import along_of
 from symgen.drawing.meshes import mesh_faces
 from symgen.drawing.pen import RIGID, BodyPoint, Pen, PlacedMechanism, across
 from symgen.drawing.scene import (
+    GREY,
     GROUNDED,
     Array,
     Disc,
@@ -31,7 +32,7 @@ from symgen.drawing.scene import (
     upwards,
 )
 from symgen.drawing.symbols import gap_item, joint_item
-from symgen.vocabulary.measures import Marker, parts
+from symgen.vocabulary.measures import GROUND, Marker, parts
 
 #: A symbol in parts of the picture's diagonal, and of the usual distance between points of a body.
 SHARE, OF_BODY = 0.017, 0.17
@@ -87,7 +88,7 @@ def build_scene(
     return Scene(
         name=mechanism.name,
         title=mechanism.title,
-        items=(*bodies, *forces, *joints, *faults),
+        items=(*_ground(pen), *bodies, *forces, *joints, *faults),
         spatial=numbers.spatial,
         up=up,
         unit=unit,
@@ -148,6 +149,13 @@ def _unit(numbers: PlacedMechanism, points: Mapping[str, list[Point]]) -> float:
     return min(SHARE * max(whole, usual), OF_BODY * usual) or 0.1
 
 
+def _ground(pen: Pen) -> list[Item]:
+    """Return the shapes of the ground, where it has some."""
+    shapes = [shape for name, shape in pen.numbers.mechanism.shapes if name == GROUND]
+    marks = tuple(mark for shape in shapes for mark in _shape_marks(pen, GROUND, shape, GREY))
+    return [Item("ground", GROUND, "ground", marks)] if marks else []
+
+
 def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -> Item:
     """Return a body: its shape where it has one, else an outline of its points, and its centre of mass."""
     numbers = pen.numbers
@@ -161,7 +169,7 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     if body.is_point and not shapes:
         marks = [pen.dot(centre, 0.75, Look("#20262e", colour, 1.0))]
     elif shapes:
-        marks = [mark for shape in shapes for mark in _shape_marks(pen, body, shape, colour)]
+        marks = [mark for shape in shapes for mark in _shape_marks(pen, body.name, shape, colour)]
     else:
         marks = _outline(pen, i, points, _gyration(numbers, body), Look(colour, colour, 1.6, 0.16), body.name in guided)
     if not body.is_point:
@@ -185,15 +193,15 @@ def _gyration(numbers: PlacedMechanism, body: AnyBody) -> Array:
     return np.array([radius, radius, 0.0])
 
 
-def _shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mark]:
+def _shape_marks(pen: Pen, body: str, shape: Shape, colour: str) -> list[Mark]:
     """Return the marks of a shape.
 
     Parameters
     ----------
     pen : Pen
         What draws.
-    body : Body or SpatialBody
-        The body of the shape.
+    body : str
+        The body of the shape, or the ground.
     shape : Shape
         In the body's frame.
     colour : str
@@ -202,16 +210,16 @@ def _shape_marks(pen: Pen, body: AnyBody, shape: Shape, colour: str) -> list[Mar
     numbers = pen.numbers
     colour = shape.colour or colour
     look = Look(colour, colour, 1.6, 0.25)
-    index = numbers.index[body.name]
+    index = numbers.index[body]
 
     def place(point: Vec) -> BodyPoint:
-        return numbers.place(Marker(body.name, point))
+        return numbers.place(Marker(body, point))
 
     if shape.kind == "polyline":
         points = tuple(place(point).at for point in shape.points)
         return [Line(index, points, look, shape.closed)]
     if shape.kind == "mesh":
-        faces_of = tuple(_tuples(face) for face in mesh_faces(numbers, body.name, shape))
+        faces_of = tuple(_tuples(face) for face in mesh_faces(numbers, body, shape))
         return [Solid(index, faces_of, replace(look, ink=colour, width=0.4, opacity=1.0), convex=False)]
     sizes = [numbers.number(e) for e in shape.sizes]
     middle = place(shape.at)

@@ -47,8 +47,8 @@ def reasons(path: Path) -> list[str]:
     return [f"{item.where}: {item.why}" for item in read(path).left_out if item.what == "meshes"]
 
 
-def faces_of(path: Path) -> list[np.ndarray]:
-    items = build_scene(load(path)).items
+def faces_of(path: Path, role: str = "body") -> list[np.ndarray]:
+    items = [item for item in build_scene(load(path)).items if item.role == role]
     return [np.array(m.faces) for item in items for m in item.marks if isinstance(m, Solid)]
 
 
@@ -189,6 +189,49 @@ def test_a_body_with_meshes_for_the_eye_does_not_show_what_collides(tmp_path: Pa
     path = written(tmp_path, "m.xml", f"<mujoco>{asset}<worldbody>{bodies}</worldbody></mujoco>")
     tables = read(path).raw["bodies"]
     assert [[s["type"] for s in b["shape"]] for b in tables.values()] == [["mesh"], ["sphere", "box"]]
+
+
+@pytest.mark.parametrize(("end", "robot", "visual", "scheme"), FORMS)
+def test_the_ground_has_the_looks_of_links_that_stand_on_it(
+    end: str, robot: str, visual: str, scheme: str, tmp_path: Path
+) -> None:
+    written(tmp_path, "t.obj", WAVEFRONT)
+    looks = visual.format("t.obj")
+    if end == "urdf":
+        text = robot.format(meshes="").replace('<link name="base"/>', f'<link name="base">{looks}</link>')
+    else:
+        foot = f'<link name="foot">{looks}</link><joint name="f" type="fixed"><parent>world</parent>'
+        foot += "<child>foot</child></joint>"
+        text = robot.format(meshes="").replace("</model>", f"{foot}</model>")
+    path = written(tmp_path, f"r.{end}", text)
+    assert read_robot(path, end).raw["mechanism"]["shape"][0]["file"] == "t.obj"
+    (faces,) = faces_of(path, "ground")
+    assert corner_set(faces) == pytest.approx(corner_set(CORNERS))  # in the ground frame
+    for folder, count in ((tmp_path, 1), (tmp_path / "elsewhere", 0)):
+        folder.mkdir(exist_ok=True)
+        assert main(["import", str(path), "-o", str(folder / "m.toml")]) == 0
+        assert len(faces_of(folder / "m.toml", "ground")) == count
+
+
+def test_the_ground_is_drawn_where_a_body_at_its_origin_is(tmp_path: Path) -> None:
+    shape = '[{ type = "box", size = [2.0, 0.4], at = [0.1, 0.2] }, { type = "sphere", radius = 0.5 }]'
+    body = "[bodies.b]\nmass = 1.0\ninertia = 1.0\n"
+    head = '[mechanism]\nname = "m"\n'
+    ground = build_scene(load(written(tmp_path, "a.toml", f"{head}shape = {shape}\n{body}"))).items[0]
+    own = build_scene(load(written(tmp_path, "b.toml", f"{head}{body}shape = {shape}\n"))).items[0]
+    assert ground.role == "ground" and {mark.body for mark in ground.marks} == {-1}
+    assert [mark.points for mark in ground.marks] == [mark.points for mark in own.marks[:3]]
+    with pytest.raises(InputError, match=r"mechanism.shape\[0\].size: expected 2 lengths"):
+        load(written(tmp_path, "c.toml", f"{head}shape = {shape.replace('0.4', '0.4, 1.0')}\n{body}"))
+    with pytest.raises(InputError, match=r"mechanism.shape.file: expected a relative path"):
+        spatial = f'{head}space = "spatial"\nshape = {{ type = "mesh", file = "../x.stl" }}\n'
+        load(
+            written(
+                tmp_path,
+                "d.toml",
+                spatial + body.replace("1.0\n", "1.0\n", 1).replace("inertia = 1.0", "inertia = [1.0, 1.0, 1.0]"),
+            )
+        )
 
 
 def test_many_meshes_of_mjcf_share_the_triangles_of_a_body(tmp_path: Path) -> None:

@@ -180,12 +180,14 @@ class _Description:
         table["position"] = _tidy(place.origin)
         if (e := quaternion(place.rotation)) != (1.0, 0.0, 0.0, 0.0):
             table["orientation"] = {"quaternion": _tidy(e)}
+        return table | self._looks(name, members, frames)
+
+    def _looks(self, name: str, members: list[Link], frames: list[Frame]) -> dict[str, Any]:
+        """Return the key ``shape`` of links in the frame of their body, or of the ground."""
         shapes = [x for link, frame in zip(members, frames, strict=True) for x in _shapes(link, frame, self.folder)]
         if len(shapes) > MOST:
             self.left_out.append(LeftOut("looks", f"{len(shapes) - MOST} of {name}", f"a body has {MOST}", False))
-        if shapes:
-            table["shape"] = shapes[:MOST]
-        return table
+        return {"shape": shapes[:MOST]} if shapes else {}
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
@@ -319,11 +321,9 @@ class _Description:
                 "gravity": list(robot.gravity),
             }
         }
-        raw["bodies"] = {
-            self.names.of("link", top): self._body(top, members)
-            for top, members in self._members().items()
-            if top != GROUND
-        }
+        standing = (members := self._members()).pop(GROUND, [])
+        raw["mechanism"] |= self._looks("ground", standing, [link.place for link in standing])
+        raw["bodies"] = {self.names.of("link", top): self._body(top, links) for top, links in members.items()}
         if not raw["bodies"]:
             raise InputError(source, "a robot with a link that moves", "none", "--floating leaves the base free")
         joints = {self.names.of("joint", c.name): self._joint(c) for c in self.joints.values()}
