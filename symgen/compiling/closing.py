@@ -52,8 +52,15 @@ def at_start(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     """Return a choice with the velocities that stay free, where a mechanism's loops are closed by determinants."""
     if choice.implicit or choice.shape != "straight":
         return choice
-    free = free_velocities(mechanism)
-    return replace(choice, free=free if free and _eliminates(choice.method, tuple(choice.options.items())) else ())
+    closed = replace(choice, free=free_velocities(mechanism))
+    if not closed.free or _is_stored(mechanism, closed):
+        return closed
+    return closed if _eliminates(choice.method, tuple(choice.options.items())) else choice
+
+
+def _is_stored(mechanism: Mechanism, choice: MethodChoice) -> bool:
+    """Whether the cache has the code of a choice, which then eliminates: recording its law takes longer."""
+    return Entries().get(folder_of(mechanism), choice.stem) is not None
 
 
 @lru_cache(maxsize=64)
