@@ -70,7 +70,7 @@ from symgen.loops.search_records import (
     SIZE,
     WHOLE,
 )
-from symgen.loops.switching import candidate, concealed, is_sought, passes, side_of
+from symgen.loops.switching import candidate, concealed, is_at_end, is_sought, passes, side_of
 from symgen.loops.table_points import SHORT_OF, aim, arrive, bend, ends_near, is_before, switch_values
 from symgen.store.emitted import plain
 
@@ -346,7 +346,10 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             if near == 0 and is_before(hunt, n) == 1:
                 hunt[DOING], hunt[TRY] = _BEFORE, SHORT_OF * hunt[LOW]
                 return TAKE
-            if near == 0 and high - hunt[LOW] > hunt[BLUR] and hunt[ROUNDS] < _MOST_ROUNDS:
+            enclosed = 1 if high - hunt[LOW] <= hunt[BLUR] or hunt[ROUNDS] >= _MOST_ROUNDS else near
+            if enclosed == 0 and hunt[ROUNDS] > 0.0 and h == high and there >= high:
+                enclosed = is_at_end(hunt, n)
+            if enclosed == 0:
                 hunt[TRY] = candidate(hunt, n)
                 if there < hunt[TRY]:  # another event may come first, and be over by then
                     hunt[PROBES] += 1.0

@@ -187,14 +187,30 @@ def candidate(hunt: A, n: int) -> float:
     x = low + x * width
     # a little beyond the root, from the nearer end, so that the root lies between two near ends
     ahead = 1 if x - low < high - x else 0
-    distance = x - low if ahead == 1 else high - x
-    share = width / hunt[WHOLE]
-    beyond = distance * min(0.1, 4.0 * (distance / hunt[WHOLE]) * share * share) if rounds > 0 else 0.0
+    distance, least = x - low if ahead == 1 else high - x, 0.5 * hunt[BLUR]
+    share, beyond = width / hunt[WHOLE], -least if ahead == 0 else least
+    if rounds > 0:
+        beyond = distance * min(0.1, 4.0 * (distance / hunt[WHOLE]) * share * share)
     x += beyond if ahead == 1 else -beyond
-    least = 0.5 * hunt[BLUR]
     if distance < least:  # at the end of the bracket: rounding of g hides it for longer than the resolution of time
         hunt[BLUR] *= _WIDER
     return float(min(max(x, low + least), high - least))
+
+
+@plain
+def is_at_end(hunt: A, n: int) -> int:
+    """Return 1 where all changes of sides in a bracket are at its end, up to the resolution of time, else 0.
+
+    Each g there is smaller than the change of g in that time, by its slopes at both ends and by its mean slope.
+    """
+    at, width, blur = N_HEAD, hunt[HIGH] - hunt[LOW], hunt[BLUR]
+    for k in range(n):
+        if passes(hunt, n, k, G_HIGH) == 1:
+            g, d0, d1 = hunt[at + G_HIGH * n + k], abs(hunt[at + D_LOW * n + k]), abs(hunt[at + D_HIGH * n + k])
+            least = min(min(d0, d1) * width, abs(g - hunt[at + G_LOW * n + k]))
+            if not abs(g) * width <= blur * least:
+                return 0
+    return 1
 
 
 @plain

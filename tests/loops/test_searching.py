@@ -94,3 +94,24 @@ def test_a_quiet_step_is_one_in_which_the_search_finds_nothing():
             both = (h[heads:values].reshape(-1, 2)[columns] for h in (once, hunt))
             np.testing.assert_array_equal(*both)
     assert 100 < quiet < 1000
+
+
+def test_a_root_of_a_cubic_takes_one_shorter_step_besides_the_last_one():
+    """Where a step ends on its root up to the resolution of time, no step before the root is tried."""
+    rng, heads = np.random.default_rng(5), search_records.N_HEAD
+    attempts = list[int]()
+    for _ in range(200):
+        roots = np.array([rng.uniform(0.01, 0.09), -rng.uniform(0.5, 2.0), rng.uniform(0.5, 2.0)])
+        slope = np.polynomial.Polynomial.fromroots(roots).deriv()
+        # the product has the small rounding near its roots that g of a motion has
+        hunt, told = hunted(lambda t, roots=roots, slope=slope: (float(np.prod(t - roots)), float(slope(t))))
+        hunt[heads + search_records.ACTION] = search_records.LEAVE
+        told(0.0, 0.0, searching.LOOK)
+        tried, code, h = 1, told(0.1, 0.1, frame_parts.NOTHING), 0.1
+        while code in (frame_parts.SEEK, frame_parts.TAKE):
+            h, tried = float(hunt[frame_parts.TRY]), tried + 1
+            code = told(h, h, code)
+        assert code == frame_parts.MEET
+        assert abs(h - roots[0]) < 1e-15
+        attempts.append(tried)
+    assert min(attempts) == 3 and np.mean(np.array(attempts) == 3) > 0.5
