@@ -253,3 +253,14 @@ def test_the_cheapest_plan_takes_no_more_operations_than_others(name):
         ends = [*a, *multipliers, *(() if flag is None else (flag,))]
         counts[plan] = scalars.graph.operations(ends)
     assert counts[best] == min(counts.values())
+
+
+@pytest.mark.parametrize("name", ["andrews", "jansen-leg"])
+def test_quadratic_velocity_terms_in_the_plane_are_entries_of_other_rows_times_squares(name):
+    """A square for each angle; a product and a sum for each entry of a row that turns with one."""
+    e = formulate(symgen.load(name).mechanism)
+    g, entries = e.graph, [(j, node) for row in e.rows for j, node in row.entries]
+    turning = [j for j, node in entries if e.velocities[j].unit == "rad/s" and g.value(node) is None]
+    before = g.operations([node for _, node in entries])
+    both = g.operations([*(node for _, node in entries), *(row.gamma for row in e.rows)])
+    assert both - before <= len(set(turning)) + 2 * len(turning)
