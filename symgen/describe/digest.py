@@ -15,7 +15,7 @@ from symgen.describe.tables import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "speed")
+_LATER = ("flexures", "pressed", "across", "speed")
 
 
 def canonical(mechanism: Mechanism) -> str:

@@ -180,7 +180,7 @@ def _compute(scalars: ScalarNodes, part: Part, ends: Sequence[int]) -> None:
 
 
 def _eliminates(record: RecordedLaw) -> bool:
-    """Whether v' of a right-hand side is that of an elimination."""
+    """Whether a right-hand side eliminates multipliers."""
     outputs = [output for part in record.parts for output in part.outputs]
     return {record.operations[index].kind for place, index in outputs if place == "rates.v"} == {"constrained"}
 
