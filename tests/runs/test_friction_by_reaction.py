@@ -283,3 +283,21 @@ def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coord
         assert rows["A.mode"][i].tolist() == run["A.mode"].tolist()
         np.testing.assert_allclose(rows["C.force"][i], run["C.force"], rtol=1e-11)
     assert rows.status[2] == "failed" and "modes that are determined, got none at t = 0 s" in rows.reason[2]
+
+
+def test_pins_that_share_their_rest_rest_for_good_or_are_refused() -> None:
+    """Four pins whose forces at rest nothing determines: a torque that follows the time may break them loose."""
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    raw["parameters"]["mu"] = 2.0
+    for pin in "ABCD":
+        raw["joints"][pin]["friction"] = {"coefficient": "mu", "radius": 0.3}
+    model, settings = symgen.Model(validate(raw, source)), {"until": 0.5, "integrator": "dop853"}
+    rows = model.sweep({"mu": [2.0]}, quantities=("crank.theta", "crank.omega"), times=[0.5], **settings)
+    assert rows.status[0] == "ok" and abs(rows["crank.omega"][0, 0]) < 1e-14
+    raw["forces"] = {**raw.get("forces", {}), "motor": {"type": "torque", "body": "crank", "torque": "0.01*sin(t)"}}
+    model = symgen.Model(validate(raw, source))
+    with pytest.raises(InputError, match=r"got A, B, C, D at rest at one time, beside what changes"):
+        model.simulate(**settings)
+    rows = model.sweep({"mu": [0.2, 2.0]}, **settings)
+    assert list(rows.status) == ["ok", "failed"] and "got none at t = 0 s" in rows.reason[1]
