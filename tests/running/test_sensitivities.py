@@ -9,6 +9,8 @@ import pytest
 
 import symgen
 from symgen import InputError
+from symgen.api import Model
+from symgen.describe.lifted import lifted
 from symgen.methods import METHODS
 
 from .differences import differences
@@ -306,6 +308,26 @@ def test_a_length_that_destroys_mobility_is_refused(tmp_path):
 
 
 ODE = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name, "method").forms)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(
+    ("name", "number", "quantity", "settings"),
+    [
+        ("slider-crank", "rod_mass", "slider.x", {"step": 2e-3, "until": 0.4}),
+        ("andrews", "bodies.K2.mass", "K1.theta", {"step": 5e-5, "until": 1e-2}),
+        ("bricard", "mechanism.gravity[1]", "rod3.x", {"step": 5e-3, "until": 0.5}),
+    ],
+)
+def test_mechanisms_of_the_catalogue(name, number, quantity, settings, coordinates):
+    own = lifted("here", symgen.load(name).mechanism, (number,))
+    model, key = Model(own.mechanism), own.keys[number]
+    value = model.parameters()[key]
+    settings = {**settings, "integrator": "rk4", "times": [settings["until"]], "coordinates": coordinates}
+    run = model.simulate(sensitivities=key, method="lagrange", **settings)
+    expected = differences(model, key, value, 1e-2 * value, quantity, method="lagrange", **settings)
+    assert run.gradient(quantity).row()[key] == pytest.approx(expected, rel=1e-8)
 
 
 @pytest.mark.slow
