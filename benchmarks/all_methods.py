@@ -90,6 +90,11 @@ def runs_of(mechanism: str) -> dict[str, list[Run]]:
     return {method: [Run(*run) for run in runs] for each in own for method, runs in each.items()}
 
 
+def recorded() -> list[str]:
+    """Return the mechanisms that the record has."""
+    return [name for name in MECHANISMS if runs_of(name)]
+
+
 def ends() -> PageTable:
     """Return how runs ended on each mechanism, and which are `ok` and off by more than 1e-3 m."""
 
@@ -103,7 +108,7 @@ def ends() -> PageTable:
         listed = ", ".join(f"{n} with `{name}`" for name, n in settings.most_common())
         yield f"{listed}; at most {number(max(run.error or 0.0 for run in wrong))} m" if wrong else "none"
 
-    rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in MECHANISMS)
+    rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in recorded())
     headings = ("mechanism", "runs", "`ok`", "`unverified`", "`failed`", "`ok` and off by more than 1e-3 m")
     return PageTable("all_methods ends", PAGE, headings, rows, stored=True)
 
@@ -121,7 +126,7 @@ def shortest(mechanism: str) -> dict[str, Run]:
 def times() -> PageTable:
     """Return the run times of methods within `ERROR`, over the shortest on each mechanism."""
     columns = []
-    for name in MECHANISMS:
+    for name in recorded():
         best = shortest(name)
         least = min((run.seconds for run in best.values()), default=1.0)
         columns.append({method: run.seconds / least for method, run in best.items()})
@@ -131,22 +136,23 @@ def times() -> PageTable:
     )
 
     def cells(method: str) -> Iterator[str]:
-        yield from (f"{c[method]:.3g}" if method in c else "" for c in columns)
+        ratios = (c.get(method) for c in columns)
+        yield from ("" if x is None else f"{x:.3g}" if x < 1000.0 else f"{x:.0f}" for x in ratios)
 
     rows = tuple(((f"`{method}`",), partial(list_of, cells, method)) for method in order)
-    headings = (f"within {ERROR:g} m".replace("e-0", "e-"), *(f"`{name}`" for name in MECHANISMS))
+    headings = (f"within {ERROR:g} m".replace("e-0", "e-"), *(f"`{name}`" for name in recorded()))
     return PageTable("all_methods times", PAGE, headings, rows, stored=True, claims=claims)
 
 
 def claims() -> Iterator[str]:
     """Yield what the page says of the runs."""
-    every = [run for name in MECHANISMS for runs in runs_of(name).values() for run in runs]
+    every = [run for name in recorded() for runs in runs_of(name).values() for run in runs]
     count = Counter(run.status for run in every)
     yield f"{len(every)} runs: {count[OK]} `ok`, {count[UNVERIFIED]} `unverified`, {count[FAILED]} `failed`."
-    fastest = Counter(run.integrator for name in MECHANISMS for run in shortest(name).values())
+    fastest = Counter(run.integrator for name in recorded() for run in shortest(name).values())
     listed = ", ".join(f"{n} with `{name}`" for name, n in fastest.most_common())
     yield f"Of the fastest runs of all methods {listed}."
-    never = [method for method in METHODS.names if not any(method in shortest(name) for name in MECHANISMS)]
+    never = [method for method in METHODS.names if not any(method in shortest(name) for name in recorded())]
     yield "No run within 1e-6 m: " + ", ".join(f"`{method}`" for method in never) + "."
 
 

@@ -25,6 +25,7 @@ from benchmarks import (
     singular,
     statistics,
     stiff,
+    stress_cells,
 )
 from benchmarks.page_tables import ROOT, PageTable, missing, written
 
@@ -36,6 +37,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *(shared_loads.table(), stiff.table(), long.table(), singular.table()),
         *(coordinates.table(times), picard.work_table(times)),
         *all_methods.tables().values(),
+        *stress_cells.tables().values(),
         *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
     )
 

@@ -169,23 +169,29 @@ def differences(table: PageTable, text: str, measured: Mapping[int, Sequence[str
                 yield Difference(table.page, where, table.headings[column], printed[column], cell)
 
 
+def stays(table: PageTable, column: int, printed: str, measured: str) -> bool:
+    """Whether a page keeps a cell: it was not measured, or agrees and is no cell of a record."""
+    return measured == KEPT or (not table.stored and agrees(printed, measured, table.band(column)))
+
+
 def written(table: PageTable, text: str, measured: Sequence[Sequence[str]], date: str) -> str:
     """Return the text of a page with a measured table; cells that agree stay, and with all of them the date does."""
     first, end = place(table, text)
     lines = text.splitlines()
     printed = [cells_of(line) for line in lines[first + 2 : end]]
-    same = cells_of(lines[first]) == list(table.headings) and len(printed) == len(measured)
+    same = cells_of(lines[first]) == list(table.headings)
+    named = {tuple(row[: len(names)]): row for row in printed for names, _ in table.rows[:1]}
     rows = []
-    for number, row in enumerate(measured):
-        old = printed[number] if same else [KEPT] * len(row)
-        pairs = enumerate(zip(old, row, strict=True))
-        rows.append([a if same and agrees(a, b, table.band(i)) else b for i, (a, b) in pairs])
+    for (names, _), row in zip(table.rows, measured, strict=True):
+        old = named.get(names) if same else None
+        pairs = enumerate(zip(old or [KEPT] * len(row), row, strict=True))
+        rows.append([a if old and stays(table, i, a, b) else b for i, (a, b) in pairs])
     behind = end + 1
     stamped = behind < len(lines) and lines[behind].startswith(_DATE.partition("{")[0])
     whole = not any(KEPT in row[1:] for row in measured)
     if same and rows == printed and (stamped or not whole):
         return text
-    stamp = ["", _DATE.format(date=date, machine=platform.machine())]
+    stamp = ["", _DATE.format(date=date, machine=platform.machine())] if whole or not table.stored else []
     return (
         "\n".join([*lines[:first], *markdown(table.headings, rows), *stamp, *lines[behind + 1 if stamped else end :]])
         + "\n"

@@ -26,7 +26,7 @@ from benchmarks.verification.workers import answers
 
 FOLDER = Path(__file__).with_name("records")
 #: Modules that have a record, by its name.
-NAMES = ("statistics", "equal_error", "all_methods", "beside_tools")
+NAMES = ("statistics", "equal_error", "all_methods", "beside_tools", "stress_cells")
 #: Digits of stored numbers.
 DIGITS = 3
 
@@ -167,8 +167,7 @@ def measure(
 
 def record_of(name: str) -> Record:
     """Return the record of a module."""
-    found = importlib.import_module(f"benchmarks.{name}").RECORD
-    assert isinstance(found, Record)
+    found: Record = importlib.import_module(f"benchmarks.{name}").RECORD
     return found
 
 

@@ -246,3 +246,17 @@ def test_tables_have_slopes_in_implicit_schemes():
     explicit = model.simulate(integrator="rk4", step=1e-4, **keys)
     assert implicit.status == explicit.status == "ok"
     np.testing.assert_allclose(np.asarray(implicit.q), np.asarray(explicit.q), atol=1e-8)
+
+
+@pytest.mark.parametrize("method", ["direct-correction", "ggl"])
+def test_a_smaller_step_does_not_end_newtons_iteration_of_the_stiffest_spring(method):
+    ends = []
+    for step in (2e-3, 2.5e-4):
+        values = {"stiffness": 1e10, "damping": 2e6}
+        options = {"integrator.adaptive": "false"}
+        run = stiff.model().simulate(
+            method=method, integrator="radau5", step=step, until=0.05, parameters=values, options=options, verify=False
+        )
+        assert run.status == "ok", run.reason
+        ends.append(np.asarray(run.q)[-1])
+    assert np.abs(ends[0] - ends[1]).max() < 1e-7
