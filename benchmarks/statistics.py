@@ -69,7 +69,7 @@ FOLLOWED = 1e-3
 #: Errors of runs that are lost, which small changes decide.
 LOST = 0.1
 #: Numbers of the record that are below are not resolved; ratio of errors within which processors agree.
-UNRESOLVED, WITHIN = 1e-8, {"picard": 4.0}
+UNRESOLVED, WITHIN = 1e-7, {"picard": 4.0}
 
 
 @dataclass(frozen=True)
@@ -322,6 +322,7 @@ RECORD = Record(
     examine,
     again,
     PATIENCE,
+    share=0.05,
 )
 
 
