@@ -326,7 +326,7 @@ def _solved(
     base = still.responses.accelerations
     effects = np.stack([other.responses.accelerations - base for other in others], axis=-1)
     effects = effects * scale[:, np.newaxis]
-    wanted = (still.prescribed_accelerations - base) * scale
+    goals = (still.prescribed_accelerations - base) * scale
     # a motor of a crane and one of a watch: whether efforts are told apart does not depend on what they move
     sizes = np.linalg.norm(effects, axis=1)
     silent = sizes <= SILENT * np.maximum(sizes.max(axis=1), np.linalg.norm(base * scale, axis=1))[:, np.newaxis]
@@ -334,12 +334,12 @@ def _solved(
     left, singular, right = np.linalg.svd(effects / sizes[:, np.newaxis], full_matrices=False)
     regular = singular > CUTOFF * singular.max(axis=1, initial=0.0)[:, np.newaxis]
     inverses = np.where(regular, 1.0 / np.where(regular, singular, 1.0), 0.0)
-    parts = np.einsum("kij,ki->kj", left, wanted) * inverses
+    parts = np.einsum("kij,ki->kj", left, goals) * inverses
     efforts = np.einsum("kji,kj->ki", right, parts) / sizes
     ranks = regular.sum(axis=1)
     for k in np.flatnonzero(ranks < len(weighed)):
         efforts[k] -= _unfelt(right[k][regular[k]], sizes[k], weighed, efforts[k])
-    rest = wanted - np.einsum("kij,kj->ki", effects, efforts)
+    rest = goals - np.einsum("kij,kj->ki", effects, efforts)
     return efforts, np.abs(rest).max(axis=1), ranks
 
 

@@ -32,7 +32,7 @@ Bounds = tuple[float | None, float | None]
 _RTOL = _ATOL = 1e-10
 
 
-def exact(where: str, settings: Settings) -> Settings:
+def with_tight_tolerances(where: str, settings: Settings) -> Settings:
     """Return the settings of a run whose derivatives count: tight tolerances where they are left open.
 
     Raises
@@ -69,7 +69,7 @@ class FreeNumbers:
 
     def __init__(self, where: str, mechanism: Mechanism, settings: Settings, keys: Mapping[str, str]) -> None:
         self.where, self.mechanism, self.keys, self.names, self.runs = where, mechanism, keys, tuple(keys), 0
-        self.settings = exact(where, settings)
+        self.settings = with_tight_tolerances(where, settings)
 
     def settings_at(self, x: Array) -> Settings:
         """Return the settings of a run with values of the numbers."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
-from symgen.analyses.measured_data import Data, data_of
+from symgen.analyses.measured_data import Data, measured_columns
 from symgen.analyses.null_directions import null_directions
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 from symgen.describe.lifted import lifted
@@ -243,7 +243,7 @@ def identify(
     if not sources:
         raise InputError("identify: data", "measured columns", "none")
     bounds = with_bounds("identify: free", free)
-    columns = [data_of(source, k) for k, source in enumerate(sources)]
+    columns = [measured_columns(source, k) for k, source in enumerate(sources)]
     task = Identification(mechanism, settings, columns, bounds, quantities, bias, dict(weights or {}))
     residuals, slopes = task.at(task.start)
     if not np.all(np.isfinite(residuals)):

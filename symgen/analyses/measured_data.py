@@ -34,7 +34,7 @@ class Data:
     columns: Mapping[str, Array]
 
 
-def data_of(source: object, number: int = 0) -> Data:
+def measured_columns(source: object, number: int = 0) -> Data:
     """Return measured columns: of a file, of a mapping with ``t``, or of a result.
 
     Raises

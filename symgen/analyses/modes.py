@@ -212,11 +212,11 @@ def _shares(
         restoring[joint] = restoring.get(joint, 0.0) + _work(dr, geometric @ dq)
     whole = _work(dr, e.by("balance", "q") @ dq)
     heavy = np.maximum(_work(dr, mass @ dr), 1e-300)
-    taken, drag = _by_force(subject, e, dv, dv, "v"), _work(dv, e.by("balance", "v") @ dv)
+    power, drag = _by_force(subject, e, dv, dv, "v"), _work(dv, e.by("balance", "v") @ dv)
     return (
         {name: part / energy for name, part in kinetic.items()},
         _parts(restoring, whole, heavy, "gravity and turning" if moving else "gravity"),
-        _parts(taken, drag, energy, "turning"),
+        _parts(power, drag, energy, "turning"),
     )
 
 

@@ -24,7 +24,7 @@ from symgen.describe.lifted import lifted
 from symgen.describe.mechanism import Mechanism, Output
 from symgen.describe.scope import Context, Scope
 from symgen.layout import abi
-from symgen.result.sensitivities import over, place_of
+from symgen.result.sensitivities import derivative_unit, place_of
 from symgen.runs.adjoint import Uncovered
 
 if TYPE_CHECKING:
@@ -185,7 +185,9 @@ class Objective:
         named = self._where, self.mechanism, ending, self._column, self._free.keys
         adjoint = adjoint_gradient(*named, self._quick, self._pages)
         slopes = dict(zip(self.names, adjoint.slopes.tolist(), strict=True))
-        units = {name: over(adjoint.unit, d.unit) for name, d in zip(self.names, adjoint.directions, strict=True)}
+        units = {
+            name: derivative_unit(adjoint.unit, d.unit) for name, d in zip(self.names, adjoint.directions, strict=True)
+        }
         gradient = Gradient(adjoint.value, adjoint.unit, slopes, units, adjoint.result, "adjoint", adjoint.memory)
         return gradient, adjoint.directions, adjoint.run
 
@@ -199,7 +201,7 @@ class Objective:
             hint = "take record_when, or Result.gradient and result.sensitivities.end"
             raise InputError(self._where, "a run that ends at a time", f"an event at t = {result.end:g} s", hint)
         slopes = result.gradient(self._column).row()
-        units = {d: over(unit, by) for d, by in zip(self.names, result.sensitivities.units, strict=True)}
+        units = {d: derivative_unit(unit, by) for d, by in zip(self.names, result.sensitivities.units, strict=True)}
         return Gradient(float(getattr(result, table).values[-1, place]), unit, slopes, units, result)
 
 

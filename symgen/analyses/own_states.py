@@ -65,8 +65,8 @@ def states_along(run: PrescribedRun, times: Array) -> tuple[Array, str]:
     for here, end in ((behind, times.max(initial=0.0)), (times < 0.0, times.min(initial=0.0))):
         if here.any():
             forward = np.unique(np.abs(times[here])) * np.sign(end)
-            found, apart = _one_way(run, side, forward, float(end))
-            states[here], worst = found[:: 1 if end > 0.0 else -1], max(worst, apart)
+            values, apart = _one_way(run, side, forward, float(end))
+            states[here], worst = values[:: 1 if end > 0.0 else -1], max(worst, apart)
     names = ", ".join(x.name for x in run.mechanism.states)
     return states, f"states along the motion ({names}) are off by about {worst:.1g} of their size" if worst else ""
 
@@ -94,12 +94,12 @@ def _one_way(run: PrescribedRun, side: Side, times: Array, end: float) -> tuple[
 def _kinks(run: PrescribedRun, end: float) -> list[float]:
     """Return the times inside a motion at which inputs or formulas jump or have kinks, in the order of the motion."""
     first, last = min(0.0, end), max(0.0, end)
-    formulas, found = InTime(run.mechanism, run.numbers), {t for t, _ in run.held}
+    formulas, times = InTime(run.mechanism, run.numbers), {t for t, _ in run.held}
     for jump in sum(jumps_in_time(run.mechanism), ()):
-        found.update(formulas.crossings(jump, last, first))
+        times.update(formulas.crossings(jump, last, first))
     near = ASIDE * abs(end)
     kinks = list[float]()
-    for t in sorted(found, key=abs):
+    for t in sorted(times, key=abs):
         if first + near < t < last - near and (not kinks or abs(t - kinks[-1]) > near):
             kinks.append(t)
     return kinks

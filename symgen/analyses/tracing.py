@@ -211,8 +211,8 @@ class Tracer:
     def _taken(self) -> tuple[Array, ...]:
         return tuple(array.copy() for array in self.stand)
 
-    def _back_to(self, taken: tuple[Array, ...]) -> None:
-        for array, before in zip(self.stand, taken, strict=True):
+    def _back_to(self, copies: tuple[Array, ...]) -> None:
+        for array, before in zip(self.stand, copies, strict=True):
             array[:] = before
 
     def _at(self, t: float) -> bool:

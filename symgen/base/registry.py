@@ -82,10 +82,10 @@ class Registry(Generic[T]):
             self._modules = modules
         return self._modules
 
-    def _checked(self, name: str, taken: Mapping[str, object]) -> str:
+    def _checked(self, name: str, kinds: Mapping[str, object]) -> str:
         if not _NAME.fullmatch(name):
             raise ValueError(f"{self.what} '{name}' is not a lower-case name with dashes")
-        if name in taken:
+        if name in kinds:
             raise ValueError(f"{self.what} '{name}' is registered twice")
         return name
 

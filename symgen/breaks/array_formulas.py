@@ -74,8 +74,8 @@ def _joined(deciding: bool, a: Any, b: Any) -> Any:
     """Return "or" (`deciding`) or "and" of two conditions; a deciding one overrides an undefined one."""
     values = np.asarray([*np.broadcast_arrays(a, b)], dtype=np.float64)
     undefined = np.isnan(values)
-    decided = (~undefined & ((values != 0.0) == deciding)).any(axis=0)
-    result = np.where(decided, float(deciding), np.where(undefined.any(axis=0), np.nan, float(not deciding)))
+    certain = (~undefined & ((values != 0.0) == deciding)).any(axis=0)
+    result = np.where(certain, float(deciding), np.where(undefined.any(axis=0), np.nan, float(not deciding)))
     return result if _varies((a, b)) else float(result)
 
 

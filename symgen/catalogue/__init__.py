@@ -105,10 +105,10 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
     """
     if name in SIZED:
         family = SIZED.get(name)
-        wanted = family.default if size is None else size
-        if not 1 <= wanted <= family.largest:
-            raise InputError("model", f"a size of '{name}' from 1 to {family.largest}", str(wanted))
-        return family.build(wanted)
+        number = family.default if size is None else size
+        if not 1 <= number <= family.largest:
+            raise InputError("model", f"a size of '{name}' from 1 to {family.largest}", str(number))
+        return family.build(number)
     if size is not None:
         raise InputError("model", f"'{name}' without a size", f"'{name}:{size}'")
     import tomllib

@@ -127,9 +127,9 @@ def show_quantities(quantities: Mapping[str, Mapping[str, Any]], tables: Iterabl
 
 def show_sensitivities(result: Result, quantities: Sequence[str], most: int = 40) -> None:
     """Print the derivatives of quantities at the end, by default of coordinates, velocities and outputs."""
-    found = result.sensitivities
-    assert found is not None, "the run had sensitivities"
-    names = quantities or [name for table in found.saved(result) for name in getattr(result, table).names]
+    sensitivities = result.sensitivities
+    assert sensitivities is not None, "the run had sensitivities"
+    names = quantities or [name for table in sensitivities.saved(result) for name in getattr(result, table).names]
     tables = [(name, result.gradient(name)) for name in names]
     rows = [
         (name, by, digits(value, max(map(abs, table.row().values()))), unit)

@@ -64,9 +64,9 @@ def command(
     if every and methods:
         raise InputError("--all", "no --method with it", ", ".join(methods))
     mechanism = load(model)
-    wanted = None if every else methods or "direct-correction"
+    selection = None if every else methods or "direct-correction"
     package = mechanism.generate(
-        output, wanted, options, coordinates=coordinates, shape=shape, target=target, fmi=int(fmi)
+        output, selection, options, coordinates=coordinates, shape=shape, target=target, fmi=int(fmi)
     )
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in package.files]

@@ -29,7 +29,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     from symgen.base.files import check_writable, write_whole
     from symgen.describe.builder import to_toml
     from symgen.describe.formats import FORMATS, LeftOut, format_of, read_robot
-    from symgen.describe.mesh_files import moved
+    from symgen.describe.mesh_files import with_mesh_folder
     from symgen.describe.validate import validate
 
     path = Path(file)
@@ -39,7 +39,7 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
         raise InputError("FILE", f"a file of another program ({ends})", quoted(file))
     read = read_robot(path, name, floating=floating, stops=stops)
     target = Path(f"{read.raw['mechanism']['name']}.toml" if output in (None, "-") else str(output))
-    raw, lost = moved(read.raw, read.folder, target.parent)
+    raw, lost = with_mesh_folder(read.raw, read.folder, target.parent)
     if lost:
         why = f"their files are not in the folder of {'the output' if output == '-' else target.name}"
         read = replace(read, left_out=(*read.left_out, LeftOut("meshes", f"{lost} in pictures", why, False)))

@@ -229,14 +229,14 @@ def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:
         for joint in loop:
             if counted > ENOUGH:
                 return best
-            tried = (*cuts, joint)
-            tree = spanning_tree(mechanism, tried)
+            trial = (*cuts, joint)
+            tree = spanning_tree(mechanism, trial)
             if _free(tree) > _free(first):
                 continue
             count = operations(with_joint_coordinates(mechanism, tree))
             counted += count
             if count < (1.0 - GAIN) * least:
-                best, least = tried, count
+                best, least = trial, count
     return best
 
 

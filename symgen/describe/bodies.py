@@ -257,16 +257,16 @@ def _at(scope: Scope, key: str, at: str | tuple[float | str, ...]) -> Vec:
 
 def _shape(scope: Scope, raw: object, key: str) -> Shape:
     section = read_table(ShapeSection, raw, scope.where(key))
-    needed, allowed = KEYS[section.type]
+    necessary, possible = KEYS[section.type]
     keys = set(raw) - {"type", "colour"} if isinstance(raw, Mapping) else set()
     if not scope.spatial and section.type == "cylinder":
-        allowed = ("at",)
+        possible = ("at",)
     if scope.spatial and section.type == "cylinder":
-        needed, allowed = (*needed, "length"), ("at", "axis")
-    for name in needed:
+        necessary, possible = (*necessary, "length"), ("at", "axis")
+    for name in necessary:
         if name not in keys:
             raise scope.error(f"{key}.{name}", f"a value, as a {section.type} needs it", "no such key")
-    for name in sorted(keys - {*needed, *allowed}):
+    for name in sorted(keys - {*necessary, *possible}):
         raise scope.error(f"{key}.{name}", f"no such key for a {section.type} here", words_of(getattr(section, name)))
     if section.colour and not _COLOUR.fullmatch(section.colour):
         raise scope.error(f"{key}.colour", "a colour such as '#3a7bd5'", quoted(section.colour))

@@ -296,7 +296,7 @@ def bound_in_motion(friction: Friction, rate: Expr = ZERO) -> Expr:
     return call("add", friction.sliding, call("mul", call("sub", friction.static, friction.sliding), fall))
 
 
-def sign_of(friction: Friction) -> Name:
+def sign_of_rate(friction: Friction) -> Name:
     """Return the sign of the rate in motion, 0 at rest."""
     return number_of(friction, "sign")
 
@@ -315,7 +315,7 @@ def effort_in_motion(friction: Friction) -> Effort:
     if friction.pressed:
         against = call("mul", call("sub", ONE, number_of(friction, "held")), number_of(friction, "limit"))
     else:
-        against = call("mul", sign_of(friction), bound_in_motion(friction, rate))
+        against = call("mul", sign_of_rate(friction), bound_in_motion(friction, rate))
     return Effort("friction", friction.measure, call("neg", call("add", against, call("mul", friction.viscous, rate))))
 
 
@@ -387,7 +387,7 @@ def with_friction_outputs(mechanism: Mechanism) -> Mechanism:
 def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
     """Yield mode (0 at rest, else the sign of the rate) and force of each dry friction."""
     for friction in frictions:
-        yield Output(f"{friction.name}.mode", sign_of(friction), "")
+        yield Output(f"{friction.name}.mode", sign_of_rate(friction), "")
         yield Output(f"{friction.name}.force", total_effort(friction), unit_of_effort(friction))
 
 
@@ -398,7 +398,7 @@ def total_effort(friction: Friction) -> Expr:
     if not friction.pressed:
         return total
     against = call("mul", bound_in_motion(friction, rate_of(friction)), reaction_of(friction))
-    return call("sub", total, call("mul", sign_of(friction), against))
+    return call("sub", total, call("mul", sign_of_rate(friction), against))
 
 
 def unit_of_effort(friction: Friction) -> str:

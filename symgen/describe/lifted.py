@@ -82,12 +82,12 @@ def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
         expected = "names of parameters, as the file of this model is not at hand"
         raise InputError(where, expected, quoted(paths[0]), "load the file again")
     places, raw = dict(_numbers(origin.raw)), [origin.raw]
-    taken = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
+    others = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
     for name in paths:
         if name not in places:
             raise _absent(where, name, origin, places)
-        keys[name] = _free(name, taken)
-        taken.add(keys[name])
+        keys[name] = _free(name, others)
+        others.add(keys[name])
         raw.append(_replaced(raw[-1], places[name], keys[name], name))
     try:
         return Lifted(validate(raw[-1], origin.source), keys)
@@ -137,10 +137,10 @@ def _absent(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -
     return InputError(where, expected, quoted(name), nearest(name, places))
 
 
-def _free(name: str, taken: set[str]) -> str:
+def _free(name: str, others: set[str]) -> str:
     """Return a name of a parameter for a path."""
     own = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[: LONGEST - 4]
-    return next(x for k in range(len(taken) + 1) if (x := own if not k else f"{own}_{k}") not in taken)
+    return next(x for k in range(len(others) + 1) if (x := own if not k else f"{own}_{k}") not in others)
 
 
 def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:

@@ -101,7 +101,7 @@ def _package_name(path: Path, name: str) -> bool:
     return match is not None and name in ("", match[1].decode("utf-8", "replace"))
 
 
-def moved(raw: Mapping[str, Any], source: Path, target: Path) -> tuple[dict[str, Any], int]:
+def with_mesh_folder(raw: Mapping[str, Any], source: Path, target: Path) -> tuple[dict[str, Any], int]:
     """Return a description whose meshes are named from another folder, and how many are not in that one.
 
     Parameters

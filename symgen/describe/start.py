@@ -195,7 +195,7 @@ def from_matrix(m: Matrix, numbers: Numbers) -> EulerParameters:
     return sign * row[0] / size, sign * row[1] / size, sign * row[2] / size, sign * row[3] / size
 
 
-def moved(
+def displacements(
     mechanism: Mechanism, numbers: Scalars, before: Sequence[float], after: Sequence[float]
 ) -> Iterator[tuple[str, float, str]]:
     """Yield the rotation of each body and the displacements of its points: name, size and unit.

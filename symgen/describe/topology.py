@@ -96,7 +96,7 @@ def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
         body = mechanism.body(link.body)
         if angles and not isinstance(body, SpatialBody):
             places.setdefault(Angle(GROUND, link.body), (link.body, "theta", 1.0))
-    prescribed, taken = list[Prescribed](), set[str]()
+    prescribed, keys = list[Prescribed](), set[str]()
     integrated = {r.source.row for x in integrals(mechanism) for r in readings(x.of) if isinstance(r.source, Driven)}
     for rotor in mechanism.rotors:  # a driver of such a coordinate exerts what the rotor takes: it keeps its row
         for measure, _ in _alike(rotor.angle):
@@ -106,8 +106,8 @@ def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
         if isinstance(row, Holonomic) and row.measure in places and f"{joint.name}.{row.label}" not in integrated:
             name, label, sign = places[row.measure]
             key = f"{name}.{'angle' if label == 'theta' else label}"
-            if key not in taken:
-                taken.add(key)
+            if key not in keys:
+                keys.add(key)
                 prescribed.append(Prescribed(joint.name, name, label, row.value, sign))
     velocities = len(state_names(mechanism, tree)[1])
     return tuple(prescribed[: max(0, velocities - 1)])

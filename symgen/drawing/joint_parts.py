@@ -18,7 +18,7 @@ GLASS = Look(GREY, "#9aa7b5", 0.8, 0.25)
 Z = np.array([0.0, 0.0, 1.0])
 
 
-def plain(pen: Pen, joint: Joint) -> list[Mark]:
+def joint_points(pen: Pen, joint: Joint) -> list[Mark]:
     """Return the points that a joint ties, for kinds without a symbol; for rows, points of bodies."""
     places = pen.numbers.markers(joint)
     if joint.kind == "rows":  # formulas read points as they are seen from the origin

@@ -65,13 +65,13 @@ def _triangles(path: Path, changed: int, size: int, most: int, where: str) -> Ar
 def _stl(content: bytes, where: str) -> Array:
     """Return the triangles of an STL file: binary where its length says so, else text if it begins as text."""
     count = int.from_bytes(content[80:84], "little")
-    wanted = 84 + 50 * count
-    if content[:5] == b"solid" and wanted != len(content):
+    size = 84 + 50 * count
+    if content[:5] == b"solid" and size != len(content):
         vertices = _VERTEX.findall(content)
         if b"endsolid" not in content or len(vertices) % 3:
             raise InputError(where, "an STL file", "one that breaks off")
         return _numbers(vertices, where).reshape(-1, 3, 3)
-    if len(content) < max(wanted, 84):
+    if len(content) < max(size, 84):
         got = f"{len(content)} bytes" if len(content) < 84 else f"{len(content)} bytes for {count} triangles"
         raise InputError(where, "an STL file", f"one that breaks off: {got}")
     layout = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])

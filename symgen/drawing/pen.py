@@ -162,10 +162,10 @@ class Pen:
         frames, still = self.numbers.frames, 3 if self.numbers.spatial else 2  # coordinates of a body that is a point
         if place.body == turned or (turned == GROUNDED and frames[place.body].size == still):
             return place.body
-        wanted = CarriedFrame(place.body, place.at, turned)
-        if wanted not in self.carried:
-            self.carried.append(wanted)
-        return len(frames) + self.carried.index(wanted)
+        frame = CarriedFrame(place.body, place.at, turned)
+        if frame not in self.carried:
+            self.carried.append(frame)
+        return len(frames) + self.carried.index(frame)
 
     def points(self, body: int, points: Sequence[Array] | Array) -> tuple[Point, ...]:
         """Return points of the ground frame as points of a frame."""

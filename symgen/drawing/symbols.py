@@ -18,7 +18,7 @@ from symgen.drawing.joint_parts import (
     axis_of,
     ends_of,
     grounded,
-    plain,
+    joint_points,
     turned_about,
     wheel_marks,
 )
@@ -187,7 +187,7 @@ def driver(pen: Pen, joint: Joint) -> list[Mark]:
         else:
             pivot, axis = turned_about(numbers, driven[0], joint.rows)
         return pen.turning(pivot.body, numbers.out(pivot), axis, 1.35, DRIVE)
-    return plain(pen, joint)
+    return joint_points(pen, joint)
 
 
 #: In the plane: kind -> function that draws it.
@@ -355,7 +355,7 @@ SPATIAL: dict[str, Callable[[Pen, Joint], list[Mark]]] = {
 def joint_item(pen: Pen, joint: Joint) -> Item:
     """Return the symbol of a joint; kinds without one show the points that they tie."""
     numbers = pen.numbers
-    draw = (SPATIAL if numbers.spatial else PLANAR).get(joint.kind, plain)
+    draw = (SPATIAL if numbers.spatial else PLANAR).get(joint.kind, joint_points)
     measures = [m for row in joint.rows for m in parts(row) if isinstance(m, Component | LinkStretch)]
     ends: tuple[BodyPoint, ...] = tuple(numbers.markers(measures)) if len(joint.bodies) == 2 else ()
     articulation = articulation_of(joint)

@@ -92,8 +92,8 @@ def _least_shown(bodies: Scene, q: Array, clouds: dict[str, Array], view: View) 
             clear[:end][_inside(part, points[:end])] *= 1.0 - part.look.opacity
     least = 1.0
     for cloud, start, end in zip(own, ends[:-1], ends[1:], strict=True):
-        whole, seen = (float(np.linalg.norm(np.ptp(x, axis=0))) for x in (cloud, points[start:end]))
-        least = min(least, float(clear[start:end].mean()), 2.0 * seen / whole if whole else 1.0)
+        whole, beside = (float(np.linalg.norm(np.ptp(x, axis=0))) for x in (cloud, points[start:end]))
+        least = min(least, float(clear[start:end].mean()), 2.0 * beside / whole if whole else 1.0)
     return least
 
 

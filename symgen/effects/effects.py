@@ -180,12 +180,12 @@ class Effects:
         k, n = info.m + len(labels), info.nv
         rows, values = problem.rows[: k * n].reshape(k, n), problem.values[:k]
         mass = problem.mass.reshape(n, n)
-        wanted, close = (
+        goals, close = (
             ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True))
             for numbers in (values[info.m :], nearest_values(mass, rows, values, v, info.m))
         )
         expected = "velocities that the joints and each other allow"
-        return InputError(self._where(numbers), expected, f"{wanted} at t = {t:.6g} s", f"the nearest are {close}")
+        return InputError(self._where(numbers), expected, f"{goals} at t = {t:.6g} s", f"the nearest are {close}")
 
 
 def impulse_along(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:

@@ -84,13 +84,13 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     blocks = {b.name: b for b in (*model.blocks, *program.blocks)}  # a law's own take the place of the model's
     if "refactor" in blocks:
         blocks["geometry_of_model"] = replace(blocks.pop("geometry"), name="geometry_of_model")
-    wanted = [name for name in _BLOCKS if name in blocks and (correction.any or name not in ("move", "spread"))]
+    names = [name for name in _BLOCKS if name in blocks and (correction.any or name not in ("move", "spread"))]
     parts = Parts(LaneLayout(program, "t, z, lanes" if equations.spins else "", access), correction)
     if "refactor" in blocks:
         parts.add("lanes_metric")
     parts.add(f"lanes_{accept_kind(correction)}")
     turning = frozenset(i for i, q in enumerate(equations.coordinates) if q.unit != "m")
-    codes = [*(_over_lanes(blocks[name], access, turning) for name in wanted), *parts.codes]
+    codes = [*(_over_lanes(blocks[name], access, turning) for name in names), *parts.codes]
     constants = {name: (bases["spare"] + i) * LANES for i, name in enumerate(LANE_COUNTERS)}
     title = f"Method `{info.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
     header = [*law_header(info, summary, reference, made), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
@@ -141,5 +141,5 @@ def _watched(block: Block, turning: Container[int]) -> list[int]:
             bounds[node] = 1.0
         else:
             bounds[node] = of[0] if op in ("neg", "abs") else math.inf
-    wanted = (block.graph.nodes[node] for node in block.needed)
-    return list(dict.fromkeys(n.args[0] for n in wanted if n.op in ("sin", "cos") and bounds[n.args[0]] > FAR))
+    operations = (block.graph.nodes[node] for node in block.needed)
+    return list(dict.fromkeys(n.args[0] for n in operations if n.op in ("sin", "cos") and bounds[n.args[0]] > FAR))

@@ -96,7 +96,7 @@ def run_there(
 
     waiting = iter(table.missing())
     recipe = client.submit(carry, ensemble.recipe, pure=False)
-    handed: dict[Any, tuple[int, int]] = {}
+    attempts: dict[Any, tuple[int, int]] = {}
 
     def hand_out(index: int, attempt: int) -> Any:
         rows = ensemble.rows(*table.bounds(index))
@@ -104,7 +104,7 @@ def run_there(
             future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{token_hex(8)}")
         except (Exception, CancelledError) as error:  # of a scheduler that has gone
             raise _gave_up(index, error) from None
-        handed[future.key] = (index, attempt)
+        attempts[future.key] = (index, attempt)
         return future
 
     threads = sum(client.nthreads().values())
@@ -114,7 +114,7 @@ def run_there(
     completed = as_completed(first)
     try:
         for future in completed:
-            index, attempt = handed.pop(future.key)
+            index, attempt = attempts.pop(future.key)
             result = _outcome(future)
             if isinstance(result, Chunk):
                 table.put(index, result)

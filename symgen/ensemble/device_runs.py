@@ -231,8 +231,8 @@ class DeviceRuns:
         free = _SHARE * context.get_memory_info().free - threads * self.need.local_bytes
         most = int(free / self.run_bytes)
         if most < 1:
-            needed = threads * self.need.local_bytes + self.run_bytes
-            raise SimulationError(f"the CUDA device has too little free memory: runs need {needed / 1e9:.3g} GB")
+            demand = threads * self.need.local_bytes + self.run_bytes
+            raise SimulationError(f"the CUDA device has too little free memory: runs need {demand / 1e9:.3g} GB")
         return most
 
     def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:

@@ -24,7 +24,7 @@ from symgen.layout.start_records import Instant
 from symgen.loopcode.padding import aligned
 from symgen.loops.event_loop import with_events
 from symgen.loops.searching import decide
-from symgen.loops.stopping import preparing, table_of, with_table
+from symgen.loops.stopping import preparing, stops_of, with_table
 from symgen.rows.row_events import OfEffects
 from symgen.rows.row_modes import OfModes
 from symgen.rows.row_observers import observe_rows_between_stops, observe_rows_left
@@ -154,7 +154,7 @@ class LoopRuns:
         observers, span, chunk, state, series = self._arguments(starts, selected, out, control)
         if not recipe.stops:
             return bool(observe_rows_left((0, observers), span, chunk, state, series, left) == len(selected))
-        stops = table_of(self.compiled, recipe.spec.adaptive, rows.stops or ((),))
+        stops = stops_of(self.compiled, recipe.spec.adaptive, rows.stops or ((),))
         model = (0, stops, 0, *preparing(self.compiled)), observers
         return bool(observe_rows_between_stops(model, span, chunk, state, series, left) == len(selected))
 

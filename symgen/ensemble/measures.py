@@ -20,7 +20,7 @@ from symgen.compiling.side import compile_side
 from symgen.describe.readings import TABLES
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.loops.stopping import preparing, table_of
+from symgen.loops.stopping import preparing, stops_of
 from symgen.result.reactions import Acting, Seat
 from symgen.result.signals import Signal
 from symgen.vocabulary.expressions import readings
@@ -186,7 +186,7 @@ class Measures:
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = columns.shape[1] - len(self.reads)
         left = Left(outputs.times, selected, columns, first, places, ps, ws, y, rates, np.zeros(ps.shape[1]))
-        stops = table_of(compiled, outputs.adaptive, outputs.stops or ((),))
+        stops = stops_of(compiled, outputs.adaptive, outputs.stops or ((),))
         span = Span._make((outputs.step, *(0.0 for _ in Span._fields[1:])))
         changing = stops, span, *preparing(compiled)
         numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]

@@ -85,7 +85,7 @@ class Names:
             If a name is none, means what another one does, or is given otherwise.
         """
         names = (*self.parameters, *self.starts, *self.options)
-        written, taken = dict[str, str](), set(map(self.one, taken_names))
+        written, others = dict[str, str](), set(map(self.one, taken_names))
         for name in varied:
             where = f"vary '{name}'"
             if name not in names:
@@ -101,7 +101,7 @@ class Names:
                     "write the orientation with a parameter, and vary that",
                 )
             one = self.one(name)
-            if one in taken:
+            if one in others:
                 raise InputError(where, "one way of giving it a value", "two")
             if one in written:
                 raise InputError(where, "each thing once", f"{written[one]} and {name}, which are the same")

@@ -78,11 +78,11 @@ def of_number(name: str) -> str:
 
 def of_quantities(names: Sequence[str], axes: Iterable[Axis]) -> tuple[str, ...]:
     """Return the names of quantities; an output may bear a name in use, or the name of what varies."""
-    taken = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
+    reserved_names = _TAKEN.difference(_NUMBER).union(of_varied(name, axis) for axis in axes for name in axis.values)
     labels = list[str]()
     for name in names:
         label = name
-        while label in taken or (label != name and label in names):
+        while label in reserved_names or (label != name and label in names):
             label = f"output.{label}"
         labels.append(label)
     return tuple(labels)

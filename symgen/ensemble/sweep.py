@@ -247,18 +247,18 @@ def run_here(
         if chunk is not None and chunk.complete:
             table.put(index, chunk)
 
-    waiting, handed = iter(missing), dict[Future[Chunk | None], int]()
+    waiting, futures = iter(missing), dict[Future[Chunk | None], int]()
     with ThreadPoolExecutor(jobs, "symgen-sweep") as pool:
         try:
             while True:
-                handed |= {pool.submit(work, index): index for index in islice(waiting, _AHEAD * jobs - len(handed))}
-                if not handed:
+                futures |= {pool.submit(work, index): index for index in islice(waiting, _AHEAD * jobs - len(futures))}
+                if not futures:
                     break
-                done, _ = wait(handed, _BEAT, FIRST_COMPLETED)
+                done, _ = wait(futures, _BEAT, FIRST_COMPLETED)
                 for future in done:
                     chunk = future.result()
-                    put(handed[future], chunk)
-                    del handed[future]
+                    put(futures[future], chunk)
+                    del futures[future]
                 if progress is not None:
                     running = 0 if done else sum(int(control[RUNS_DONE]) for control in controls)
                     progress(table.runs_done + running)
@@ -268,7 +268,7 @@ def run_here(
             stopping = True  # no other chunk begins, and the runs that are being worked on end
             for control in controls:
                 control[abi.STOP] = 1
-            for future in wait(handed).done:  # what was finished meanwhile
-                if handed[future] not in table.finished and future.exception() is None:
-                    put(handed[future], future.result())
+            for future in wait(futures).done:  # what was finished meanwhile
+                if futures[future] not in table.finished and future.exception() is None:
+                    put(futures[future], future.result())
     return interrupted

@@ -26,7 +26,7 @@ from symgen.ensemble.verdicts import NOT_RUN, judge_all, summary_column, warning
 from symgen.layout.ensemble_abi import ASSEMBLED
 from symgen.result.contract import json_value
 from symgen.result.export import netcdf
-from symgen.result.labelled import html_table
+from symgen.result.labelled import notebook_table
 from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
 
@@ -84,7 +84,7 @@ class Sweep:
         names = [q.name for q in self.ensemble.recipe.quantities]
         facts.append(("quantities", ", ".join(names[:8]) + ", ..." * (len(names) > 8)))
         facts += [(status, str(count)) for status, count in self.counts.items() if count]
-        return html_table((), [*facts, ("seconds", f"{self.seconds:.3g}")])
+        return notebook_table((), [*facts, ("seconds", f"{self.seconds:.3g}")])
 
     @cached_property
     def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
@@ -115,10 +115,10 @@ class Sweep:
     def warnings(self) -> NDArray[np.object_]:
         """Warnings of every run, ok or not: a tuple of sentences."""
         ensemble, sentences_of_runs = self.ensemble, np.empty(len(self), dtype=object)
-        begun = self.done & (summary_column(self.summary, "start") == ASSEMBLED)
-        sentences_of_runs[:] = [ensemble.warnings if there else () for there in begun]
+        starts = self.done & (summary_column(self.summary, "start") == ASSEMBLED)
+        sentences_of_runs[:] = [ensemble.warnings if there else () for there in starts]
         law, spec = ensemble.compiled.law, ensemble.recipe.spec
-        for i, sentences in warnings_all(self.summary, begun, law, spec).items():
+        for i, sentences in warnings_all(self.summary, starts, law, spec).items():
             sentences_of_runs[i] += sentences
         return sentences_of_runs
 
@@ -276,7 +276,7 @@ class Sweep:
         file = argument_path("save", path)
         check_path("save", file, SAVED, "data")
         if file.suffix.lower() == ".csv":
-            return write_csv(file, *lines_of(self))
+            return write_csv(file, *table_lines(self))
         return write_whole(file, netcdf(self.to_xarray()))
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -292,7 +292,7 @@ class Sweep:
         need("to_dataframe", "pandas")
         import pandas as pd
 
-        headings, lines = lines_of(self)
+        headings, lines = table_lines(self)
         parts = [heading.partition(" [") for heading in headings]
         frame = pd.DataFrame(list(lines), columns=[name for name, _, _ in parts])
         frame.attrs["units"] = {name: unit.removesuffix("]") for name, _, unit in parts if unit}
@@ -359,7 +359,7 @@ def _versions() -> dict[str, str]:
     }
 
 
-def lines_of(sweep: Sweep) -> tuple[list[str], Iterator[list[object]]]:
+def table_lines(sweep: Sweep) -> tuple[list[str], Iterator[list[object]]]:
     """Return the heading of a table with units, and a line for each run and output time; missing numbers are empty."""
     ensemble, units = sweep.ensemble, sweep.units()
     times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities

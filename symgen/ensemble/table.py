@@ -165,7 +165,7 @@ class FolderTable(RowTable):
         import filelock
 
         where = f"folder '{self.folder}'"
-        begun = check_folder(self.folder, self._resume)
+        exists = check_folder(self.folder, self._resume)
         try:
             self.folder.mkdir(exist_ok=True)
             lock = file_lock(self.folder / LOCK)
@@ -176,7 +176,7 @@ class FolderTable(RowTable):
         except OSError as error:
             raise InputError(where, "a folder that can be written", error.strerror or "an error") from None
         try:
-            if begun:
+            if exists:
                 self._check_description(where)
             self._begin(quantities, times)
             self._read_log()
@@ -188,8 +188,8 @@ class FolderTable(RowTable):
             raise
 
     def _check_description(self, where: str) -> None:
-        begun, own = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8")), self._description
-        differing = sorted(k for k in {*begun, *own} if begun.get(k) != own.get(k))
+        earlier, own = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8")), self._description
+        differing = sorted(k for k in {*earlier, *own} if earlier.get(k) != own.get(k))
         if not differing:
             return
         # other versions may say the same in other words, so nothing is said of what they have

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from symgen.base.errors import InputError, finite_numbers
-from symgen.describe.friction import coefficient_of, effort_in_motion, first_modes, sign_of
+from symgen.describe.friction import coefficient_of, effort_in_motion, first_modes, sign_of_rate
 from symgen.describe.mechanism import EndStop, Friction, Mechanism, Rotor, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.stops import probing_effort
@@ -172,7 +172,10 @@ def _drag(
             raise InputError(f"joints.{friction.joint}.friction", expected, f"rows {' and '.join(pair)}, the same")
     rate = model.measure(friction.measure).rate(model.graph, model.velocities)
     with finite_numbers(f"joints.{friction.joint}.friction"):
-        sign, coefficient = model.expression(sign_of(friction)), model.expression(coefficient_of(friction), rate=rate)
+        sign, coefficient = (
+            model.expression(sign_of_rate(friction)),
+            model.expression(coefficient_of(friction), rate=rate),
+        )
     rows_of = tuple(places[name] for name in friction.pressed)
     pressed: tuple[tuple[tuple[int, int], ...], ...] = tuple(((row, model.graph.one),) for row in rows_of)
     if friction.across:

@@ -157,9 +157,9 @@ def _of_steps(settings: Settings, dt: float, step: float) -> Settings:
     settings = replace(settings, integrator=integrator)
     if not is_set(settings, "coordinates"):
         settings = replace(settings, coordinates="auto")
-    known = INTEGRATORS.get(integrator, "integrator") if integrator != "auto" else None
-    adaptive = settings.rtol is not None or settings.atol is not None or (known is not None and known.adaptive)
-    if settings.step is None and known is not None and not adaptive:
+    kind = INTEGRATORS.get(integrator, "integrator") if integrator != "auto" else None
+    adaptive = settings.rtol is not None or settings.atol is not None or (kind is not None and kind.adaptive)
+    if settings.step is None and kind is not None and not adaptive:
         settings = replace(settings, step=dt / np.ceil(dt / step * (1.0 - _SAME)))  # a grid that steps end on
     return settings
 

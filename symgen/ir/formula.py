@@ -70,15 +70,15 @@ class Functions:
     def _decided(self, function: str, a: int, b: int) -> int:
         """Return a value above 0 where both, or either, of two are; the other may be undefined where one decides."""
         g, smaller = self.graph, function == "both"
-        decided = g.call("min" if smaller else "max", a, b)
+        least = g.call("min" if smaller else "max", a, b)
         unsure = [x for x in (a, b) if not self._is_defined(x)]
         for x, other in ((a, b), (b, a)):
-            decided = g.call("where", g.call("defined", x), decided, other) if x in unsure else decided
+            least = g.call("where", g.call("defined", x), least, other) if x in unsure else least
         if not unsure:
-            return decided
-        decides = g.call("le" if smaller else "gt", decided, g.zero)
+            return least
+        decides = g.call("le" if smaller else "gt", least, g.zero)
         sure = self._all("and", (g.call("defined", x) for x in unsure))
-        return g.call("where", g.call("or", sure, decides), decided, g.total(unsure))
+        return g.call("where", g.call("or", sure, decides), least, g.total(unsure))
 
     def _all(self, function: str, conditions: Iterable[int]) -> int:
         return reduce(lambda a, b: self.graph.call(function, a, b), conditions)

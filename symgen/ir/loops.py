@@ -12,12 +12,12 @@ Pair = tuple[tuple[int, int], tuple[int, ...]]
 
 def loop_order(pairs: Iterable[Pair], free: Iterable[int]) -> tuple[FixedVelocities, ...]:
     """Return the loops that follow from free velocities, each as soon as it has two others that do not."""
-    waiting, known, loops = list(pairs), {*free}, list[FixedVelocities]()
+    waiting, before, loops = list(pairs), {*free}, list[FixedVelocities]()
     while True:
-        ready = next(((p, two) for p in waiting if len(two := tuple(c for c in p[1] if c not in known)) == 2), None)
+        ready = next(((p, two) for p in waiting if len(two := tuple(c for c in p[1] if c not in before)) == 2), None)
         if ready is None:
             return tuple(loops)
         (rows, _), columns = ready
         waiting.remove(ready[0])
-        known |= {*columns}
+        before |= {*columns}
         loops.append(FixedVelocities(columns, rows))

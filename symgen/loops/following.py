@@ -211,7 +211,7 @@ def accept_trial(course: Any, h: float, w: Any, stand: Any) -> bool:
     clock[TRIED_SINE] = sine
     # a sine falls to 0 and rises again in a straight line
     if h == 0.0 or clock[FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
-        sign = sign_of(course, w, stand.dense)
+        sign = determinant_sign(course, w, stand.dense)
         if h != 0.0 and sign * clock[SIGN] < 0.0:
             return False
     clock[SINE], clock[SLOPE], clock[SIGN] = sine, fresh, sign
@@ -227,7 +227,7 @@ def accept_trial(course: Any, h: float, w: Any, stand: Any) -> bool:
 
 
 @jit()
-def sign_of(course: Any, w: Any, dense: Any) -> float:
+def determinant_sign(course: Any, w: Any, dense: Any) -> float:
     """Return the sign of the determinant of D without dependent rows; 0 if it is not square."""
     n, m, row = course.nv, course.m, 0
     for i in range(n * n):

@@ -130,7 +130,7 @@ def choose_step(
         whether it crosses a singular position; the step that the error estimate proposes [s].
     """
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
-    code, h, following, crossing, wanted = abi.DONE, 0.0, 0.0, False, 0.0
+    code, h, following, crossing, proposal = abi.DONE, 0.0, 0.0, False, 0.0
     if control[abi.STOP] != 0:
         code = abi.STOPPED
     elif control[abi.STEPS] >= span.pause:
@@ -146,7 +146,7 @@ def choose_step(
         h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
         if crossing:
             h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
-        wanted = h
+        proposal = h
         if EVENTS and not crossing:
             h = step_to_point(system, run, h)
         following = t + h
@@ -157,7 +157,7 @@ def choose_step(
     between, out = False, control[abi.OUTPUTS]
     if not DENSE and out < times.shape[0] and times[out] < following - resolution(span):
         between, h, following = True, times[out] - t, times[out]
-    return code, h, following, between, crossing, wanted
+    return code, h, following, between, crossing, proposal
 
 
 def judge_attempt(
@@ -275,7 +275,7 @@ def accept_step(
     int
         Code of an end, `DONE` to continue.
     """
-    h, following, crossing, wanted, whole = step
+    h, following, crossing, proposal, whole = step
     error, changed = trial
     control, times, width = run.control, outputs.times, system.sizes.width
     met, restart = EVENTS and search == MEET, EVENTS and search == RESTART
@@ -291,7 +291,7 @@ def accept_step(
     if DENSE and control[abi.OUTPUTS] < times.shape[0] and times[control[abi.OUTPUTS]] < following:
         interpolate(system, scheme, span, run, outputs, t, following, h)
     received(width, run.trial, run.y)
-    propose_step(span, run, h, following, crossing, wanted, error, met)
+    propose_step(span, run, h, following, crossing, proposal, error, met)
     out = control[abi.OUTPUTS]
     if out < times.shape[0] and times[out] <= following + resolution(span):
         store(system.sizes, run.w, outputs, out, run.y)
@@ -309,7 +309,7 @@ def accept_step(
 
 
 def propose_step(
-    span: Any, run: Any, h: float, following: float, crossing: bool, wanted: float, error: float, met: bool
+    span: Any, run: Any, h: float, following: float, crossing: bool, proposal: float, error: float, met: bool
 ) -> None:
     """Propose the step after an accepted one, with the names of `accept_step`; `met`: the run ends in an event."""
     clock, control = run.clock, run.control
@@ -323,8 +323,8 @@ def propose_step(
     else:
         grow = grown(span, run, h, error)
         clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
-        if EVENTS and h < wanted and control[abi.REFUSED] == 0:  # it was not shortened by its error
-            clock[abi.NEXT] = max(clock[abi.NEXT], wanted)
+        if EVENTS and h < proposal and control[abi.REFUSED] == 0:  # it was not shortened by its error
+            clock[abi.NEXT] = max(clock[abi.NEXT], proposal)
     control[abi.REFUSED] = control[abi.BARRED] = 0
     clock[abi.STEP] = h
 
@@ -357,7 +357,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
     if code != abi.DONE:
         return code
     t, search, crossing, doubtful = run.clock[abi.TIME], NOTHING, False, False
-    whole, whole_following, wanted = 0.0, 0.0, 0.0
+    whole, whole_following, proposal = 0.0, 0.0, 0.0
     phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
     while t < span.until - resolution(span):
         if EVENTS and search != NOTHING:
@@ -365,7 +365,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             h, between = run.hunt[TRY], False
             following = whole_following if h == whole else t + h
         else:
-            code, h, following, between, crossing, wanted = choose_step(system, span, run, outputs, t)
+            code, h, following, between, crossing, proposal = choose_step(system, span, run, outputs, t)
             if code != abi.DONE:
                 return code
             doubtful = False
@@ -393,8 +393,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             refused(run, outputs.times, t, phi, drift, energy)
             continue
         if code == abi.DONE:
-            taken, trial = (h, following, crossing, wanted, whole), (error, bits & 2 != 0)
-            code = accept_step(system, scheme, span, run, outputs, t, taken, trial, search)
+            lengths, trial = (h, following, crossing, proposal, whole), (error, bits & 2 != 0)
+            code = accept_step(system, scheme, span, run, outputs, t, lengths, trial, search)
         if code != abi.DONE:
             return code
         t, search = following, NOTHING

@@ -180,7 +180,7 @@ def with_table(
     Parameters
     ----------
     compiled, adaptive, rows
-        As for `table_of`.
+        As for `stops_of`.
     system, loop : tuple, compiled loop
         First argument of the enclosed loop, and this loop.
     alone : bool
@@ -188,7 +188,7 @@ def with_table(
     """
     # in looped code nothing is prepared in the loop
     left = compiled.shape == "looped" or (alone and compiled.info.bounded)
-    return system, table_of(compiled, adaptive, rows), loop, *((by_caller, by_caller) if left else preparing(compiled))
+    return system, stops_of(compiled, adaptive, rows), loop, *((by_caller, by_caller) if left else preparing(compiled))
 
 
 def preparing(compiled: CompiledModel) -> tuple[Any, Any]:
@@ -196,7 +196,7 @@ def preparing(compiled: CompiledModel) -> tuple[Any, Any]:
     return compiled.model.prepare, compiled.law_module.prepare
 
 
-def table_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[Stop]]) -> Any:
+def stops_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[Stop]]) -> Any:
     """Return the stops of rows as `Stops`.
 
     Parameters

@@ -72,7 +72,7 @@ def point(hunt: A, n: int, k: int, i: int) -> float:
 
 
 @plain
-def place_of(hunt: A, n: int, k: int, s: float, rate: float) -> int:
+def interval_at(hunt: A, n: int, k: int, s: float, rate: float) -> int:
     """Return the number of the point at which the interval of s begins; at a point, of the interval that s enters."""
     count, first = int(hunt[N_HEAD + POINTS * n + k]), int(hunt[TABLES] + hunt[N_HEAD + FIRST * n + k])
     period, turns = hunt[N_HEAD + PERIOD * n + k], 0
@@ -167,7 +167,7 @@ def arrive(hunt: A, n: int, k: int, h: float) -> int:
         if h > 0.0:
             rise, before = s - hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k]
             hunt[N_HEAD + CURVE * n + k] = curvature(rise, before, rate, h)
-        hunt[N_HEAD + PLACE * n + k] = float(place_of(hunt, n, k, s, rate))
+        hunt[N_HEAD + PLACE * n + k] = float(interval_at(hunt, n, k, s, rate))
         hunt[N_HEAD + ARGUMENT_START * n + k], hunt[N_HEAD + SLOPE_START * n + k] = s, rate
     hunt[N_HEAD + SIDE * n + k] = 1.0
     return 0

@@ -140,14 +140,14 @@ def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
 def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     """Return the nodes of each group in the graph of formulas."""
     g = model.graph
-    needed = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
-    needed += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
-    needed += [n for row in e.rows for _, n in row.entries]
+    roots = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
+    roots += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
+    roots += [n for row in e.rows for _, n in row.entries]
     # equations count turns in the order of straight code, the compiled model maybe in another one
     turning = winding_order(model.mechanism, "straight")
-    keys = {key: g.input(*key) for key in e.graph.keys(needed)}
+    keys = {key: g.input(*key) for key in e.graph.keys(roots)}
     keys |= {key: g.input("winding", model.place_of_turn(turning[key[1]])) for key in keys if key[0] == "winding"}
-    image = dict(zip(needed, g.inline(e.graph, needed, keys), strict=True))
+    image = dict(zip(roots, g.inline(e.graph, roots, keys), strict=True))
     velocities = [g.input("v", i) for i in range(e.nv)]
     rates = [g.input("ydot", e.nq + i) for i in range(e.nv)]
     balance = [g.neg(image[n]) for n in e.forces]

@@ -383,9 +383,9 @@ class ScalarNodes(OfMass):
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
         g, quality = self.graph, self.graph.one
         for i in factor.order:
-            decided = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they do not count
+            share = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they do not count
             ratio = g.mul(factor.pivots[i], rank.reciprocal[i])
-            quality = g.mul(quality, g.add(ratio, g.sub(g.one, decided)))
+            quality = g.mul(quality, g.add(ratio, g.sub(g.one, share)))
         return quality
 
     def _on_row_stiffness(self, operation: FormulaStep, otherwise: int) -> Nodes:

@@ -152,7 +152,7 @@ def is_bound(function: lang.Function) -> bool:
     return isinstance(function.source, tuple) and function.source[0] == _BOUND
 
 
-def together(one: Meaning, other: Meaning) -> Meaning:
+def common_meaning(one: Meaning, other: Meaning) -> Meaning:
     """Return the meaning of a parameter that has both."""
     if one == other and type(one) is type(other):
         return one
@@ -183,7 +183,7 @@ class _Binder:
             self.meanings[function.key], self.changed = meanings, True
         else:
             for name, meaning in meanings.items():
-                joined = together(own[name], meaning) if name in own else meaning
+                joined = common_meaning(own[name], meaning) if name in own else meaning
                 if name not in own or joined != own[name] or type(joined) is not type(own[name]):
                     own[name], self.changed = joined, True
         if function.key not in self.visited:

@@ -132,10 +132,10 @@ class FormulaLines:
 
     def lines_of(self, results: Iterable[str]) -> list[str]:
         """Return the lines for some results."""
-        needed, lines = set(_NAMES.findall(" ".join(results))), list[str]()
+        names, lines = set(_NAMES.findall(" ".join(results))), list[str]()
         for k in reversed(range(len(self.lines))):
-            if f"a{k}" in needed:
-                needed.update(_NAMES.findall(self.lines[k]))
+            if f"a{k}" in names:
+                names.update(_NAMES.findall(self.lines[k]))
                 lines.append(self.lines[k])
         return lines[::-1]
 

@@ -256,16 +256,16 @@ class LoopValues(Reader):
         test = self.truth(node.test)
         if isinstance(test, lang.Constant):
             return self.value(node.body if test.value else node.orelse)
-        outer, values, needed = self.pending, list[Value](), list[list[lang.Statement]]()
+        outer, values, statements = self.pending, list[Value](), list[list[lang.Statement]]()
         self.depth += 1
         for part in (node.body, node.orelse):
             self.pending = []
             values.append(self.value(part))
-            needed.append(self.pending)
+            statements.append(self.pending)
         self.depth, self.pending = self.depth - 1, outer
         chosen, otherwise = values
-        if any(needed) or isinstance(chosen, Record):
-            return self.decided(test, values, needed, node)
+        if any(statements) or isinstance(chosen, Record):
+            return self.decided(test, values, statements, node)
         if isinstance(chosen, Array) and isinstance(otherwise, Array) and chosen.type == otherwise.type:
             name = self.array(chosen.type)
             self.pending.append(lang.Pick(name, test, chosen.name, otherwise.name))
@@ -275,7 +275,7 @@ class LoopValues(Reader):
         return self.chosen(test, chosen, otherwise, node)
 
     def decided(
-        self, test: lang.Expression, values: list[Value], needed: list[list[lang.Statement]], node: ast.AST
+        self, test: lang.Expression, values: list[Value], statements: list[list[lang.Statement]], node: ast.AST
     ) -> Value:
         """Return one of two values that need statements, or are records of numbers."""
         first, second = (list(leaves(value)) for value in values)
@@ -290,7 +290,7 @@ class LoopValues(Reader):
             self.depth -= 1
         then, otherwise = (
             (*before, *(lang.Assign(name, v) for name, v in zip(names, branch, strict=True)))
-            for before, branch in zip(needed, (first, second), strict=True)
+            for before, branch in zip(statements, (first, second), strict=True)
         )
         self.pending.append(lang.If(test, then, otherwise))
         variables = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))

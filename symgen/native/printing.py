@@ -45,8 +45,8 @@ def ordered(
     return order, names
 
 
-def _free(name: str, taken: Iterable[str]) -> str:
-    names, free, k = set(taken), name, 2
+def _free(name: str, others: Iterable[str]) -> str:
+    names, free, k = set(others), name, 2
     while free in names:
         free, k = f"{name}_{k}", k + 1
     return free

@@ -51,17 +51,17 @@ def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...
     """
     straight = _straight(function)
     since: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
-    wanted: dict[lang.Expression, int] = {}  # first statement that uses it
+    uses: dict[lang.Expression, int] = {}  # first statement that uses it
     for i, statement in enumerate(straight):
         for angle in filter(is_simple, _angles(_value(statement))):
-            wanted.setdefault(angle, i)
+            uses.setdefault(angle, i)
         if isinstance(statement, lang.Assign) and statement.name in function.fixed:
             since[statement.name] = i + 1
-    ready = {angle: at for angle in wanted if (at := _ready(angle, since)) is not None}
+    ready = {angle: at for angle in uses if (at := _ready(angle, since)) is not None}
     calls: dict[int, list[tuple[lang.Expression, ...]]] = {}
-    waiting = sorted(ready, key=wanted.__getitem__)
+    waiting = sorted(ready, key=uses.__getitem__)
     while waiting:
-        here = wanted[waiting[0]]
+        here = uses[waiting[0]]
         together = [angle for angle in waiting if ready[angle] <= here]
         waiting = [angle for angle in waiting if ready[angle] > here]
         while len(together) >= FEWEST:

@@ -86,7 +86,7 @@ def literal_box(value: float, exact: bool = False) -> Box:
     near = Fraction(value).limit_denominator(99)
     exact = abs(float(near) - value) <= 4e-16 * abs(value)
     if exact and abs(near.numerator) < 1000 and near.denominator not in _DECIMAL:
-        return over(literal_box(float(near.numerator)), literal_box(float(near.denominator)))
+        return fraction(literal_box(float(near.numerator)), literal_box(float(near.denominator)))
     return _digits(f"{value:.6g}")
 
 
@@ -121,7 +121,7 @@ def bracket(inside: Box) -> Box:
     return Box("bracket", (inside,), width=inside.width + 1.1)
 
 
-def over(above: Box, below: Box) -> Box:
+def fraction(above: Box, below: Box) -> Box:
     """Return a fraction."""
     return Box("over", (above, below), width=max(above.width, below.width) + 0.3)
 

@@ -119,7 +119,7 @@ def write_page(mechanism: Mechanism, settings: Settings, path: Path, where: str,
         settings = replace(settings, shape="straight")
     derived, choice, run = mechanism, method_of(settings), None
     try:
-        run, derived, choice = at_start(mechanism, settings)
+        run, derived, choice = run_at_start(mechanism, settings)
         degrees = counted(run.compiled.info.nv - run.start.rank, "degree")
         facts = [f"At the start D has rank {run.start.rank}: {degrees} of freedom.", *run.start.notes]
         if run.start.redundant_rows:
@@ -132,7 +132,7 @@ def write_page(mechanism: Mechanism, settings: Settings, path: Path, where: str,
     return write_whole(path, EquationPage(mechanism, derived, choice, values, facts, file, run).html())
 
 
-def at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechanism, MethodChoice]:
+def run_at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechanism, MethodChoice]:
     """Return a mechanism at the start of a run.
 
     Raises
@@ -168,7 +168,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
     with_method : bool
         Whether the functions of the method are included.
     """
-    run, mechanism, choice = at_start(whole, settings)
+    run, mechanism, choice = run_at_start(whole, settings)
     plan, start = run.plan, run.start
     of_tree: dict[str, Any] = {}
     if mechanism.topology is not None:
@@ -246,8 +246,8 @@ def _by_terms(mechanism: Mechanism, equations: Equations) -> dict[str, Any]:
     gammas, forces, show = [row.gamma for row in equations.rows], list(equations.forces), texts(equations)
     long = {n for n in (*gammas, *forces) if len(show(n)) > SHORT or equations.graph.tree_operations([n]) > LONGEST}
     named = structure if mechanism.space == "spatial" else element_terms
-    taken = {*input_names(equations).values()}
-    terms = shared_terms(equations.graph, sorted(long), named(mechanism, equations), taken)
+    others = {*input_names(equations).values()}
+    terms = shared_terms(equations.graph, sorted(long), named(mechanism, equations), others)
     by_terms, definition = texts_by_terms(equations, terms)
 
     def write(node: int) -> str:

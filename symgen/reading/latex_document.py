@@ -63,8 +63,8 @@ def document(
     InputError
         If a name in `select` is neither.
     """
-    wanted, joints = selected(equations, select)
-    wanted = wanted or (SECTIONS if whole else EQUATIONS)
+    content, joints = selected(equations, select)
+    content = content or (SECTIONS if whole else EQUATIONS)
     e, sheet = equations, Sheet(mechanism, equations, joints)
     sections: dict[str, list[str]] = {
         "nomenclature": _nomenclature(sheet, values),
@@ -87,12 +87,12 @@ def document(
     if not e.m:
         for part in ("Phi", "D", "nu", "gamma"):
             del sections[part]
-    chosen = [part for part in sections if part in wanted]
+    chosen = [part for part in sections if part in content]
     parts = [text for part in chosen for text in sections[part]]
     parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(chosen))))
-    if "law" in wanted:
+    if "law" in content:
         parts += _law(law)
-    if "left-out" in wanted and e.omissions:
+    if "left-out" in content and e.omissions:
         items = [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
         parts += _section("Left out", [r"\begin{itemize}", *items, r"\end{itemize}"])
     if whole:

@@ -82,16 +82,16 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
     """
     access = ElementAccess(program.layout, {})
     names, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
-    wanted = [("geometry", Target("residual", i), n, "Phi") for i, n in enumerate(names)]
-    wanted += [("geometry", Target("nu", i), n, "nu") for i, n in enumerate(names)]
-    wanted += [
+    targets = [("geometry", Target("residual", i), n, "Phi") for i, n in enumerate(names)]
+    targets += [("geometry", Target("nu", i), n, "nu") for i, n in enumerate(names)]
+    targets += [
         ("geometry", Target("jacobian", e.slot), names[e.row], speeds[e.column])
         for e in program.jacobian
         if e.slot is not None
     ]
-    wanted += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
+    targets += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
     entries, lines = list[Computed](), assigned_lines(source)
-    for function, target, row, what in wanted:
+    for function, target, row, what in targets:
         line = lines.get((function, access.write(target)))
         if line is not None:
             entries.append(Computed(row, what, *line))

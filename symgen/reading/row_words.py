@@ -62,14 +62,14 @@ class RowWords:
 def row_words(mechanism: Mechanism) -> dict[str, RowWords]:
     """Return what each row holds, by the row's name; rows of friction and of stops are in force at times."""
     writer = _Writer(mechanism)
-    found = {f"{joint.name}.{row.label}": writer.row(row) for joint in mechanism.joints for row in joint.rows}
+    texts = {f"{joint.name}.{row.label}": writer.row(row) for joint in mechanism.joints for row in joint.rows}
     for friction in mechanism.frictions:
         words = f"while it sticks, {writer.noun(friction.measure)} does not change"
-        found[friction.row] = RowWords(words, "")
+        texts[friction.row] = RowWords(words, "")
     for stop in mechanism.stops:
         held = writer.holonomic(Holonomic("", stop.measure, stop.value))
-        found[stop.row] = RowWords(f"while it is closed, {held.words}", held.vectors)
-    return found
+        texts[stop.row] = RowWords(f"while it is closed, {held.words}", held.vectors)
+    return texts
 
 
 class _Writer:

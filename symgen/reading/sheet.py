@@ -52,8 +52,8 @@ class Sheet:
         ends += [n for block in equations.mass for line in block.entries for n in line]
         ends += [*equations.forces, *self._energies]
         ends += [*(n for n in equations.q_rates if g.nodes[n].op != "input"), g.zero]
-        taken = {quantity.name for quantity in equations.parameters}
-        self.writer = Typesetter(equations, ends, self._names(), taken)
+        parameters = {quantity.name for quantity in equations.parameters}
+        self.writer = Typesetter(equations, ends, self._names(), parameters)
 
     def _names(self) -> dict[int, str]:
         """Return the names of the structure; cosine and sine of one coordinate read best as they are."""

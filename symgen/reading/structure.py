@@ -83,7 +83,7 @@ def _node_of(model: ModelNodes, reading: Reading) -> int | None:
 
 
 def shared_terms(
-    graph: Graph, nodes: Iterable[int], names: Mapping[int, str], taken: Container[str] = ()
+    graph: Graph, nodes: Iterable[int], names: Mapping[int, str], others: Container[str] = ()
 ) -> dict[int, str]:
     """Return names for all terms that `nodes` use more than once and that have none yet.
 
@@ -95,11 +95,11 @@ def shared_terms(
         What is written.
     names : mapping
         Nodes with names of their own.
-    taken : container of str
+    others : container of str
         Names that mean something else.
     """
     ends = list(nodes)
-    used, numbered, terms = uses(graph, ends), free_names(taken), dict[int, str]()
+    used, numbered, terms = uses(graph, ends), free_names(others), dict[int, str]()
     cost: dict[int, int] = {}
     for node in graph.needed(ends):
         op, args, _ = graph.nodes[node]
@@ -118,6 +118,6 @@ def uses(graph: Graph, ends: Sequence[int]) -> Counter[int]:
     return Counter([*ends, *(a for n in graph.needed(ends) for a in graph.nodes[n].args)])
 
 
-def free_names(taken: Container[str]) -> Iterator[str]:
+def free_names(others: Container[str]) -> Iterator[str]:
     """Yield names of shared terms: s1, s2, ..., without those that are taken, or typeset like one that is."""
-    return (f"s{i}" for i in count(1) if f"s{i}" not in taken and f"s_{i}" not in taken)
+    return (f"s{i}" for i in count(1) if f"s{i}" not in others and f"s_{i}" not in others)

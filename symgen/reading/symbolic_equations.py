@@ -305,8 +305,8 @@ class SymbolicEquations:
     @cached_property
     def _named(self) -> Symbolic:
         ends = [node for _, entries in self.nodes.values() for *_, node in entries]
-        taken = {symbol.name for symbol in self._plain.symbols.values()}
-        names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), taken)
+        symbols = {symbol.name for symbol in self._plain.symbols.values()}
+        names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), symbols)
         return Symbolic(self._written, names)
 
     def _symbols(self, space: str) -> Mapping[str, sp.Symbol]:
@@ -331,6 +331,6 @@ class SymbolicEquations:
     def _of(self, names: Iterable[str]) -> dict[Any, Any]:
         """Return the definitions that quantities need, in evaluation order; of all quantities by default."""
         display, used = self._named, [x for x in names or self._quantities if self.sharing or self._is_large(x)]
-        needed = self._written.graph.needed(n for name in used for *_, n in self.nodes[name][1])
-        named = [n for n in needed if n in display.named and display.named[n] not in self.values]
+        operations = self._written.graph.needed(n for name in used for *_, n in self.nodes[name][1])
+        named = [n for n in operations if n in display.named and display.named[n] not in self.values]
         return {display.named[n]: self._put(display.definition(n)) for n in named}

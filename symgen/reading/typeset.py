@@ -19,11 +19,11 @@ from symgen.reading.boxes import (
     bare,
     bracket,
     cases,
+    fraction,
     function_box,
     is_literal,
     literal_box,
     name,
-    over,
     power,
     python,
     row,
@@ -57,7 +57,7 @@ class Term:
         above = _side_by_side(self.factors)
         if not self.below:
             return above
-        return over(above, _side_by_side(self.below))
+        return fraction(above, _side_by_side(self.below))
 
 
 def _side_by_side(factors: Sequence[Box]) -> Box:
@@ -223,13 +223,13 @@ class Typesetter(Writer):
     """
 
     def __init__(
-        self, equations: Equations, ends: Iterable[int], named: Mapping[int, str], taken: Container[str] = ()
+        self, equations: Equations, ends: Iterable[int], named: Mapping[int, str], others: Container[str] = ()
     ) -> None:
         self._parameters = apart(quantity.name for quantity in equations.parameters)
         super().__init__(equations.graph, {key: self.symbol(text) for key, text in input_names(equations).items()})
         self.definitions: dict[int, tuple[Box, Sum]] = {}
         self._full: dict[int, Sum] = {}
-        self._numbered = free_names(taken)
+        self._numbered = free_names(others)
         listed = list(ends)
         used = uses(self.graph, listed)
         for node in self.graph.needed(listed):

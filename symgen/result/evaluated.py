@@ -127,7 +127,7 @@ class Evaluated:
         if watched is None or not stops or outcome.code != abi.DONE:
             return None
         count, at = len(watched.names) + len(watched.switches), watched.names.index(stops[0])
-        found = list[Array]()
+        parts = list[Array]()
         for part in self.course.parts:
             state, info = part.outcome.simulation.state, part.model.whole.info
             windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.windings]
@@ -136,15 +136,15 @@ class Evaluated:
             values, slopes = observer.observed(watched.function, 3 * count)
             # at an event that grazes, its time has no derivative
             with np.errstate(divide="ignore", invalid="ignore"):
-                found.append(-slopes[0, at] / values[0, count + at])
-        return np.concatenate(found)[: self.course.count]
+                parts.append(-slopes[0, at] / values[0, count + at])
+        return np.concatenate(parts)[: self.course.count]
 
     def apart(self) -> Array:
         """Return by how much directions leave the constraints, over their size, shape (n,)."""
         parts = [(part.model, self._own(part)) for part in self.course.parts]
-        found = list[Array]()
+        gaps = list[Array]()
         for model, observer in parts:
             sizes = np.abs(model.shadow(observer.states, "y")[:, : model.plain.info.nq]).max(axis=(0, 1), initial=0.0)
             largest = observer.violations().max(axis=0, initial=0.0)
-            found.append(largest / np.where(sizes > 0.0, sizes, 1.0))
-        return np.concatenate(found)[: self.course.count]
+            gaps.append(largest / np.where(sizes > 0.0, sizes, 1.0))
+        return np.concatenate(gaps)[: self.course.count]

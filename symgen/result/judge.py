@@ -55,10 +55,10 @@ def unchecked(run: Prepared, outcome: Outcome) -> str | None:
     Unless that is set, one does where something was chosen automatically, and where it takes few operations and nobody
     chose the steps or the tolerances.
     """
-    wanted, settings, count = run.plan.verify, run.plan.settings, operations_of(run, outcome)
-    if wanted is False:
+    verify, settings, count = run.plan.verify, run.plan.settings, operations_of(run, outcome)
+    if verify is False:
         return "verify is off"
-    if wanted or run.plan.notes:
+    if verify or run.plan.notes:
         return None
     if not run.spec.adaptive:
         return "its steps are constant"
@@ -85,8 +85,8 @@ def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -
         return replace(verdict, status=UNVERIFIED, reason=second.doubt)
     if relative_jump(outcome) > JUMP_DOUBT:  # what joints give is in both runs
         return verdict
-    wanted = run.plan.verify or run.plan.notes  # else the status alone has the estimate
-    notes = (second.note,) if wanted and second.note is not None else ()
+    reports = run.plan.verify or run.plan.notes  # else the status alone has the estimate
+    notes = (second.note,) if reports and second.note is not None else ()
     return replace(verdict, status=OK, reason=None, notes=notes)
 
 

@@ -95,7 +95,7 @@ class Labelled:
     def _repr_html_(self) -> str:
         ends = (column_texts(self, np.min), column_texts(self, np.max), column_texts(self))
         rows = [(name, self.units[i], *(texts.get(name, "") for texts in ends)) for i, name in enumerate(self.names)]
-        return html_table(("", "unit", "smallest", "largest", "last"), rows, most=60)
+        return notebook_table(("", "unit", "smallest", "largest", "last"), rows, most=60)
 
     def __repr__(self) -> str:
         shown = ", ".join(self.names[:6]) + (", ..." if len(self.names) > 6 else "")
@@ -144,7 +144,7 @@ def least_scale(scales: Mapping[str, float], unit: str) -> float:
     return scales.get(a, 0.0) * scales.get(b, 0.0)
 
 
-def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:
+def notebook_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:
     """Return a table for notebooks, all of its texts escaped; of more than `most` rows the first ones."""
 
     def row(cells: Sequence[str], tag: str) -> str:

@@ -251,7 +251,7 @@ class Sensitivities:
     def column(self, table: str, place: int, unit: str) -> Labelled:
         """Return the derivatives of one column of a table over time."""
         values = self.table(table)[:, place]
-        return Labelled(values, self.names, tuple(over(unit, own) for own in self.units))
+        return Labelled(values, self.names, tuple(derivative_unit(unit, own) for own in self.units))
 
     def saved(self, result: Result) -> tuple[str, ...]:
         """Return the tables that files hold: coordinates, velocities, and outputs if there are any."""
@@ -289,7 +289,7 @@ def doubt_of_motion(result: Result) -> str | None:
     return None
 
 
-def over(unit: str, by: str) -> str:
+def derivative_unit(unit: str, by: str) -> str:
     """Return the unit of a derivative."""
     if not by:
         return unit

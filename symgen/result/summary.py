@@ -7,7 +7,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from symgen.result.contract import json_value
-from symgen.result.labelled import Labelled, html_table
+from symgen.result.labelled import Labelled, notebook_table
 from symgen.result.result import FAILED
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def status_in_words(result: Result) -> str:
 def summary_table(result: Result) -> str:
     """Return the summary as an HTML table."""
     rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
-    return html_table((), rows)
+    return notebook_table((), rows)
 
 
 def extremes(table: Labelled) -> dict[str, dict[str, Any]]:

@@ -203,13 +203,13 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
 
-    inputs, formulas, begun = run["inputs"], dict(mechanism.input_formulas), run["start"]
+    inputs, formulas, initial = run["inputs"], dict(mechanism.input_formulas), run["start"]
     if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
         not set(mechanism.inputs) <= set(inputs)
     ):
         return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
-    if begun["t"]:
-        return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
+    if initial["t"]:
+        return None, f"{NONE}: the run went on from another one at t = {initial['t']:.6g} s"
     own = {event.name for event in mechanism.events}
     for name, action in run["watched"]:
         if action in DOES and name not in own:
@@ -222,7 +222,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
     prepared = prepare(mechanism, settings, Purpose.STATE)
-    state = {**begun["q"], **begun["v"]}
+    state = {**initial["q"], **initial["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
@@ -236,7 +236,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
     return _with_columns(live, mechanism, prepared), note
 
 
-def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None) -> tuple[Live | None, str]:
+def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
     from symgen.running.plan import Purpose
     from symgen.running.prepare import prepare
@@ -259,8 +259,8 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, begun: Array | None
         own_start.close(y, v, other.p.copy())
         if np.abs(y - other.y)[: info.work].max() > 1e-7 * np.abs(y).max(initial=1.0):
             moving.append(name)
-    if begun is not None:
-        y = np.concatenate([begun, tree.body_start.y[len(begun) :]])
+    if initial is not None:
+        y = np.concatenate([initial, tree.body_start.y[len(initial) :]])
         of_bodies = replace(tree.body_start, y=y)
         carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
         start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start

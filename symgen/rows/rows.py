@@ -209,18 +209,18 @@ def observe_outputs(
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
-    begun, outputs, observed = part(chunk.ws, r * nw, nw), series.outputs, series.observed
+    scratch, outputs, observed = part(chunk.ws, r * nw, nw), series.outputs, series.observed
     follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
     for k in range(count if chunk.rates == 1 or chunk.joints == 1 else 0):
         hold(system, span, chunk, r, state, outputs.times, k)
         here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
-        seen = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
+        single = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
         if chunk.rates == 1:
-            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
-            if follows and follow_rows(chunk, state, begun) != 0:  # the independent rows depend on the position
-                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+            observe_rates(law, here, 1, state.p, scratch, state.iw, single, state.room)
+            if follows and follow_rows(chunk, state, scratch) != 0:  # the independent rows depend on the position
+                observe_rates(law, here, 1, state.p, scratch, state.iw, single, state.room)
         if chunk.joints == 1:
-            observe_rows(observe, sizes, here, 1, state.p, state.w, seen, state.room)
+            observe_rows(observe, sizes, here, 1, state.p, state.w, single, state.room)
     length = (chunk.picks.shape[0] // 2) * series.outputs.times.shape[0]
     values = part(chunk.values, r * length, length)
     pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)

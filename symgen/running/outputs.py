@@ -49,16 +49,16 @@ def output_times(
     size, (begin, until) = output_size(mechanism), span
     if s.times is not None:
         try:
-            wanted = np.asarray(s.times, dtype=np.float64)
+            instants = np.asarray(s.times, dtype=np.float64)
         except (TypeError, ValueError):
             raise InputError("times", "finite, increasing output times", shown(s.times)) from None
-        if wanted.ndim != 1 or not np.all(np.isfinite(wanted)) or np.any(np.diff(wanted) <= 0.0):
+        if instants.ndim != 1 or not np.all(np.isfinite(instants)) or np.any(np.diff(instants) <= 0.0):
             raise InputError("times", "finite, increasing output times", "others")
-        if len(wanted) and (wanted[0] < begin * (1.0 - 1e-12) or wanted[-1] > until * (1.0 + 1e-12)):
-            got = f"{wanted[0]:g} to {wanted[-1]:g}"
+        if len(instants) and (instants[0] < begin * (1.0 - 1e-12) or instants[-1] > until * (1.0 + 1e-12)):
+            got = f"{instants[0]:g} to {instants[-1]:g}"
             raise InputError("times", f"output times from {begin:g} to {until:g}", got)
-        require("times", f"{len(wanted):.3g} outputs of {mechanism.name}", size * len(wanted))
-        return np.clip(wanted, begin, until)  # a multiple of a step may exceed the end by rounding
+        require("times", f"{len(instants):.3g} outputs of {mechanism.name}", size * len(instants))
+        return np.clip(instants, begin, until)  # a multiple of a step may exceed the end by rounding
     every = s.output_step if s.output_step is not None else mechanism.defaults.output_step
     if every is None:
         if adaptive:

@@ -242,9 +242,9 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     if s.coordinates == "joint":
         choose_coordinates(mechanism, s.coordinates, shape)
         shape = "straight"
-    taken = choose_shape(mechanism, choice, shape, expected_evaluations(integrator, until - begin, step, adaptive))
-    choice = replace(choice, shape=taken.name)
-    coordinates = choose_coordinates(mechanism, s.coordinates, taken.name)
+    code_shape = choose_shape(mechanism, choice, shape, expected_evaluations(integrator, until - begin, step, adaptive))
+    choice = replace(choice, shape=code_shape.name)
+    coordinates = choose_coordinates(mechanism, s.coordinates, code_shape.name)
     if coordinates.name == "joint" and not _has_option(s, "weight"):
         choice = weighed(choice, massless)
     elif not massless and not _has_option(s, "weight"):
@@ -271,7 +271,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         last=last,
         events=events,
         coordinates=coordinates.name,
-        shape_reason=taken.reason,
+        shape_reason=code_shape.reason,
         coordinates_reason=coordinates.reason,
     )
 

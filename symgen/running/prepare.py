@@ -282,8 +282,8 @@ def _gained(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[s
     options = {key: value for key, value in settings.options.items() if key not in keys}
     if rate is None:
         return replace(settings, options=options), (f"rule={MOTION}: nothing moves, so that the gains stay",)
-    given = {key.partition(".")[2] for key in options}
-    gains = {f"method.{p.name}": rate for p in method.parameters if p.name not in given}
+    own = {key.partition(".")[2] for key in options}
+    gains = {f"method.{p.name}": rate for p in method.parameters if p.name not in own}
     names = " = ".join(key.removeprefix("method.") for key in gains)
     note = f"rule={MOTION}: {names} = {rate:.4g} 1/s, rms(v')/rms(v) of the motion from {begin_at:g} to {until:g} s"
     return replace(settings, options=options | gains), (note,)

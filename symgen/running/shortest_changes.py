@@ -21,7 +21,9 @@ _ROUNDING = 1e-8
 NONE = 1e-10
 
 
-def turned(rows: Array, slopes: Array, x: Array, free: list[int], scales: Array, loads: Array, rates: bool) -> Array:
+def shortest_slope(
+    rows: Array, slopes: Array, x: Array, free: list[int], scales: Array, loads: Array, rates: bool
+) -> Array:
     """Return how the shortest solution x of rows turns with these, scaled; what they determine is not read.
 
     Parameters

@@ -20,7 +20,7 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.layout import abi
 from symgen.layout.probe import Ready
-from symgen.running.shortest_changes import NONE, shortest, turned
+from symgen.running.shortest_changes import NONE, shortest, shortest_slope
 from symgen.running.starts import held_of
 from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.vocabulary.rotations import composed_rotation
@@ -132,7 +132,7 @@ class StartDirections:
             Length of ``out``.
         """
         model, start = self._model, self.start
-        call, found = model.function(function, length).caller(kind.signature.arguments), list[Array]()
+        call, parts = model.function(function, length).caller(kind.signature.arguments), list[Array]()
         seeds = Seeds(y, p)
         for first in range(0, seeds.count, model.lanes):
             own = seeds.part(first, model.lanes)
@@ -141,11 +141,11 @@ class StartDirections:
             if length:
                 out = np.zeros(length * (1 + model.lanes))
                 call(start.t, state, numbers, w, np.zeros_like(state), out)
-                found.append(out[length:].reshape(length, model.lanes))
+                parts.append(out[length:].reshape(length, model.lanes))
             else:
                 call(start.t, state, numbers, w)
-                found.append(model.shadow(w, "w"))
-        return np.concatenate(found, axis=1)[:, : seeds.count]
+                parts.append(model.shadow(w, "w"))
+        return np.concatenate(parts, axis=1)[:, : seeds.count]
 
     def _geometry(self, y: Array, p: Array) -> Array:
         return self._derived(self.compiled.model.geometry, abi.MEASURE, y, p)
@@ -187,15 +187,15 @@ class StartDirections:
     def _targets(self, table: dict[str, int]) -> dict[int, Array]:
         """Return the directions of held quantities by their places in a table."""
         held = {hold.name: hold.value for hold in self.run.plan.holds if hold.name in table}
-        found = dict[int, Array]()
+        directions = dict[int, Array]()
         for name, value in held.items():
             if value is not None:
                 slopes = self.duals.value(value, f"start '{name}'")
-                found[table[name]] = np.array(next(slopes_of([slopes], self.count)))
+                directions[table[name]] = np.array(next(slopes_of([slopes], self.count)))
         for k, d in enumerate(self.directions):
             if d.kind == "start" and d.key in table:
-                found[table[d.key]] = np.eye(self.count)[k]
-        return found
+                directions[table[d.key]] = np.eye(self.count)[k]
+        return directions
 
     def _fixed(self) -> set[int]:
         """Return the velocities whose coordinates stay as described."""
@@ -289,7 +289,7 @@ class StartDirections:
         apart = np.abs(v - kept)[list(fixed)].max(initial=0.0)
         fits = apart <= _KEPT * np.abs(v).max(initial=0.0)
         if fits:
-            more = turned(rows, slopes, v, free, scales, np.zeros((info.nv, n)), bool(rates))
+            more = shortest_slope(rows, slopes, v, free, scales, np.zeros((info.nv, n)), bool(rates))
             try:
                 return shortest(rows, right, fixed, names, more, scales, self.directions)
             except InputError:
@@ -299,7 +299,7 @@ class StartDirections:
         change, free = v - kept, [j for j in range(info.nv) if j not in held]
         masses = np.maximum(self.compiled.section(self.start.w, "mass"), 1e-300)
         scales = 1.0 / np.sqrt(masses)
-        more = turned(rows, slopes, change, free, scales, self._masses(p) * change[:, np.newaxis], bool(rates))
+        more = shortest_slope(rows, slopes, change, free, scales, self._masses(p) * change[:, np.newaxis], bool(rates))
         own = np.zeros((info.nv, n))
         for j, target in fixed.items():
             own[j] = target
@@ -308,12 +308,12 @@ class StartDirections:
 
     def _masses(self, p: Array) -> Array:
         """Return the directions of the masses of velocities, shape (nv, n)."""
-        model, found = self._model, list[Array]()
+        model, parts = self._model, list[Array]()
         seeds, (first, size) = Seeds(np.zeros((1, p.shape[1])), p), self.info.sections["mass"]
         for k in range(0, seeds.count, model.lanes):
             w = model.scratch(model.parameters(self.start.p, seeds.part(k, model.lanes).p), self.start.w)
-            found.append(model.shadow(w, "w")[first : first + size])
-        return np.concatenate(found, axis=1)[:, : seeds.count]
+            parts.append(model.shadow(w, "w")[first : first + size])
+        return np.concatenate(parts, axis=1)[:, : seeds.count]
 
     def _jacobians(self, derived: Array) -> Array:
         """Return the directions of D, shape (m, nv, n)."""
@@ -346,14 +346,14 @@ class StartDirections:
         start, n = tree.start, self.count
 
         def moved(seeds: Seeds) -> Array:
-            found = list[Array]()
+            parts = list[Array]()
             for first in range(0, seeds.count, model.lanes):
                 part = seeds.part(first, model.lanes)
                 p, y = model.parameters(start.p, part.p), model.longer(start.y, "y", part.y)
                 out = np.zeros(length * (1 + model.lanes))
                 call(start.t, y, p, model.longer(start.w, "w"), np.zeros_like(y), out)
-                found.append(out[length:].reshape(length, model.lanes)[: info.work])
-            rows = np.concatenate(found, axis=1)[:, : seeds.count]
+                parts.append(out[length:].reshape(length, model.lanes)[: info.work])
+            rows = np.concatenate(parts, axis=1)[:, : seeds.count]
             rows[: info.nq] *= tree.signs[:, np.newaxis]
             return rows
 

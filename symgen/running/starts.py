@@ -15,7 +15,7 @@ from symgen.describe.evaluate import evaluate, parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of, wrong_sides
-from symgen.describe.start import described_start, moved
+from symgen.describe.start import described_start, displacements
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.model_arrays import lengths_of, velocity_of
@@ -124,7 +124,7 @@ class DescribedStart:
         states = states_at_start(mechanism, numbers, () if isinstance(holds, Held) else holds)
         q = np.array(self._q if near is None else near, dtype=np.float64)
         held = holds if isinstance(holds, Held) else held_of(compiled.info, holds, numbers, self._v)
-        assembly, reported = self._assembly(held), partial(moved, mechanism, numbers)
+        assembly, reported = self._assembly(held), partial(displacements, mechanism, numbers)
         start = closed_start(assembly, held, assembly.close, q, self._v, self._p.copy(), reported)
         if lines := _opposite_sides(mechanism, compiled.info, start.y):
             start = replace(start, warnings=(*start.warnings, *lines))

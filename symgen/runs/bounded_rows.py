@@ -127,7 +127,7 @@ def first_step(span: Any) -> float:
 
 
 @exact()
-def scale_of(c: Any, w: Any, i: int, place: int) -> float:
+def row_scale(c: Any, w: Any, i: int, place: int) -> float:
     """Return the mechanism's scale of speeds or of lengths in the unit of a row."""
     return float(w[place] / w[abi.LENGTH] if c.angular[i] != 0 else w[place])
 
@@ -135,7 +135,7 @@ def scale_of(c: Any, w: Any, i: int, place: int) -> float:
 @exact()
 def usual_of(c: Any, w: Any, i: int) -> float:
     """Return the mechanism's scale of accelerations in the unit of a row."""
-    return float(scale_of(c, w, i, abi.SPEED) * (w[abi.SPEED] / w[abi.LENGTH]))
+    return float(row_scale(c, w, i, abi.SPEED) * (w[abi.SPEED] / w[abi.LENGTH]))
 
 
 @exact()

@@ -33,7 +33,7 @@ from symgen.runs.bounded_rows import (
     SIGN,
     STILL,
     TOUCHING,
-    scale_of,
+    row_scale,
     sign_of,
     usual_of,
 )
@@ -62,7 +62,7 @@ def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
             restitution = out[2 * k + dry + i]
             c.restitution[i] = restitution
             valid = valid and restitution >= 0.0 and restitution <= 1.0
-            valid = valid and out[i] >= -TOUCHING * scale_of(c, w, i, abi.LENGTH)
+            valid = valid and out[i] >= -TOUCHING * row_scale(c, w, i, abi.LENGTH)
     return SAME if valid else OUT_OF_RANGE
 
 
@@ -172,8 +172,8 @@ def find_rest(c: Any, w: Any) -> int:
         c.taken[i] = 0
     for i in range(c.count):
         at, stop = MODE_NUMBERS * i, i >= c.dry
-        still = abs(c.speed[i]) <= STILL * scale_of(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
-        still = still and not (stop and c.value[i] > TOUCHING * scale_of(c, w, i, abi.LENGTH))
+        still = abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
+        still = still and not (stop and c.value[i] > TOUCHING * row_scale(c, w, i, abi.LENGTH))
         loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
         loose = (loose and c.stopped[i] == 0) or c.left[i] != 0
         owner = int(c.before[at + CONSTANT])

@@ -54,8 +54,8 @@ class Seeds:
         """Return `lanes` directions from one on, zeros where there are no more."""
         parts = [np.zeros((len(a), lanes)) for a in (self.y, self.p)]
         for room, array in zip(parts, (self.y, self.p), strict=True):
-            taken = array[:, first : first + lanes]
-            room[:, : taken.shape[1]] = taken
+            seeds = array[:, first : first + lanes]
+            room[:, : seeds.shape[1]] = seeds
         return Seeds(*parts)
 
 

@@ -114,9 +114,9 @@ def run_with_directions(
     for first in range(0, seeds.count, model.lanes):
         own = seeds.part(first, model.lanes)
         p = model.parameters(start.p, own.p)
-        begun = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
-        doubts = events_at_start(spec, model, begun)
-        simulation = Simulation(model.whole, integrator, begun, with_directions(spec, model, doubts))
+        initial = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
+        doubts = events_at_start(spec, model, initial)
+        simulation = Simulation(model.whole, integrator, initial, with_directions(spec, model, doubts))
         outcome = completed(simulation, progress)
         parts.append(Part(model, outcome, doubts))
         progress = None

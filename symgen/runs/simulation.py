@@ -153,12 +153,12 @@ class Simulation:
             *(SAVED_AS.get(name, name) for name in state._fields),
             *memory_fields(self.scheme),
         }  # older files hold further, empty arrays
-        taken = {name: array for name, array in saved.items() if name in names}
+        arrays = {name: array for name, array in saved.items() if name in names}
         # other events, or data of another version: their sides are determined again
-        anew = self.events is not None and len(taken.get("hunt", ())) != len(state.hunt)
+        anew = self.events is not None and len(arrays.get("hunt", ())) != len(state.hunt)
         if anew:
-            taken.pop("hunt", None)
-        self.restore(taken)
+            arrays.pop("hunt", None)
+        self.restore(arrays)
         varying = {name for stop in self.spec.stops for name in stop.values}
         numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
         self.changes.give({name: x for name, x in numbers.items() if name not in varying})

@@ -28,7 +28,7 @@ from symgen.runs.bounded_rows import (
     SIGN,
     STILL,
     TOUCHING,
-    scale_of,
+    row_scale,
 )
 from symgen.runs.box import solve_box
 from symgen.runs.choice import probe
@@ -88,10 +88,10 @@ def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any)
     """Set the stops that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
     n, strikes = 0, False
     for i in range(c.dry, c.count):
-        if c.value[i] <= TOUCHING * scale_of(c, w, i, abi.LENGTH):
+        if c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH):
             c.rest[n] = i
             n += 1
-            strikes = strikes or c.speed[i] < -STILL * scale_of(c, w, i, abi.SPEED)
+            strikes = strikes or c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED)
     if not strikes:
         return SAME
     c.at_rest[0] = n

@@ -331,19 +331,19 @@ def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None
         if row < 0:
             return
         effects[waiting + row] = 0.0
-        column, best, wanted = -1, math.inf, 0.0
+        column, best, turn_count = -1, math.inf, 0.0
         for i in range(count):
             effect = effects[row * count + i]
             if effect != 0.0 and effects[free + i] != 0.0:
                 number = float(round(-rest[row] / effect))
                 left = abs(rest[row] + number * effect)
                 if left < best:
-                    column, best, wanted = i, left, number
+                    column, best, turn_count = i, left, number
         if column >= 0:
-            effects[turns + column] = wanted
+            effects[turns + column] = turn_count
             effects[free + column] = 0.0
             for r in range(m):
-                rest[r] += wanted * effects[r * count + column]
+                rest[r] += turn_count * effects[r * count + column]
 
 
 @exact(TURNS.signature)

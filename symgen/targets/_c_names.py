@@ -52,8 +52,8 @@ def prefix_of(name: str, functions: str) -> str:
     functions : str
         Emitted functions in C.
     """
-    prefix, taken = name.replace("-", "_"), _of_templates() | _words(functions)
-    while _is_taken(prefix, taken):
+    prefix, others = name.replace("-", "_"), _of_templates() | _words(functions)
+    while _is_taken(prefix, others):
         prefix += "_model"
     return prefix
 

@@ -12,7 +12,7 @@ from symgen import catalogue
 from symgen.api import load
 from symgen.base.settings import Settings
 from symgen.cli import main
-from symgen.reading.inspection import at_start
+from symgen.reading.inspection import run_at_start
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -65,7 +65,7 @@ def plainly_python(function: Any) -> Any:
 
 def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:
     """At the start and near it, to 1e-12 of the largest, or four times what fusing multiplication and addition does."""
-    run, _, _ = at_start(load(name).mechanism, Settings(shape="straight", coordinates=coordinates))
+    run, _, _ = run_at_start(load(name).mechanism, Settings(shape="straight", coordinates=coordinates))
     law, start, info = run.compiled.law_module, run.start, run.compiled.info
     plain, random = plainly_python(law.rhs), np.random.default_rng(3)
     states, expected, plainly = [], [], []

@@ -13,7 +13,7 @@ from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe.formats import Import, format_of, read_robot
-from symgen.describe.formats._frames import Frame, about, of_quaternion, of_rpy, quaternion, times
+from symgen.describe.formats._frames import Frame, axis_rotation, of_quaternion, of_rpy, quaternion, times
 from symgen.describe.load import load
 from symgen.describe.validate import validate
 
@@ -309,12 +309,13 @@ def test_the_command_and_every_other_command(tmp_path: Path, capsys: pytest.Capt
 def test_rotations() -> None:
     rotation = of_rpy((0.3, -0.8, 2.0))
     x, y, z = (
-        np.array(about(axis, angle)) for axis, angle in (((1.0, 0, 0), 0.3), ((0, 1.0, 0), -0.8), ((0, 0, 1.0), 2.0))
+        np.array(axis_rotation(axis, angle))
+        for axis, angle in (((1.0, 0, 0), 0.3), ((0, 1.0, 0), -0.8), ((0, 0, 1.0), 2.0))
     )
     assert np.allclose(rotation, z @ y @ x)
     for angle in (0.1, 3.1, -3.1, 2.0):
         for axis in ((1.0, 0.0, 0.0), (0.2, -1.0, 0.4), (0.0, 0.0, -1.0)):
-            turn = about(axis, angle)
+            turn = axis_rotation(axis, angle)
             assert np.allclose(of_quaternion(quaternion(turn)), turn)
     inner = Frame((1.0, 2.0, 3.0), rotation)
     assert np.allclose((inner @ inner.inverse()).origin, 0.0) and np.allclose(

@@ -9,7 +9,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import InputError
 from symgen.breaks.stops import foreseen
-from symgen.ensemble.sweep_study import lines_of
+from symgen.ensemble.sweep_study import table_lines
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage
 
@@ -40,7 +40,7 @@ def test_a_push_that_is_shorter_than_a_step_is_said_of_all_rows(target):
     assert list(found.warnings) == [alone, alone] and "formulas change at t = 0.123 and 0.128 s" in alone[0]
     assert found.common_warnings() == [(alone[0], 2)]
     assert found.to_json()["warnings"] == [{"warning": alone[0], "runs": 2}]
-    heading, lines = lines_of(found)
+    heading, lines = table_lines(found)
     assert [line[heading.index("warnings")] for line in lines] == [alone[0]] * 2
     assert list(found.to_xarray()["warnings"].values) == [alone[0]] * 2
 

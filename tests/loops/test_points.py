@@ -29,7 +29,7 @@ def kept(period: float) -> np.ndarray:
 def aimed(hunt: np.ndarray, s: float, rate: float, second: float, h: float) -> float:
     """The step in place of one of `h` where the argument is s, with its derivatives."""
     columns = hunt[records.N_HEAD :]
-    place = plain_form(table_points.place_of)(hunt, 1, 0, s, rate)
+    place = plain_form(table_points.interval_at)(hunt, 1, 0, s, rate)
     columns[[records.PLACE, records.ARGUMENT_START, records.SLOPE_START, records.CURVE]] = place, s, rate, second
     plain_form(table_points.aim)(hunt, 1, h)
     return float(hunt[TRY])
@@ -41,7 +41,7 @@ def test_intervals_are_those_of_numpy(period):
     every = [x + k for k in range(-3, 4) for x in LEVELS[:-1]] if period else LEVELS
     for s in (*random.uniform(-1.5, 2.5, 100), *LEVELS):
         for rate in (1.0, -1.0):
-            place = plain_form(table_points.place_of)(hunt, 1, 0, float(s), rate)
+            place = plain_form(table_points.interval_at)(hunt, 1, 0, float(s), rate)
             inside = np.searchsorted(every, s, side="right" if rate > 0.0 else "left") - 1
             assert plain_form(table_points.point)(hunt, 1, 0, place) == pytest.approx(
                 every[inside] if inside >= 0 else -1e300

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symgen.study.references.least_squares import shortest
+from symgen.study.references.least_squares import minimum_norm
 
 #: Rows, columns and rank.
 SIZES = [(1, 1, 1), (3, 5, 3), (9, 9, 9), (9, 9, 7), (12, 9, 9), (12, 9, 5), (4, 9, 2), (6, 6, 0), (20, 15, 13)]
@@ -17,7 +17,7 @@ def test_the_shortest_of_the_best(m, n, rank, size):
         a = size * rng.standard_normal((m, rank)) @ rng.standard_normal((rank, n))
         b, x = rng.standard_normal(m), np.full(n, np.nan)
         kept = a.copy(), b.copy()
-        shortest(a, b, x)
+        minimum_norm(a, b, x)
         np.testing.assert_array_equal((a, b)[0], kept[0])
         np.testing.assert_array_equal((a, b)[1], kept[1])
         expected = np.linalg.pinv(a, 1e-9) @ b
@@ -29,7 +29,7 @@ def test_the_shortest_of_the_best(m, n, rank, size):
 def test_a_row_of_zeros_and_a_row_twice():
     """Contradictory rows share their error; a row of zeros asks for nothing."""
     x = np.empty(3)
-    shortest(np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), np.array([5.0, 1.0, 3.0]), x)
+    minimum_norm(np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), np.array([5.0, 1.0, 3.0]), x)
     np.testing.assert_allclose(x, [1.0, 0.0, 0.0], rtol=1e-15)
 
 
@@ -37,5 +37,5 @@ def test_rows_that_nearly_depend_are_solved_by_what_is_left():
     """Beyond 1e-9 of the largest, a singular value is rounding's; above, it counts."""
     for small, expected in ((1e-11, 0.0), (1e-5, 1e5)):
         x = np.empty(2)
-        shortest(np.array([[1.0, 0.0], [0.0, small]]), np.array([0.0, 1.0]), x)
+        minimum_norm(np.array([[1.0, 0.0], [0.0, small]]), np.array([0.0, 1.0]), x)
         np.testing.assert_allclose(x, [0.0, expected], rtol=1e-12)

@@ -126,11 +126,11 @@ class AnalysisTable:
 
 def in_notebook(items: Iterable[str | AnalysisTable], notes: Iterable[str] = ()) -> str:
     """Return the output of a command as HTML."""
-    from symgen.result.labelled import html_table
+    from symgen.result.labelled import notebook_table
 
     lines = [*items, *(f"note: {note}" for note in notes)]
     return "\n".join(
-        f"<p>{escape(x)}</p>" if isinstance(x, str) else html_table(x.headings, x.rows, most=40) for x in lines
+        f"<p>{escape(x)}</p>" if isinstance(x, str) else notebook_table(x.headings, x.rows, most=40) for x in lines
     )
 
 

@@ -22,7 +22,7 @@ class Frame:
 
     def point(self, x: Vector) -> Vector:
         """Return a point of this frame in the other one."""
-        return plus(self.origin, turned(self.rotation, x))
+        return plus(self.origin, matrix_vector(self.rotation, x))
 
     def __matmul__(self, inner: Frame) -> Frame:
         """Return a frame of this frame in the other one."""
@@ -30,8 +30,8 @@ class Frame:
 
     def inverse(self) -> Frame:
         """Return the other frame in this one."""
-        back = transposed(self.rotation)
-        return Frame(scaled(-1.0, turned(back, self.origin)), back)
+        back = transpose(self.rotation)
+        return Frame(scaled(-1.0, matrix_vector(back, self.origin)), back)
 
 
 def plus(x: Vector, y: Vector) -> Vector:
@@ -59,12 +59,12 @@ def unit(x: Vector) -> Vector:
     return scaled(1.0 / math.sqrt(dot(x, x)), x)
 
 
-def turned(matrix: Matrix, x: Vector) -> Vector:
+def matrix_vector(matrix: Matrix, x: Vector) -> Vector:
     """Return the product of a matrix and a vector."""
     return dot(matrix[0], x), dot(matrix[1], x), dot(matrix[2], x)
 
 
-def transposed(matrix: Matrix) -> Matrix:
+def transpose(matrix: Matrix) -> Matrix:
     """Return the transpose."""
     (a, b, c), (d, e, f), (g, h, i) = matrix
     return (a, d, g), (b, e, h), (c, f, i)
@@ -72,12 +72,12 @@ def transposed(matrix: Matrix) -> Matrix:
 
 def times(x: Matrix, y: Matrix) -> Matrix:
     """Return the product of two matrices."""
-    columns = transposed(y)
-    a, b, c = (turned(columns, row) for row in x)
+    columns = transpose(y)
+    a, b, c = (matrix_vector(columns, row) for row in x)
     return a, b, c
 
 
-def about(axis: Vector, angle: float) -> Matrix:
+def axis_rotation(axis: Vector, angle: float) -> Matrix:
     """Return the rotation about an axis by an angle [rad] (Rodrigues)."""
     (x, y, z), c, s = unit(axis), math.cos(angle), math.sin(angle)
     d = 1.0 - c
@@ -91,7 +91,8 @@ def about(axis: Vector, angle: float) -> Matrix:
 def of_rpy(angles: Sequence[float]) -> Matrix:
     """Return the rotation by roll, pitch and yaw about the fixed axes x, y, z [rad]."""
     roll, pitch, yaw = angles
-    return times(about((0.0, 0.0, 1.0), yaw), times(about((0.0, 1.0, 0.0), pitch), about((1.0, 0.0, 0.0), roll)))
+    x, y, z = UNIT
+    return times(axis_rotation(z, yaw), times(axis_rotation(y, pitch), axis_rotation(x, roll)))
 
 
 def of_quaternion(numbers: Sequence[float]) -> Matrix:
@@ -122,7 +123,7 @@ def quaternion(rotation: Matrix) -> tuple[float, float, float, float]:
     return w, x, y, z
 
 
-def across(axis: Vector) -> Vector:
+def perpendicular(axis: Vector) -> Vector:
     """Return a direction across an axis: the coordinate axis farthest from it, made perpendicular."""
     direction = unit(axis)
     nearest = min(range(3), key=lambda k: abs(direction[k]))

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import UNIT, Frame, of_quaternion, scaled, transposed, turned
+from symgen.describe.formats._frames import UNIT, Frame, matrix_vector, of_quaternion, scaled, transpose
 from symgen.describe.formats._xml import read_tree
 from symgen.describe.mesh_files import MeshFiles
 
@@ -98,11 +98,11 @@ class MjcfMeshes(MeshFiles):
             return None
         # a point x of the file is at scale * (R^T (x - r)), with `refpos` and `refquat`, before MuJoCo places it
         x, y, z = (float(s) for s in mesh.scale)
-        back = transposed(of_quaternion(mesh.refquat.tolist()))
+        back = transpose(of_quaternion(mesh.refquat.tolist()))
         if back != UNIT and max(x, y, z) - min(x, y, z) > _SAME:
             self.lose("they are turned, then scaled by several factors")
             return None
-        a, b, c = turned(back, scaled(-1.0, tuple(mesh.refpos.tolist())))
+        a, b, c = matrix_vector(back, scaled(-1.0, tuple(mesh.refpos.tolist())))
         own = Frame(tuple(model.mesh_pos[k].tolist()), of_quaternion(model.mesh_quat[k].tolist()))
         inner = Frame((x * a, y * b, z * c), back)
         return {"type": "mesh", "file": file, "scale": (x, y, z), "frame": place @ own.inverse() @ inner}

@@ -15,13 +15,13 @@ from symgen.describe.formats._frames import (
     Frame,
     Matrix,
     Vector,
-    about,
-    across,
+    axis_rotation,
+    matrix_vector,
+    perpendicular,
     plus,
     quaternion,
     scaled,
-    transposed,
-    turned,
+    transpose,
     unit,
 )
 from symgen.describe.formats._robot import (
@@ -34,7 +34,7 @@ from symgen.describe.formats._robot import (
     Robot,
     turned_inertia,
 )
-from symgen.describe.formats._solids import Solid, together
+from symgen.describe.formats._solids import Solid, sum_of_solids
 from symgen.describe.names import LONGEST, RESERVED
 
 _ANGLE, _SLIDE = "angle", "displacement"
@@ -162,7 +162,7 @@ class _Description:
     def _body(self, name: str, members: list[Link]) -> dict[str, Any]:
         place, back = self.place(name), self.place(name).inverse()
         frames = [back @ link.place for link in members]
-        whole = together(
+        whole = sum_of_solids(
             Solid(link.mass, frame.point(link.centre), turned_inertia(link.inertia, frame.rotation))
             for frame, link in zip(frames, members, strict=True)
         )
@@ -209,18 +209,20 @@ class _Description:
         }
         if c.kind in ("revolute", "translational", "cylindrical", "planar", "rigid"):
             axis = unit(c.axis)
-            table["axis"] = [_tidy(turned(frame.rotation, axis)) for frame in inner]
-            first = across(axis)
+            table["axis"] = [_tidy(matrix_vector(frame.rotation, axis)) for frame in inner]
+            first = perpendicular(axis)
             second = first
             if c.kind in ("revolute", "cylindrical") and c.value:  # the angle at the start is `value`
-                second = turned(about(axis, c.value), first)
-            pair = [turned(inner[0].rotation, first), turned(inner[1].rotation, second)]
+                second = matrix_vector(axis_rotation(axis, c.value), first)
+            pair = [matrix_vector(inner[0].rotation, first), matrix_vector(inner[1].rotation, second)]
             table["reference"] = [_tidy(x) for x in pair]
         if c.kind == "universal":
             directions = c.axis, c.second or c.axis
-            table["axes"] = [_tidy(turned(f.rotation, unit(x))) for f, x in zip(inner, directions, strict=True)]
+            table["axes"] = [_tidy(matrix_vector(f.rotation, unit(x))) for f, x in zip(inner, directions, strict=True)]
         if c.kind == "translational" and c.value:
-            table["at"][0] = _tidy(plus(inner[0].origin, turned(inner[0].rotation, scaled(-c.value, unit(c.axis)))))
+            table["at"][0] = _tidy(
+                plus(inner[0].origin, matrix_vector(inner[0].rotation, scaled(-c.value, unit(c.axis))))
+            )
         light = c.kind == "translational" and any(end != GROUND and self._mass(end) == 0.0 for end in ends)
         if c.rotor and light:
             self.left_out.append(LeftOut("armature", c.name, "it slides a link without mass", True))
@@ -376,7 +378,7 @@ def _shapes(link: Link, frame: Frame, folder: Path) -> list[dict[str, Any]]:
         if shape["type"] == "sphere":
             shapes.append({"type": "sphere", "radius": shape["radius"]} | at | colour)
         elif shape["type"] == "cylinder":
-            axis = _tidy(transposed(own.rotation)[2])
+            axis = _tidy(transpose(own.rotation)[2])
             sizes = {"radius": shape["radius"], "length": shape["length"], "axis": axis}
             shapes.append({"type": "cylinder"} | sizes | at | colour)
         elif shape["type"] == "mesh":

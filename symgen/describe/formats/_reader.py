@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from symgen.base.errors import InputError, quoted
 from symgen.describe.formats._frames import Frame, Matrix
 from symgen.describe.formats._robot import LeftOut
-from symgen.describe.formats._xml import numbers, read_tree, triple
+from symgen.describe.formats._xml import decimals, read_tree, triple
 from symgen.describe.mesh_files import MeshFiles
 
 
@@ -91,7 +91,7 @@ class RobotReader:
         return {} if file is None else {"type": "mesh", "file": file, "scale": scale}
 
     def _length(self, where: str, part: ET.Element, key: str) -> float:
-        return numbers(f"{where}, {key}", self.text(part, key) or "0", 1)[0]
+        return decimals(f"{where}, {key}", self.text(part, key) or "0", 1)[0]
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times, transposed
+from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times, transpose
 
 #: The ground among links: a name that no link has.
 GROUND = ""
@@ -189,4 +189,4 @@ def actuators_of(connections: list[Connection], followers: list[Follower]) -> li
 
 def turned_inertia(inertia: Matrix, rotation: Matrix) -> Matrix:
     """Return a tensor along the outer axes of a rotation."""
-    return times(times(rotation, inertia), transposed(rotation))
+    return times(times(rotation, inertia), transpose(rotation))

@@ -23,7 +23,7 @@ class Solid:
         return Solid(factor * self.mass, self.centre, (a, b, c))
 
 
-def together(solids: Iterable[Solid]) -> Solid:
+def sum_of_solids(solids: Iterable[Solid]) -> Solid:
     """Return solids as one, by Steiner."""
     solids = list(solids)
     mass, centre = sum(solid.mass for solid in solids), ORIGIN

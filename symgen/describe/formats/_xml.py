@@ -87,7 +87,7 @@ class _Parser:
         raise InputError(self._source, "XML without a document type, which may define entities", f"DOCTYPE {name}")
 
 
-def numbers(where: str, text: str, count: int) -> tuple[float, ...]:
+def decimals(where: str, text: str, count: int) -> tuple[float, ...]:
     """Return `count` finite numbers of a text."""
     try:
         values = tuple(float(part) for part in text.split())
@@ -98,24 +98,24 @@ def numbers(where: str, text: str, count: int) -> tuple[float, ...]:
     return values
 
 
-def number(where: str, attributes: Mapping[str, str], key: str, default: float = 0.0) -> float:
+def decimal(where: str, attributes: Mapping[str, str], key: str, default: float = 0.0) -> float:
     """Return a number of an attribute, or `default` without it."""
-    return numbers(f"{where}, {key}", attributes[key], 1)[0] if key in attributes else default
+    return decimals(f"{where}, {key}", attributes[key], 1)[0] if key in attributes else default
 
 
 def triple(where: str, text: str) -> Vector:
     """Return three numbers of a text."""
-    x, y, z = numbers(where, text, 3)
+    x, y, z = decimals(where, text, 3)
     return x, y, z
 
 
 def colour_of(where: str, text: str) -> str:
     """Return red, green, blue and opacity as ``#rrggbb``."""
-    shares = numbers(where, text, 4)[:3]
+    shares = decimals(where, text, 4)[:3]
     return "#" + "".join(f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in shares)
 
 
-def origin_of(where: str, element: ET.Element | None) -> Frame:
+def frame_of_origin(where: str, element: ET.Element | None) -> Frame:
     """Return the frame of attributes ``xyz`` and ``rpy``; the outer frame itself without an element."""
     if element is None:
         return Frame()
@@ -138,7 +138,7 @@ def inner_number(where: str, element: ET.Element | None, key: str, default: floa
     text = "" if element is None else inner_text(element, key)
     if text.lower() in ("inf", "+inf", "-inf"):  # of limits
         return -1e16 if text[0] == "-" else 1e16
-    return numbers(f"{where}, {key}", text, 1)[0] if text else default
+    return decimals(f"{where}, {key}", text, 1)[0] if text else default
 
 
 def positive(where: str, element: ET.Element, key: str) -> float:

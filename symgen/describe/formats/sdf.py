@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Frame, Vector, of_quaternion, of_rpy, transposed, turned
+from symgen.describe.formats._frames import Frame, Vector, matrix_vector, of_quaternion, of_rpy, transpose
 from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
@@ -22,13 +22,13 @@ from symgen.describe.formats._robot import (
     actuators_of,
     turned_inertia,
 )
-from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, together
+from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, sum_of_solids
 from symgen.describe.formats._xml import (
     colour_of,
+    decimals,
     inner_flag,
     inner_number,
     inner_text,
-    numbers,
     positive,
     sizes_of,
     triple,
@@ -196,13 +196,13 @@ class _Reader(RobotReader):
         if not text.strip():
             return Frame()
         if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
-            x, y, z, *e = numbers(where, text, 7)
+            x, y, z, *e = decimals(where, text, 7)
             if not any(e):
                 raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
             return Frame((x, y, z), of_quaternion((e[3], *e[:3])))
         if pose.get("degrees", "false") in ("true", "1"):
             factor = 0.017453292519943295
-        x, y, z, *angles = numbers(where, text, 6)
+        x, y, z, *angles = decimals(where, text, 6)
         return Frame((x, y, z), of_rpy([factor * angle for angle in angles]))
 
     def _frame(self, name: str, where: str) -> str:
@@ -270,7 +270,7 @@ class _Reader(RobotReader):
             solids.append(Solid(solid.mass, pose.point(solid.centre), tensor).times(density))
         if not solids:
             raise InputError(f"{where}, inertial auto", "a link with collisions", "none")
-        whole = together(solids)
+        whole = sum_of_solids(solids)
         mass = inner_number(where, inertial, "mass", whole.mass)
         return whole.times(mass / whole.mass)
 
@@ -338,7 +338,7 @@ class _Reader(RobotReader):
         if not frame:
             return direction
         own = self._place(self._frame(prefix + frame, f"{where}, expressed_in"))
-        return turned(transposed(self._place(name).rotation), turned(own.rotation, direction))
+        return matrix_vector(transpose(self._place(name).rotation), matrix_vector(own.rotation, direction))
 
     def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[Follower]:
         mimic = element.find("axis/mimic")
@@ -360,16 +360,16 @@ class _Reader(RobotReader):
         for c in fixed:
             for end in (c.parent, c.child):
                 beside.setdefault(end, []).append(c)
-        held, seen = list[Connection](), set[str]()
+        held, names = list[Connection](), set[str]()
         for root in (GROUND, *self.links):
-            waiting = [] if root in seen else [root]
-            seen.add(root)
+            waiting = [] if root in names else [root]
+            names.add(root)
             while waiting:
                 link = waiting.pop()
                 for c in beside.get(link, ()):
                     other = c.child if c.parent == link else c.parent
-                    if other not in seen:
-                        seen.add(other)
+                    if other not in names:
+                        names.add(other)
                         waiting.append(other)
                         held.append(Connection(c.name, "fixed", link, other))
         return [*held, *(c for c in connections if c.kind != "fixed")]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Frame, about, scaled
+from symgen.describe.formats._frames import Frame, axis_rotation, scaled
 from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
@@ -20,7 +20,7 @@ from symgen.describe.formats._robot import (
     actuators_of,
     turned_inertia,
 )
-from symgen.describe.formats._xml import colour_of, number, origin_of, triple
+from symgen.describe.formats._xml import colour_of, decimal, frame_of_origin, triple
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -70,7 +70,7 @@ class _Reader(RobotReader):
 
     def frame(self, where: str, element: ET.Element) -> Frame:
         """Return the frame of an origin."""
-        return origin_of(f"{where}, {element.tag} origin", element.find("origin"))
+        return frame_of_origin(f"{where}, {element.tag} origin", element.find("origin"))
 
     def colour(self, where: str, look: ET.Element) -> str:
         """Return a colour of the look's own, or of a material of the file."""
@@ -116,14 +116,14 @@ class _Reader(RobotReader):
         where = f"{self.source}: link {quoted(name)}"
         link = Link(name)
         if (inertial := element.find("inertial")) is not None:
-            frame = origin_of(f"{where}, inertial origin", inertial.find("origin"))
+            frame = frame_of_origin(f"{where}, inertial origin", inertial.find("origin"))
             mass, inertia = inertial.find("mass"), inertial.find("inertia")
-            link.mass = 0.0 if mass is None else number(f"{where}, mass", mass.attrib, "value")
+            link.mass = 0.0 if mass is None else decimal(f"{where}, mass", mass.attrib, "value")
             if link.mass < 0.0:
                 raise InputError(f"{where}, mass", "a mass of 0 or above", repr(link.mass))
             link.centre = frame.origin
             if inertia is not None:
-                own = tensor(lambda key: number(f"{where}, inertia", inertia.attrib, key))
+                own = tensor(lambda key: decimal(f"{where}, inertia", inertia.attrib, key))
                 link.inertia = turned_inertia(own, frame.rotation)
         link.shapes = self.looks(where, element)
         return link
@@ -139,7 +139,7 @@ class _Reader(RobotReader):
         kind = _KINDS[sort]
         parent, child = (self._end(where, element.find(tag), tag, links) for tag in ("parent", "child"))
         connection = Connection(name, kind, parent, child)
-        connection.at = origin_of(f"{where}, origin", element.find("origin"))  # in the parent until places are known
+        connection.at = frame_of_origin(f"{where}, origin", element.find("origin"))  # in the parent so far
         if (axis := element.find("axis")) is not None:
             connection.axis = triple(f"{where}, axis", axis.get("xyz", "1 0 0"))
         else:
@@ -147,10 +147,10 @@ class _Reader(RobotReader):
         if kind in ("revolute", "translational", "planar") and not any(connection.axis):
             raise InputError(f"{where}, axis", "an axis other than 0 0 0", "0 0 0")
         if (dynamics := element.find("dynamics")) is not None:
-            connection.damping = number(f"{where}, dynamics", dynamics.attrib, "damping")
-            connection.friction = number(f"{where}, dynamics", dynamics.attrib, "friction")
+            connection.damping = decimal(f"{where}, dynamics", dynamics.attrib, "damping")
+            connection.friction = decimal(f"{where}, dynamics", dynamics.attrib, "friction")
         if (limit := element.find("limit")) is not None and sort in ("revolute", "prismatic"):
-            lower, upper = (number(f"{where}, limit", limit.attrib, key) for key in ("lower", "upper"))
+            lower, upper = (decimal(f"{where}, limit", limit.attrib, key) for key in ("lower", "upper"))
             if lower < upper:
                 connection.lower, connection.upper = lower, upper
                 connection.value = min(max(0.0, lower), upper)
@@ -181,7 +181,7 @@ class _Reader(RobotReader):
                 c.at = links[parent].place @ c.at
                 motion = Frame()
                 if c.kind == "revolute" and c.value:
-                    motion = Frame(rotation=about(c.axis, c.value))
+                    motion = Frame(rotation=axis_rotation(c.axis, c.value))
                 elif c.kind == "translational" and c.value:
                     size = sum(x * x for x in c.axis) ** 0.5
                     motion = Frame(scaled(c.value / size, c.axis))
@@ -202,7 +202,7 @@ class _Reader(RobotReader):
         leader = mimic.get("joint", "")
         if leader not in names:
             raise InputError(where, "the name of a joint", quoted(leader), nearest(leader, names))
-        polynomial = number(where, mimic.attrib, "offset"), number(where, mimic.attrib, "multiplier", 1.0)
+        polynomial = decimal(where, mimic.attrib, "offset"), decimal(where, mimic.attrib, "multiplier", 1.0)
         return Follower(f"{c.name}_mimic", c.name, leader, polynomial)
 
     # -- loops -------------------------------------------------------------------------------------------------------
@@ -233,7 +233,7 @@ class _Reader(RobotReader):
     @staticmethod
     def _loop_frame(where: str, end: ET.Element | None) -> Frame:
         origin = None if end is None else end.find("origin")
-        return origin_of(where, end if origin is None else origin)
+        return frame_of_origin(where, end if origin is None else origin)
 
     # -- the rest ----------------------------------------------------------------------------------------------------
 

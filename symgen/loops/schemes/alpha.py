@@ -64,19 +64,19 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     """
     sizes, t, h, probe = system.sizes, run.clock[abi.TIME], span.step, 1e-4 * span.step
     n, count, first = sizes.unknowns, sizes.nv + sizes.states, sizes.nq + sizes.nv
-    k, a0, begun = part(run.memory, 0, n), part(run.memory, n, count), part(run.memory, n + count, sizes.width)
+    k, a0, beginning = part(run.memory, 0, n), part(run.memory, n, count), part(run.memory, n + count, sizes.width)
     ahead = part(run.room, 0, sizes.width)
-    evaluate(system, run, t, run.y, begun)
+    evaluate(system, run, t, run.y, beginning)
     for i in range(sizes.width):
-        run.trial[i] = run.y[i] + probe * begun[i]
+        run.trial[i] = run.y[i] + probe * beginning[i]
     evaluate(system, run, t + probe, run.trial, ahead)
     for i in range(count):
         at = in_state(sizes, i)
-        a0[i] = begun[at] + (scheme.alpha_m - scheme.alpha_f) * h * (ahead[at] - begun[at]) / probe
-    evaluate(system, run, t, run.y, begun)
+        a0[i] = beginning[at] + (scheme.alpha_m - scheme.alpha_f) * h * (ahead[at] - beginning[at]) / probe
+    evaluate(system, run, t, run.y, beginning)
     run.control[abi.EVALUATIONS] += 3
     for i in range(count):
-        k[in_unknowns(sizes, i)] = begun[in_state(sizes, i)]
+        k[in_unknowns(sizes, i)] = beginning[in_state(sizes, i)]
     for c in range(sizes.m):
         k[first + c] = run.w[sizes.multipliers + c]
     if ADAPTIVE:
@@ -92,16 +92,17 @@ def move(system: Any, scheme: Any, run: Any, h: float, k: Any, a1: Any, change: 
     """
     sizes, count, n = system.sizes, system.sizes.nv + system.sizes.states, system.sizes.unknowns
     alpha_m, alpha_f, gamma, beta = scheme.alpha_m, scheme.alpha_f, scheme.gamma, scheme.beta
-    a0, begun = part(run.memory, n, count), part(run.memory, n + count, sizes.width)
+    a0, beginning = part(run.memory, n, count), part(run.memory, n + count, sizes.width)
     if ADAPTIVE:
         ratio, kept = h / run.memory[n + 2 * count + sizes.width], a0
         a0 = part(a1, count, count)
         for i in range(count):
             at = in_state(sizes, i)
-            a0[i] = begun[at] + ratio * (kept[i] - begun[at])
+            a0[i] = beginning[at] + ratio * (kept[i] - beginning[at])
     for i in range(count):
         at = in_state(sizes, i)
-        a1[i] = ((1.0 - alpha_f) * k[in_unknowns(sizes, i)] + alpha_f * begun[at] - alpha_m * a0[i]) / (1.0 - alpha_m)
+        rate = (1.0 - alpha_f) * k[in_unknowns(sizes, i)] + alpha_f * beginning[at]
+        a1[i] = (rate - alpha_m * a0[i]) / (1.0 - alpha_m)
         if i < sizes.nv:
             change[i] = h * run.y[at] + h * h * ((0.5 - beta) * a0[i] + beta * a1[i])
         run.trial[at] = run.y[at] + h * ((1.0 - gamma) * a0[i] + gamma * a1[i])
@@ -115,7 +116,7 @@ def attempt(
     """Solve for v1', the multipliers and z1' at the end of the step."""
     sizes = system.sizes
     nq, nv, n, count = sizes.nq, sizes.nv, sizes.unknowns, sizes.nv + sizes.states
-    size, first, begun = n - nq, nq + nv, part(run.memory, n + count, sizes.width)
+    size, first, beginning = n - nq, nq + nv, part(run.memory, n + count, sizes.width)
     k, right, change = part(run.room, 0, n), part(run.room, n, n), part(run.room, 2 * n, n)
     a1, factors = part(run.room, 3 * n, 2 * count), part(run.room, 3 * n + 2 * count, 4)
     rest = part(run.room, 3 * n + 2 * count + 4, sizes.ny - first)
@@ -172,7 +173,7 @@ def attempt(
             rest[i] = k[n - sizes.states + i - 1]
         else:
             rest[i] = run.w[sizes.auxiliary + (i - sizes.states if i > 0 else 0)]
-            run.trial[first + i] = run.y[first + i] + 0.5 * h * (begun[first + i] + rest[i])
+            run.trial[first + i] = run.y[first + i] + 0.5 * h * (beginning[first + i] + rest[i])
     if ADAPTIVE and not between:
         return alpha_step_error(system, scheme, span, run, following, h)
     return 0.0
@@ -248,7 +249,7 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
     nq, n, first, count = sizes.nq, sizes.unknowns, sizes.nq + sizes.nv, sizes.nv + sizes.states
     k, a1 = part(run.room, 0, n), part(run.room, 3 * n, count)
     rest = part(run.room, 3 * n + 2 * count + 4, sizes.ny - first)
-    a0, begun = part(run.memory, n, count), part(run.memory, n + count, sizes.width)
+    a0, beginning = part(run.memory, n, count), part(run.memory, n + count, sizes.width)
     for i in range(nq, n):
         run.memory[i] = k[i]
     if ADAPTIVE:
@@ -261,11 +262,11 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
             before[i] = turn[i]
         steps[0] = steps[1] = run.clock[abi.STEP]
     for i in range(sizes.nv):
-        begun[nq + i] = k[nq + i]
+        beginning[nq + i] = k[nq + i]
     for i in range(count):
         a0[i] = a1[i]
     for i in range(sizes.ny - first):
-        begun[first + i] = rest[i]
+        beginning[first + i] = rest[i]
 
 
 def memory(width: int, count: int, unknowns: int) -> tuple[int, int]:

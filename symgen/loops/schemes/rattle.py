@@ -48,7 +48,7 @@ def attempt(
     at = 3 * (nv + m)
     k, rest, held = part(run.room, at, n), part(run.room, at + n, n + m), part(run.room, at + 2 * n + m, width)
     at += 2 * n + m + width
-    moved, factors, begun = part(run.room, at, nv), part(run.room, at + nv, 2), part(run.room, at + nv + 2, width)
+    moved, factors, beginning = part(run.room, at, nv), part(run.room, at + nv, 2), part(run.room, at + nv + 2, width)
     copied(width, run.y, held)
     copied(width, run.y, run.trial)
     for i in range(n):
@@ -99,9 +99,9 @@ def attempt(
         fresh, last = size > 0.05 * last, size
     if not converged:
         return DIVERGED
-    auxiliary_rates(system, run, rest, part(begun, first, sizes.ny - first))
+    auxiliary_rates(system, run, rest, part(beginning, first, sizes.ny - first))
     for i in range(first, sizes.ny):
-        run.trial[i] = run.y[i] + h * begun[i]
+        run.trial[i] = run.y[i] + h * beginning[i]
     for i in range(nv):
         run.trial[nq + i] = run.y[nq + i] + 0.5 * h * x[i]
         moved[i] = h * run.trial[nq + i]
@@ -128,7 +128,7 @@ def attempt(
     ended = part(held, first, sizes.ny - first)
     auxiliary_rates(system, run, rest, ended)
     for i in range(first, sizes.ny):
-        run.trial[i] = run.y[i] + 0.5 * h * (begun[i] + ended[i - first])
+        run.trial[i] = run.y[i] + 0.5 * h * (beginning[i] + ended[i - first])
     for i in range(nv):
         run.trial[nq + i] += 0.5 * h * x[i]
     return 0.0

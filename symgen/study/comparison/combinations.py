@@ -150,8 +150,8 @@ def words_of_variant(settings: Settings, common: Settings) -> str:
 
 def _named(names: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
     """Return the selected names, each once; ``all`` selects every one."""
-    wanted = [name for g in names or default for name in (everything if g == ALL else (g,))]
-    return tuple(dict.fromkeys(wanted))
+    selection = [name for g in names or default for name in (everything if g == ALL else (g,))]
+    return tuple(dict.fromkeys(selection))
 
 
 def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:

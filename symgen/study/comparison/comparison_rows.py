@@ -17,7 +17,7 @@ from symgen.base.arguments import one_of, words
 from symgen.base.errors import InputError
 from symgen.base.files import check_writable, headed, write_csv
 from symgen.result.contract import json_value
-from symgen.result.labelled import html_table
+from symgen.result.labelled import notebook_table
 from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.equal_error import TimeAtError, front
@@ -362,7 +362,7 @@ class Study:
             )
             for row in self.rows
         ]
-        return html_table(headings, rows, most=60)
+        return notebook_table(headings, rows, most=60)
 
     @cached_property
     def front(self) -> frozenset[int]:

@@ -54,7 +54,7 @@ class TimeAtError:
     ratio_high: float | None = None
 
 
-def lines_of(rows: Sequence[Row]) -> dict[Line, list[int]]:
+def rows_by_line(rows: Sequence[Row]) -> dict[Line, list[int]]:
     """Return the indices of the rows of each line, the coarsest setting first."""
     lines: dict[Line, list[int]] = {}
     for i, row in enumerate(rows):
@@ -84,7 +84,7 @@ def times_at(rows: Sequence[Row], rounds: Rounds, errors: Sequence[float]) -> tu
     errors : sequence of float
         Errors [m].
     """
-    lines = lines_of(rows)
+    lines = rows_by_line(rows)
     table = []
     for error in errors:
         columns = {line: [_at(rows, own, seconds, error) for seconds in rounds] for line, own in lines.items()}

@@ -79,9 +79,9 @@ def _with_law(mechanism: Mechanism, law: str, values: Mapping[str, float]) -> tu
     return with_smooth_friction(without_friction(mechanism), smooth), [loss_of(each) for each in bounded]
 
 
-def _with_losses(mechanism: Mechanism, taken: Sequence[Expr]) -> Mechanism:
+def _with_losses(mechanism: Mechanism, losses: Sequence[Expr]) -> Mechanism:
     """Return a mechanism whose only output is the energy taken."""
-    return structs.replace(mechanism, outputs=(Output(LOSS, reduce(lambda a, b: call("add", a, b), taken), "J"),))
+    return structs.replace(mechanism, outputs=(Output(LOSS, reduce(lambda a, b: call("add", a, b), losses), "J"),))
 
 
 def rates_of_friction(mechanism: Mechanism, motion: Motion) -> Array:
@@ -120,13 +120,13 @@ class Contact:
 
 def contact_of(mechanism: Mechanism, outcome: Outcome) -> Contact | None:
     """Return these measures of a run of a comparison; None where its mechanism has no law and no stop."""
-    taken = next((output.value for output in mechanism.outputs if output.name == LOSS), None)
-    if taken is None:
+    loss = next((output.value for output in mechanism.outputs if output.name == LOSS), None)
+    if loss is None:
         return None
     names = list(_names_of_modes(outcome))
     impacts, dissipated = sum(name.endswith(f".{HIT}") for name in names), None
     if len(outcome.times):
-        side = compile_side(mechanism, outcome.compiled, "losses", "Energy lost", [(LOSS, taken)])
+        side = compile_side(mechanism, outcome.compiled, "losses", "Energy lost", [(LOSS, loss)])
         dissipated = float(outcome.observed(side.function, 1)[-1, 0])
     return Contact(len(names) - impacts, impacts, dissipated)
 

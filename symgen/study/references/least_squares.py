@@ -114,7 +114,7 @@ def _by_rotations(a: Any, b: Any, x: Any) -> None:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def shortest(a: Any, b: Any, x: Any) -> None:
+def minimum_norm(a: Any, b: Any, x: Any) -> None:
     """Set x to the minimum-norm least-squares solution of A x = b.
 
     Parameters

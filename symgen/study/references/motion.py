@@ -26,7 +26,7 @@ from symgen.base.errors import SimulationError
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
 from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
-from symgen.study.references.least_squares import compiled, shortest
+from symgen.study.references.least_squares import compiled, minimum_norm
 from symgen.study.references.reference import Reference
 from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps, in_parts, is_stiff, longest_of
 from symgen.study.references.sympy_formulas import ReferenceFormulas
@@ -182,7 +182,7 @@ def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) -> None:
             finite = finite and math.isfinite(missing[i])
         change = np.empty(n)
         if finite:
-            shortest(scaled, missing, change)
+            minimum_norm(scaled, missing, change)
         for j in range(n):
             free[j] += change[j] if finite else math.nan
     for j in range(n):
@@ -209,7 +209,7 @@ def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) 
             system[j, n + i] = system[n + i, j] = usual * d[i, j]
             finite = finite and math.isfinite(system[j, n + i])
     if finite:
-        shortest(system, right, solution)
+        minimum_norm(system, right, solution)
     for j in range(n):
         acceleration[j] = solution[j] if finite else math.nan
 

@@ -130,15 +130,15 @@ def reference(
     equations = IndependentEquations(mechanism, parameters)
     y = equations.project(0.0, equations.state(q, v))
     if closed is None:
-        found = _integrated(equations, y, times, "scipy-dop853" if solver == AUTO else solver)
+        reference = _integrated(equations, y, times, "scipy-dop853" if solver == AUTO else solver)
     else:
         how, estimated, motion, velocities = closed(mechanism, parameters, q, times)
-        found = Reference(how, estimated, times, motion, velocities)
-    states = [equations.state(*state) for state in zip(found.q, found.v, strict=True)]
+        reference = Reference(how, estimated, times, motion, velocities)
+    states = [equations.state(*state) for state in zip(reference.q, reference.v, strict=True)]
     lam = np.array([equations.multipliers(float(t), y) for t, y in zip(times, states, strict=True)])
     lam = lam.reshape(len(times), equations.m)
     by_name = {name: lam[:, i] for i, name in enumerate(equations.row_names)}
-    return replace(found, lam=by_name, undetermined=equations.undetermined(y))
+    return replace(reference, lam=by_name, undetermined=equations.undetermined(y))
 
 
 # -- any mechanism -----------------------------------------------------------------------------------------------------

@@ -315,8 +315,8 @@ def in_parts(
             y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
             states = np.tile(y, (len(own), 1))
         else:
-            wanted = own if len(own) and own[-1] == last else np.append(own, last)
-            states = integrate(first, y, wanted)
+            instants = own if len(own) and own[-1] == last else np.append(own, last)
+            states = integrate(first, y, instants)
             y = states[-1]
         motion[done:upto], done = states[: len(own)], upto
     return motion

@@ -120,12 +120,12 @@ def left_out(
     straight : bool
         Whether all pairs have straight code, but the one that chooses for itself.
     """
-    wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
-    wanted.sort(key=lambda pair: constant_integrator(pair[0]) != pair[1])
+    runs = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
+    runs.sort(key=lambda pair: constant_integrator(pair[0]) != pair[1])
     pairs_out, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
     for mechanism in mechanisms:
         each = straight_seconds(mechanism)
-        for method, integrator in wanted:
+        for method, integrator in runs:
             # explicit integrators share the code of a method
             code = mechanism.name, method, bool(EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))
             if code not in compiled and spent + each <= seconds:
