@@ -47,6 +47,36 @@ def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
             rates[i] = run.w[sizes.auxiliary + (i - sizes.states if i > 0 else 0)]
 
 
+def step_parts(sizes: Any, room: Any) -> Any:
+    """Return the working memory of a step in parts.
+
+    Parameters
+    ----------
+    sizes : Sizes
+        Sizes of the model.
+    room : Array
+        Working memory behind the trial state, see `memory`.
+
+    Returns
+    -------
+    right, x, factors : Array
+        Right side and solution of the linear system, what its factorisation counts.
+    k, rest : Array
+        Unknowns of the descriptor form and its residuals.
+    held, moved : Array
+        Another state, and a change of positions.
+    further : Array
+        Room of the scheme's own.
+    """
+    n, unknowns, width = sizes.nv + sizes.m, sizes.unknowns, sizes.width
+    right, x, factors = part(room, 0, n), part(room, n, n), part(room, 2 * n, 2)
+    at = 2 * n + 2
+    k, rest = part(room, at, unknowns), part(room, at + unknowns, unknowns + sizes.m)
+    at += 2 * unknowns + sizes.m
+    held, moved, end = part(room, at, width), part(room, at + width, sizes.nv), at + width + sizes.nv
+    return right, x, factors, k, rest, held, moved, part(room, end, room.shape[0] - end)
+
+
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
     """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
     n = nv + m

@@ -18,7 +18,7 @@ from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import copied
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import TOO_LARGE
-from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
+from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved, step_parts
 from symgen.loops.schemes.lie import exponential_rate
 
 
@@ -29,12 +29,9 @@ def attempt(
     """Try a step, stage by stage."""
     sizes, s_count = system.sizes, scheme.stages
     nq, nv, m, n, first, width = sizes.nq, sizes.nv, sizes.m, sizes.unknowns, sizes.nq + sizes.nv, sizes.width
-    factors, right, x = part(run.room, 0, 2), part(run.room, 2, nv + m), part(run.room, 2 + nv + m, nv + m)
-    at = 2 + 2 * (nv + m)
-    k, rest, held = part(run.room, at, n), part(run.room, at + n, n + m), part(run.room, at + 2 * n + m, width)
-    at += 2 * n + m + width
-    moved, turning = part(run.room, at, nv), part(run.room, at + nv, s_count * nv)
-    rates = part(run.room, at + (1 + s_count) * nv, s_count * width)  # of velocities and auxiliary states
+    right, x, factors, k, rest, held, moved, further = step_parts(sizes, run.room)
+    turning = part(further, 0, s_count * nv)
+    rates = part(further, s_count * nv, s_count * width)  # of velocities and auxiliary states
     copied(width, run.y, run.trial)
     for i in range(nv):
         moved[i] = 0.0

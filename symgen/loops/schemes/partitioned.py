@@ -19,7 +19,7 @@ from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import weigh
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import TOO_LARGE, evaluate
-from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
+from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved, step_parts
 from symgen.loops.schemes.explicit import prepare, renew
 from symgen.loops.schemes.lie import FOURTH, exponential_rate
 
@@ -46,11 +46,8 @@ def follow_stages(system: Any, scheme: Any, run: Any, t: float, following: float
     """Set the trial state to the end of a step; return whether its factors had room."""
     sizes, s_count = system.sizes, scheme.stages
     nq, nv, m, n, first, width = sizes.nq, sizes.nv, sizes.m, sizes.unknowns, sizes.nq + sizes.nv, sizes.width
-    factors, right, x = part(run.room, 0, 2), part(run.room, 2, nv + m), part(run.room, 2 + nv + m, nv + m)
-    at = 2 + 2 * (nv + m)
-    k, rest, held = part(run.room, at, n), part(run.room, at + n, n + m), part(run.room, at + 2 * n + m, width)
-    at += 2 * n + m + width
-    moved, turning = part(run.room, at, nv), part(run.room, at + nv, (s_count + 1) * nv)
+    right, x, factors, k, rest, held, moved, further = step_parts(sizes, run.room)
+    turning = part(further, 0, (s_count + 1) * nv)
     run.control[abi.KNOWN] = 0
     for i in range(n):
         k[i] = 0.0

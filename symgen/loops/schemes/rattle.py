@@ -25,7 +25,7 @@ from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import copied
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import DIVERGED, TOO_LARGE
-from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved
+from symgen.loops.schemes.constrained import auxiliary_rates, carry_slopes, factorised, slopes_at, solved, step_parts
 
 _MOST_ITERATIONS = 50
 
@@ -44,11 +44,8 @@ def attempt(
     """Solve for the multipliers of both halves of a step."""
     sizes = system.sizes
     nq, nv, m, n, first, width = sizes.nq, sizes.nv, sizes.m, sizes.unknowns, sizes.nq + sizes.nv, sizes.width
-    x, right, change = part(run.room, 0, nv + m), part(run.room, nv + m, nv + m), part(run.room, 2 * (nv + m), nv + m)
-    at = 3 * (nv + m)
-    k, rest, held = part(run.room, at, n), part(run.room, at + n, n + m), part(run.room, at + 2 * n + m, width)
-    at += 2 * n + m + width
-    moved, factors, beginning = part(run.room, at, nv), part(run.room, at + nv, 2), part(run.room, at + nv + 2, width)
+    right, x, factors, k, rest, held, moved, further = step_parts(sizes, run.room)
+    change, beginning = part(further, 0, nv + m), part(further, nv + m, width)
     copied(width, run.y, held)
     copied(width, run.y, run.trial)
     for i in range(n):
