@@ -28,7 +28,8 @@ from symgen.describe.digest import digest
 from symgen.drawing.traced import traced_points
 from symgen.report import words
 from symgen.report.document import Picture
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row
+from symgen.study.comparison.comparison_study import Study
 from symgen.study.machine_class import machine_class, versions
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"

@@ -170,7 +170,7 @@ _LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "om
 
 def show_study(study: Study) -> None:
     """Print the rows of a study."""
-    from symgen.study.comparison.comparison_rows import BEYOND, FRONT, ONE_RUN
+    from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN
 
     out = console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"

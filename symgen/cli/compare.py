@@ -126,7 +126,7 @@ def command(
     from symgen.cli._progress import Lines
     from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare import compare_all, save_csv
-    from symgen.study.comparison.comparison_rows import check_columns_of_rows, plot_rows
+    from symgen.study.comparison.comparison_study import check_columns_of_rows, plot_rows
     from symgen.study.journal import Journal
 
     what, along = quantities or ("error",), over or "run_seconds"

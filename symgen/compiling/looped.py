@@ -29,7 +29,7 @@ from symgen.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
 from symgen.lower.looped.shape import LoopedShape
 from symgen.lower.looped.tables import Builder, IndexTables
-from symgen.lower.record import record_form
+from symgen.lower.record_form import record_form
 from symgen.store.entries import Entries, Modules, folder_name
 from symgen.store.modules import load_module
 from symgen.vocabulary.infos import LawInfo

@@ -23,7 +23,8 @@ from symgen.ir.program import (
 from symgen.lower.factor import FactorNodes
 from symgen.lower.hoist import Hoister
 from symgen.lower.plans import closing_plan
-from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_form, record_law
+from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
+from symgen.lower.record_form import record_form
 from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method

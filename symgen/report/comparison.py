@@ -10,7 +10,8 @@ from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.figures import pictures
 from symgen.report.picture import sketched
 from symgen.report.source import beside_the_source
-from symgen.study.comparison.comparison_rows import BEYOND, FRONT, ONE_RUN, YARDSTICK, Row, Study
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row
+from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN, Study
 from symgen.study.machine_class import machine_class, version_list
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}

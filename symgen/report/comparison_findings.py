@@ -8,7 +8,8 @@ from statistics import median
 
 from symgen.report import words
 from symgen.result.result import FAILED, OK, UNVERIFIED
-from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Study, Trace
+from symgen.study.comparison.comparison_rows import YARDSTICK, Row, Trace
+from symgen.study.comparison.comparison_study import Study
 
 #: The integrator and the step of the source, used to compare methods that were run with them.
 USUAL = "rk4"

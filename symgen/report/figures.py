@@ -11,7 +11,8 @@ from symgen.report import words
 from symgen.report.comparison_findings import line_number, methods, representatives, settings_text
 from symgen.report.document import Picture, anchor
 from symgen.report.picture import COLOURS, DASHES, GREY, below, drawn, line_style
-from symgen.study.comparison.comparison_rows import Row, Study
+from symgen.study.comparison.comparison_rows import Row
+from symgen.study.comparison.comparison_study import Study
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,7 +8,8 @@ from symgen.report import words
 from symgen.report.comparison_findings import USUAL, line_number
 from symgen.report.document import DocumentTable, Picture, Section
 from symgen.report.picture import GREY, below, drawn, line_style
-from symgen.study.comparison.comparison_rows import Row, Study
+from symgen.study.comparison.comparison_rows import Row
+from symgen.study.comparison.comparison_study import Study
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -19,7 +19,7 @@ from symgen.base.files import Content, check_path, templates_folder, why, write_
 from symgen.report.document import Document, DocumentTable, Picture, Section, TableCell
 from symgen.report.paper import browser, print_pdf
 from symgen.report.plain_pdf import plain_pdf
-from symgen.study.comparison.comparison_rows import Study
+from symgen.study.comparison.comparison_study import Study
 from symgen.study.saving import REPORTS
 
 if TYPE_CHECKING:

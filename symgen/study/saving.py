@@ -11,7 +11,7 @@ from symgen.base.arguments import path as argument_path
 from symgen.base.errors import InputError
 
 if TYPE_CHECKING:
-    from symgen.study.comparison.comparison_rows import Study
+    from symgen.study.comparison.comparison_study import Study
     from symgen.study.stress.stress_rows import Stress
 
 #: Endings of reports.

@@ -14,7 +14,8 @@ from rich.console import Console
 from symgen.api import load
 from symgen.cli import COMMANDS, _tables, group, main
 from symgen.cli import list as list_command
-from symgen.study.comparison.comparison_rows import Row, Study
+from symgen.study.comparison.comparison_rows import Row
+from symgen.study.comparison.comparison_study import Study
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from support.convergence import MOTIONS, compared, orders, redundant
 from support.textbook import Textbook, first_step
 
 from symgen.api import load
-from symgen.lower.record import record_form
+from symgen.lower.record_form import record_form
 from symgen.methods import METHODS
 from symgen.methods._formula import needed
 

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from symgen.study.comparison.comparison_rows import Row, Study, Trace, with_ratios
+from symgen.study.comparison.comparison_rows import Row, Trace, with_ratios
+from symgen.study.comparison.comparison_study import Study
 from symgen.study.stress.stress_rows import StressRow
 
 

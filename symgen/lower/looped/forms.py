@@ -1,9 +1,9 @@
 """Contribution of an element to a method's descriptor form: kernels of its residual and of its Jacobian.
 
-``F(t, y, k) = 0`` of a mechanism (`symgen.lower.record.record_form`) is a sum over its elements. A body gives ``q' - N
-v`` and ``M v' - f``; a force gives ``-f``; a joint gives ``D^T lambda`` to its bodies, ``N D^T eta`` where the form is
-stabilised, and its own rows at the level of the method. So kernels depend on the element's kind and on the formula for
-that kind, and methods with the same formula share them.
+``F(t, y, k) = 0`` of a mechanism (`symgen.lower.record_form.record_form`) is a sum over its elements. A body gives
+``q' - N v`` and ``M v' - f``; a force gives ``-f``; a joint gives ``D^T lambda`` to its bodies, ``N D^T eta`` where the
+form is stabilised, and its own rows at the level of the method. So kernels depend on the element's kind and on the
+formula for that kind, and methods with the same formula share them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ import msgspec
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, ElementProgram, Target
-from symgen.lower.record import BEHIND, EQUATIONS, record_form
+from symgen.lower.record import BEHIND, EQUATIONS
+from symgen.lower.record_form import record_form
 from symgen.lower.scalar import ScalarNodes
 from symgen.methods._formula import needed
 

@@ -11,7 +11,8 @@ from symgen.ir.program import LawCode
 from symgen.lower.looped.law_loops import KINDS, Loops
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.statements import LoopedFunction
-from symgen.lower.record import RecordedLaw, record_form, record_law
+from symgen.lower.record import RecordedLaw, record_law
+from symgen.lower.record_form import record_form
 from symgen.methods._base import Method
 from symgen.methods._formula import needed
 from symgen.vocabulary.infos import LawInfo

@@ -23,7 +23,8 @@ from symgen.running.plan import refuse_events
 from symgen.running.prepare import preparation
 from symgen.store.paths import cache_location
 from symgen.study.comparison.combinations import Combinations
-from symgen.study.comparison.comparison_rows import Row, Study, Trace, save_csv
+from symgen.study.comparison.comparison_rows import Row, Trace
+from symgen.study.comparison.comparison_study import Study, save_csv
 from symgen.study.comparison.gradients import check_parameters
 from symgen.study.comparison.laws import mechanisms_of_laws
 from symgen.study.comparison.model_comparison import PATIENCE, PREPARATION, REPEAT, ModelComparison, compute

@@ -20,7 +20,8 @@ from symgen.running.plan import Plan, Purpose
 from symgen.running.prepare import Assembled, Preparation, Prepared, prepare
 from symgen.runs.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
-from symgen.study.comparison.comparison_rows import Study, check_entry, from_entry, to_entry, with_ratios
+from symgen.study.comparison.comparison_rows import check_entry, from_entry, to_entry, with_ratios
+from symgen.study.comparison.comparison_study import Study
 from symgen.study.comparison.distances import Distances, exact_rates, exact_reactions
 from symgen.study.comparison.equal_error import ROUNDS, times_at
 from symgen.study.comparison.gradients import FACTORS, Gradients, slopes_of, width_of
