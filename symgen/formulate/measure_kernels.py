@@ -156,9 +156,9 @@ _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
 
 
 def _by_velocities(bias: Any, frames: Frames) -> Any:
-    """Return a sum of products with those of equal velocities together, whose factors are entries of other rows.
+    """Return a sum of products, factored by velocities: what multiplies them are entries of other rows.
 
-    Others, and those of space, stay as they are: their common parts are symbols already.
+    In space it stays as it is: common parts are symbols already.
     """
     if any(isinstance(each, SpatialFrame) for each in frames) or not bias.is_polynomial():
         return bias
