@@ -12,6 +12,7 @@ import pytest
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.cli import main
+from symgen.compiling.closing import free_velocities
 from symgen.describe.formats import Import, format_of, read_robot
 from symgen.describe.formats._frames import Frame, axis_rotation, of_quaternion, of_rpy, quaternion, times
 from symgen.describe.load import load
@@ -216,7 +217,9 @@ def test_what_mujoco_advises_its_authors_is_no_warning(tmp_path: Path) -> None:
     assert imported(tmp_path, MJCF.replace("<compiler", '<compiler settotalmass="3"'), "old.xml").raw["bodies"]
 
 
-def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(tmp_path: Path) -> None:
+def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     text = """<mujoco model="slider"><compiler angle="radian"/><option timestep="{h}" integrator="RK4" tolerance="1e-14"
     iterations="200"><flag contact="disable"/></option><default><equality solref="1e-3 1" solimp="{d} {d} 0.001"/>
     <joint solreflimit="1e-3 1" solimplimit="{d} {d} 0.001" solreffriction="1e-3 1" solimpfriction="{d} {d} 0.001"/>
@@ -231,6 +234,10 @@ def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(tmp_path: Pat
     path.write_text(text.format(h=1e-4, d=0.9), encoding="utf-8")
     run = model_of(read_robot(path, "mjcf", stops=True)).simulate(until=0.3, rtol=1e-10, atol=1e-11)
     assert run.status == "ok" and run.events  # the limit is met
+    monkeypatch.setattr("symgen.compiling.closing.DEPENDENT", -1.0)  # the loop is closed by a row that is left out
+    model = model_of(read_robot(path, "mjcf", stops=True))
+    closed = model.simulate(until=0.3, rtol=1e-10, atol=1e-11)
+    assert free_velocities(model.mechanism) and abs(closed["slide.x"][-1] - run["slide.x"][-1]) < 1e-9
     violations, apart = [], []
     for h, d in ((1e-4, 0.9), (5e-5, 0.99), (2.5e-5, 0.9999)):
         model = mujoco.MjModel.from_xml_string(text.format(h=h, d=d))
