@@ -20,7 +20,7 @@ from functools import cache, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.page_tables import KEPT, PageTable, list_of, number, print_tables, step_size
+from benchmarks.page_tables import KEPT, ROUNDING, PageTable, list_of, number, print_tables, step_size
 from symgen.api import Model, load
 from symgen.describe import MechanismBuilder
 from symgen.integrators import INTEGRATORS
@@ -229,7 +229,8 @@ def projection() -> PageTable:
 
     def cells(order: int, step: float) -> Iterator[str]:
         taken, lost = energy_taken(step, 10.0, order)
-        yield from map(number, (taken, lost, taken / abs(lost)))
+        yield from (number(abs(taken)), number(lost))
+        yield "rounding" if abs(taken) < ROUNDING else number(taken / abs(lost))
 
     cases = ((4, 1e-2), (4, 5e-3), (2, 5e-3), (2, 2e-3))
     rows = tuple(((str(order), step_size(step)), partial(list_of, cells, order, step)) for order, step in cases)
