@@ -563,10 +563,10 @@ def observe(t, y, p, w, ydot, out):
     s66 = s40*s61 - s9*s63 - s45*s62
     s67 = s4*s26
     s68 = s3*s26
-    s69 = s18*s29 - s17*s28 + s18*s32 - s17*s31 - s64 + s41*s58 - (s8*s52 + s38*s57) + s14*s38 - s8*s51
+    s69 = s18*s32 - s17*s31 - s64 + s18*s29 - s17*s28 + s41*s58 - (s8*s52 + s38*s57) + s14*s38 - s8*s51
     s70 = s7*s39
-    s71 = -9.81 + s19*s28 + s21*s29 + s4*s5 + s19*s31 + s21*s32 + s67 - s65 - (-9.81 + s7*s52 + s39*s57 + s42*s58) + s14*s39 - s7*s51
-    s72 = s3*s5 - (s20*s28 + s22*s29) + s68 - (s20*s31 + s22*s32) - s66 + s45*s58 - (s40*s57 - s9*s52) + s14*s40 + s9*s51
+    s71 = -9.81 + s19*s28 + s21*s29 + s4*s5 + s14*s39 - (-9.81 + s7*s52 + s39*s57 + s42*s58) - s7*s51
+    s72 = s68 - (s20*s31 + s22*s32) - s66 + s68 + s3*s5 - (s20*s28 + s22*s29) + s45*s58 - (s40*s57 - s9*s52) + s14*s40 + s9*s51
     s73 = s49*(s47 - s48) - s59
     s74 = v3*s17
     s75 = v3*s19 + s4*s23
@@ -605,13 +605,14 @@ def observe(t, y, p, w, ydot, out):
     s108 = (s42*s56 - s39*s55 + s70 - s70)*ydot_5 + (s4 + s20)*ydot_6 - (s7 + s7*s35)*ydot_7 - s21*ydot_8
     s109 = (s7*s40 - (s40*s55 + s45*s56) + s9*s39)*ydot_5 + (s3 + s19)*ydot_6 + (s9 + s9*s35)*ydot_7 + s22*ydot_8
     s110 = (s39*s93 - s42*s94)*ydot_5 - s17*s95*ydot_6 + (s35*s93 + s34*s94)*ydot_7 + (s89 - s88 + s90)*ydot_8
-    s111 = s100 - s76*(2.0*(s9*s46 + s40*s50)) + s14*s96 + s51*s80 + s25*s98 + (s7*s96 + s39*s80)*ydot_5 - s17*s98*ydot_6 + s35*s80*ydot_7 + s99*ydot_8 + s96*ydot_9
+    s111 = s110 - (s92 + s76*(2.0*(s40*s49 - s45*s46)) - (s51*s93 + (s15*s35 - v4*s46)*s94 + s25*s95))
+    s112 = s100 - s76*(2.0*(s9*s46 + s40*s50)) + s14*s96 + s51*s80 + s25*s98 + (s7*s96 + s39*s80)*ydot_5 - s17*s98*ydot_6 + s35*s80*ydot_7 + s99*ydot_8 + s96*ydot_9
     # outputs
     out[0] = s69 + s107  # P3.x
-    out[1] = s67 + s71 + s108 + s39*ydot_9  # P3.y
-    out[2] = s68 + s72 + s109 + s40*ydot_9  # P3.z
-    out[3] = s51*s93 - (s92 + s76*(2.0*(s40*s49 - s45*s46))) + (s15*s35 - v4*s46)*s94 + s25*s95 + s110  # P3.first
-    out[4] = s111  # P3.second
+    out[1] = s19*s31 + s21*s32 + s67 - s65 + s67 + s71 + s108 + s39*ydot_9  # P3.y
+    out[2] = s72 + s109 + s40*ydot_9  # P3.z
+    out[3] = s111  # P3.first
+    out[4] = s112  # P3.second
     out[5] = q0  # P0.angle
     out[6] = v0  # rate of P0.angle
     out[7] = q2  # P1.angle

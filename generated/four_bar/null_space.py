@@ -168,7 +168,7 @@ def expand(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def aim(t, y, p, w):
-    """The section `residual` = -gamma, the section `force` = f: 21 operations, 48 before sharing."""
+    """The section `residual` = -gamma, the section `force` = f: 23 operations, 48 before sharing."""
     # inputs
     q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
@@ -183,12 +183,12 @@ def aim(t, y, p, w):
     s0 = v2*v2
     s1 = math.cos(q2)*s0
     s2 = math.sin(q2)*s0
-    s3 = 4.0*(v5*v5)
-    s4 = math.cos(q5)*s3
-    s5 = math.sin(q5)*s3
-    s6 = 2.5*(v8*v8)
-    s7 = math.cos(q8)*s6
-    s8 = math.sin(q8)*s6
+    s3 = v5*v5
+    s4 = 4.0*math.cos(q5)*s3
+    s5 = 4.0*math.sin(q5)*s3
+    s6 = v8*v8
+    s7 = 2.5*math.cos(q8)*s6
+    s8 = 2.5*math.sin(q8)*s6
     # outputs
     w[RESIDUAL] = s1  # A.x
     w[RESIDUAL + 1] = s2  # A.y

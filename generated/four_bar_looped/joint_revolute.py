@@ -46,7 +46,7 @@ def geometry(t, y, p, w, T, at, out):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def motion(t, y, p, w, T, at, out):
-    """Nu, D and gamma: 7 operations an instance."""
+    """Nu, D and gamma: 6 operations an instance."""
     here = np.uint32(at + 1)
     jacobian = np.int64(T[JACOBIAN])
     records = np.int64(T[RECORDS])
@@ -60,20 +60,22 @@ def motion(t, y, p, w, T, at, out):
         r0_6 = w[f0 + 6]
         r0_7 = w[f0 + 7]
         k2 = p[c2]
-        s0 = k2*(r0_5*r0_5)
+        s0 = r0_6*k2
+        s1 = r0_7*k2
+        s2 = r0_5*r0_5
         w[jacobian + entry + 0] = 1.0
-        w[jacobian + entry + 2] = -r0_7*k2
+        w[jacobian + entry + 2] = -s1
         w[jacobian + entry + 4] = 1.0
-        w[jacobian + entry + 5] = r0_6*k2
-        w[gamma + row + 0] = r0_6*s0
-        w[gamma + row + 1] = r0_7*s0
+        w[jacobian + entry + 5] = s0
+        w[gamma + row + 0] = s0*s2
+        w[gamma + row + 1] = s1*s2
         here = np.uint32(here + 8)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def full(t, y, p, w, T, at, out):
-    """Phi, nu, D and gamma: 11 operations an instance."""
+    """Phi, nu, D and gamma: 10 operations an instance."""
     here = np.uint32(at + 1)
     jacobian = np.int64(T[JACOBIAN])
     records = np.int64(T[RECORDS])
@@ -96,15 +98,15 @@ def full(t, y, p, w, T, at, out):
         k2 = p[c2]
         s0 = r0_6*k2
         s1 = r0_7*k2
-        s2 = k2*(r0_5*r0_5)
+        s2 = r0_5*r0_5
         w[phi + row + 0] = r0_0 - k0 + s0
         w[phi + row + 1] = r0_1 - k1 + s1
         w[jacobian + entry + 0] = 1.0
         w[jacobian + entry + 2] = -s1
         w[jacobian + entry + 4] = 1.0
         w[jacobian + entry + 5] = s0
-        w[gamma + row + 0] = r0_6*s2
-        w[gamma + row + 1] = r0_7*s2
+        w[gamma + row + 0] = s0*s2
+        w[gamma + row + 1] = s1*s2
         here = np.uint32(here + 8)
     return 0
 

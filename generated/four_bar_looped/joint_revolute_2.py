@@ -55,7 +55,7 @@ def geometry(t, y, p, w, T, at, out):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def motion(t, y, p, w, T, at, out):
-    """Nu, D and gamma: 16 operations an instance."""
+    """Nu, D and gamma: 14 operations an instance."""
     here = np.uint32(at + 1)
     jacobian = np.int64(T[JACOBIAN])
     records = np.int64(T[RECORDS])
@@ -75,25 +75,29 @@ def motion(t, y, p, w, T, at, out):
         r1_7 = w[f1 + 7]
         k0 = p[c0]
         k1 = p[c1]
-        s0 = k0*(r0_5*r0_5)
-        s1 = k1*(r1_5*r1_5)
+        s0 = r1_6*k1
+        s1 = r0_6*k0
+        s2 = r1_7*k1
+        s3 = r0_7*k0
+        s4 = r0_5*r0_5
+        s5 = r1_5*r1_5
         w[jacobian + entry + 0] = -1.0
-        w[jacobian + entry + 2] = r0_7*k0
+        w[jacobian + entry + 2] = s3
         w[jacobian + entry + 3] = 1.0
-        w[jacobian + entry + 5] = -r1_7*k1
+        w[jacobian + entry + 5] = -s2
         w[jacobian + entry + 7] = -1.0
-        w[jacobian + entry + 8] = -r0_6*k0
+        w[jacobian + entry + 8] = -s1
         w[jacobian + entry + 10] = 1.0
-        w[jacobian + entry + 11] = r1_6*k1
-        w[gamma + row + 0] = r1_6*s1 - r0_6*s0
-        w[gamma + row + 1] = r1_7*s1 - r0_7*s0
+        w[jacobian + entry + 11] = s0
+        w[gamma + row + 0] = s0*s5 - s1*s4
+        w[gamma + row + 1] = s2*s5 - s3*s4
         here = np.uint32(here + 8)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def full(t, y, p, w, T, at, out):
-    """Phi, nu, D and gamma: 22 operations an instance."""
+    """Phi, nu, D and gamma: 20 operations an instance."""
     here = np.uint32(at + 1)
     jacobian = np.int64(T[JACOBIAN])
     records = np.int64(T[RECORDS])
@@ -122,8 +126,8 @@ def full(t, y, p, w, T, at, out):
         s1 = r0_6*k0
         s2 = r1_7*k1
         s3 = r0_7*k0
-        s4 = k0*(r0_5*r0_5)
-        s5 = k1*(r1_5*r1_5)
+        s4 = r0_5*r0_5
+        s5 = r1_5*r1_5
         w[phi + row + 0] = r1_0 - r0_0 + s0 - s1
         w[phi + row + 1] = r1_1 - r0_1 + s2 - s3
         w[jacobian + entry + 0] = -1.0
@@ -134,8 +138,8 @@ def full(t, y, p, w, T, at, out):
         w[jacobian + entry + 8] = -s1
         w[jacobian + entry + 10] = 1.0
         w[jacobian + entry + 11] = s0
-        w[gamma + row + 0] = r1_6*s5 - r0_6*s4
-        w[gamma + row + 1] = r1_7*s5 - r0_7*s4
+        w[gamma + row + 0] = s0*s5 - s1*s4
+        w[gamma + row + 1] = s2*s5 - s3*s4
         here = np.uint32(here + 8)
     return 0
 
