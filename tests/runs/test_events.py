@@ -655,7 +655,8 @@ def test_many_events_are_kept():
     result = ball(often={"when": "sin(400*t)"}).simulate(method="lagrange", integrator="rk4", step=1e-3, until=5.0)
     found = times_of(result, "often")
     expected = np.arange(1, math.floor(2000 / math.pi) + 1) * math.pi / 400
-    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-14)
+    # the resolution of time, 4e-16 |t|, widens by 8 where rounding of g hides the root
+    np.testing.assert_allclose(found, expected, rtol=64 * np.finfo(float).eps, atol=1e-14)
 
 
 def test_both_shapes_find_the_same_events():
