@@ -22,7 +22,7 @@ from benchmarks.page_tables import (
     place,
     written,
 )
-from benchmarks.records import NAMES, Pair, record_of, shortened
+from benchmarks.records import NAMES, Pair, Record, record_of, shortened
 
 #: Tables that are measured, and those that follow from records.
 MEASURED = [table for table in TABLES if not table.stored]
@@ -169,6 +169,19 @@ def test_drawn_lines_of_a_record_are_measured_again(name):
 )
 def test_numbers_of_records_compare_by_kind(pair, agree):
     assert pair.agree is agree
+
+
+@pytest.mark.parametrize(("others", "named"), [(0, 0), (5, 0), (6, 6), (100, 100)])
+def test_a_record_may_have_few_numbers_that_rounding_decides(others, named, tmp_path, monkeypatch):
+    monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
+    (tmp_path / "drawn.jsonl").write_text("".join(f'{{"number": {i}, "error": 1e-4}}\n' for i in range(1000)))
+    measured = iter([3e-4] * others + [1e-4] * (100 - others))
+
+    def again(stored, dice):
+        yield Pair(f"line {stored['number']}", stored["error"], next(measured))
+
+    record = Record("drawn", lambda: (), lambda job: {}, again, patience=1.0)
+    assert len(list(record.differences(seed=1))) == named
 
 
 def test_stored_numbers_have_three_digits_and_are_finite():
