@@ -10,6 +10,7 @@ import pytest
 
 import symgen
 from symgen import Settings
+from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
 from symgen.methods import METHODS
 from symgen.result.sensitivities import prepared
@@ -84,32 +85,66 @@ def moved(run, changes, steps):
         exact(module.prepare)(p)
     exact(model.masses)(p, w)
     rhs, accept = exact(law.rhs), exact(law.accept)
-    rows = [slice(*scheme.start[s : s + 2]) for s in range(int(scheme.stages) + 1)]
     w[abi.STEP_STATUS] = h
     accept(mp.mpf(0), y, p, w, iw)
+
+    def rate_at(t, at):
+        rate = [mp.mpf(0)] * len(y)
+        if rhs(t, at, p, w, iw, rate) != 0:
+            exact(law.confirm)(t, at, p, w, iw, rate)
+        return rate
+
+    step = adams_step(rate_at, y) if run.plan.integrator.name == "abm4" else tableau_step(rate_at, scheme)
     for n in range(steps):
-        rates = []
-
-        def there(s, rates=rates):
-            own = list(y)
-            for j, a in zip(scheme.column[rows[s]].tolist(), scheme.value[rows[s]].tolist(), strict=True):
-                own = [x + h * a * k for x, k in zip(own, rates[j], strict=True)]
-            return own
-
-        for s in range(int(scheme.stages)):
-            rate, t = [mp.mpf(0)] * len(y), n * h + mp.mpf(float(scheme.nodes[s])) * h
-            at = there(s)
-            if rhs(t, at, p, w, iw, rate) != 0:
-                exact(law.confirm)(t, at, p, w, iw, rate)
-            rates.append(rate)
-        y[:] = there(int(scheme.stages))
+        y[:] = step(n * h, h, y)
         assert not accept((n + 1) * h, y, p, w, iw) & 1
     return y
 
 
+def ahead(y, h, weights, rates):
+    """Return a state moved by weighed rates."""
+    return [x + h * sum(a * k for a, k in zip(weights, each, strict=True)) for x, *each in zip(y, *rates, strict=True)]
+
+
+def tableau_step(rate_at, scheme):
+    """Return the step of an explicit Runge-Kutta scheme."""
+    count = int(scheme.stages)
+    rows = [slice(*scheme.start[s : s + 2]) for s in range(count + 1)]
+
+    def there(s, y, h, rates):
+        columns = scheme.column[rows[s]].tolist()
+        return ahead(y, h, scheme.value[rows[s]].tolist(), [rates[j] for j in columns]) if columns else list(y)
+
+    def step(t, h, y):
+        rates = list[list]()
+        for s in range(count):
+            rates.append(rate_at(t + mp.mpf(float(scheme.nodes[s])) * h, there(s, y, h, rates)))
+        return there(count, y, h, rates)
+
+    return step
+
+
+def adams_step(rate_at, y):
+    """Return the step of Adams, Bashforth and Moulton of order 4, begun by three of Runge and Kutta."""
+    past, third, sixth = [rate_at(mp.mpf(0), list(y))], mp.mpf(1) / 3, mp.mpf(1) / 6
+
+    def step(t, h, y):
+        if t > 0:
+            past.insert(0, rate_at(t, list(y)))  # at the accepted state
+        if len(past) < 4:
+            rates = [past[0]]
+            for part in (mp.mpf(0.5), mp.mpf(0.5), mp.mpf(1)):
+                rates.append(rate_at(t + part * h, ahead(y, h, [part], rates[-1:])))
+            return ahead(y, h, [sixth, third, third, sixth], rates)
+        predicted = ahead(y, h / 24, [55, -59, 37, -9], past[:4])
+        return ahead(y, h / 24, [9, 19, -5, 1], [rate_at(t + h, predicted), *past[:3]])
+
+    return step
+
+
 def largest_difference(method, integrator, steps):
     """Return how far sensitivities are from differences in 45 digits, over the largest."""
-    adaptive = {} if integrator == "rk4" else {"integrator.adaptive": "false"}
+    adaptive = {} if integrator in ("rk4", "abm4") else {"integrator.adaptive": "false"}
     settings = Settings(
         method=method,
         integrator=integrator,
@@ -141,12 +176,18 @@ def test_derivatives_are_those_of_the_run_that_was_made(method):
     assert largest_difference(method, "rk4", 10) < 1e-11
 
 
-ODE = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name, "method").forms)]
+PAIRS = [
+    (method, integrator)
+    for integrator in ("rk4", "dop853", "abm4")
+    for method in METHODS.names
+    if {"ode", "one-step"}
+    & set(METHODS.get(method, "method").forms)
+    & set(INTEGRATORS.get(integrator, "integrator").forms)
+]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("integrator", ["rk4", "dop853"])
-@pytest.mark.parametrize("method", ODE)
+@pytest.mark.parametrize(("method", "integrator"), PAIRS)
 def test_every_method(method, integrator):
     # penalties multiply the rounding of what they hold back
     bound = 1e-7 if "penalty" in method else 1e-11

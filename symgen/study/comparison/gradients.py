@@ -35,10 +35,10 @@ def check_parameters(mechanism: Mechanism, names: Sequence[str]) -> None:
     InputError
         Says which.
     """
-    known = [p.name for p in mechanism.parameters if not p.input]
+    parameters = [p.name for p in mechanism.parameters if not p.input]
     for name in names:
-        if name not in known:
-            raise InputError("gradient", f"parameters of {mechanism.name}", quoted(name), nearest(name, known))
+        if name not in parameters:
+            raise InputError("gradient", f"parameters of {mechanism.name}", quoted(name), nearest(name, parameters))
     if names:
         refuse_bounds("gradient", mechanism)
 
