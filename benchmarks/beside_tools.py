@@ -71,11 +71,11 @@ def front(runs: Iterable[Row]) -> list[Run]:
 def examine(job: Job) -> dict[str, Any]:
     """Return the version of a tool, and its front."""
     if job.tool == OWN:
-        found = list(rows(models.load(job.mechanism)))
+        runs = list(rows(models.load(job.mechanism)))
     else:
         with tempfile.TemporaryDirectory() as folder:
-            found = peers([job.mechanism], interpreter(), Path(folder) / "rows.json", job.tool)
-    return {"version": found[0]["version"] if found else "", "runs": front(found)}
+            runs = peers([job.mechanism], interpreter(), Path(folder) / "rows.json", job.tool)
+    return {"version": runs[0]["version"] if runs else "", "runs": front(runs)}
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
@@ -83,9 +83,9 @@ def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
     resolved = [Run(*run) for run in stored.get("runs", ()) if run[2] > RESOLVED]
     for run in dice.sample(resolved, min(2, len(resolved))) if stored["tool"] == OWN else ():
         # settings begin alike: 1e-08 and 1e-085 do not occur
-        found = [row for row in rows(models.load(stored["mechanism"]), run.setting) if row["setting"] == run.setting]
+        repeats = [row for row in rows(models.load(stored["mechanism"]), run.setting) if row["setting"] == run.setting]
         within = 4.0 if "picard" in run.setting else 1.1
-        yield Pair(f"{stored['mechanism']}, {run.setting}", run.error, found[0]["error"], within)
+        yield Pair(f"{stored['mechanism']}, {run.setting}", run.error, repeats[0]["error"], within)
 
 
 def runs_of(mechanism: str, tool: str) -> list[Run] | None:
@@ -120,15 +120,15 @@ def claims() -> Iterator[str]:
     """Yield README's sentence on small errors."""
     name, error = FINE
     chosen = ((OWN, "picard"), (OWN, "dop853"), (HEYOKA, ""))
-    found = [fastest(name, tool, error, text) for tool, text in chosen]
-    a, b, c = ("" if run is None else f"{1e3 * run.seconds:.3f} ms" for run in found)
+    best = [fastest(name, tool, error, text) for tool, text in chosen]
+    a, b, c = ("" if run is None else f"{1e3 * run.seconds:.3f} ms" for run in best)
     if a and b and c:
         yield f"needs {a} for a four-bar, `dop853` {b} and heyoka {c}."
 
 
 def tables() -> tuple[PageTable, ...]:
     """Return the tables of both pages."""
-    made = []
+    page_tables = list[PageTable]()
     for page, tools, settings, names in (
         ("README.md", SHORT, False, MECHANISMS[1:]),
         ("benchmarks/README.md", TOOLS, True, MECHANISMS),
@@ -136,8 +136,8 @@ def tables() -> tuple[PageTable, ...]:
         lines = tuple(((f"`{name}`",), partial(list_of, cells, tools, settings, name)) for name in names)
         headings = ("mechanism", *tools.values())
         sentences = claims if page == "README.md" else tuple
-        made.append(PageTable("beside_tools", page, headings, lines, stored=True, claims=sentences))
-    return tuple(made)
+        page_tables.append(PageTable("beside_tools", page, headings, lines, stored=True, claims=sentences))
+    return tuple(page_tables)
 
 
 def jobs() -> Iterator[Job]:

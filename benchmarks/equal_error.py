@@ -112,8 +112,8 @@ def claims() -> Iterator[str]:
     """Yield what the page says of the ratios."""
 
     def span(method: str, *integrators: str) -> tuple[str, str, str]:
-        found = [x for i in integrators for x in ratios(method, i)]
-        low, middle, high = min(found), statistics.median(found), max(found)
+        values = [x for i in integrators for x in ratios(method, i)]
+        low, middle, high = min(values), statistics.median(values), max(values)
         return f"{low:.2f} to {high:.2f}", f"{middle:.2f}", f"{high:.0f}"
 
     velocity, direct = "velocity-projection", "direct-correction"
@@ -163,8 +163,8 @@ def studies() -> dict[Job, Mapping[str, Any]]:
 
 def ratios(method: str, integrator: str) -> list[float]:
     """Return the ratios of a method with an integrator in the second session."""
-    found = (at[method] for job, at in studies().items() if (job.integrator, job.session) == (integrator, 2))
-    return [cell[1] for both in found for cell in both if cell[1]]
+    cells = (at[method] for job, at in studies().items() if (job.integrator, job.session) == (integrator, 2))
+    return [cell[1] for both in cells for cell in both if cell[1]]
 
 
 def jobs() -> Iterator[Job]:

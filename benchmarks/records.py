@@ -173,8 +173,8 @@ def measure(
 
 def record_of(name: str) -> Record:
     """Return the record of a module."""
-    found: Record = importlib.import_module(f"benchmarks.{name}").RECORD
-    return found
+    record: Record = importlib.import_module(f"benchmarks.{name}").RECORD
+    return record
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -185,8 +185,8 @@ def predictable(line: Line) -> bool:
 
 def pairs_of(lines: Iterable[Line], integrator: str, method: str) -> list[tuple[Measured, Measured]]:
     """Return `lagrange` and a method on the same predictable mechanisms."""
-    found = (line["runs"].get(integrator, {}) for line in lines if predictable(line))
-    return [(Measured(*runs["lagrange"]), Measured(*runs[method])) for runs in found if method in runs]
+    own = (line["runs"].get(integrator, {}) for line in lines if predictable(line))
+    return [(Measured(*runs["lagrange"]), Measured(*runs[method])) for runs in own if method in runs]
 
 
 def quantiles(values: Sequence[float]) -> tuple[str, ...]:

@@ -55,9 +55,9 @@ class Job(NamedTuple):
 
 def jobs() -> Iterator[Job]:
     """Yield all families on all models, those of the table by method first."""
-    found = [Job(model, family) for model in MODELS for family in FAMILIES if family not in OWN_FAMILIES]
-    found += [Job(OWN, family) for family in OWN_FAMILIES]
-    return iter(sorted(found, key=lambda job: (job.family not in CASES, job.model not in (OWN, "four-bar"))))
+    every = [Job(model, family) for model in MODELS for family in FAMILIES if family not in OWN_FAMILIES]
+    every += [Job(OWN, family) for family in OWN_FAMILIES]
+    return iter(sorted(every, key=lambda job: (job.family not in CASES, job.model not in (OWN, "four-bar"))))
 
 
 def examine(job: Job, methods: Sequence[str] = ()) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
@@ -14,7 +15,7 @@ from symgen.describe.formats._xml import decimals, read_tree, triple
 from symgen.describe.mesh_files import MeshFiles
 
 
-class RobotReader:
+class RobotReader(ABC):
     """A file of links with looks and joints; URDF has its numbers in attributes, SDF in elements.
 
     Parameters
@@ -33,17 +34,17 @@ class RobotReader:
         self.source, self.folder, self.meshes = path.name, path.parent, MeshFiles(path.parent)
         self.tree, self.left_out = read_tree(path, self.ROOT), list[LeftOut]()
 
+    @abstractmethod
     def text(self, element: ET.Element, key: str) -> str:
         """Return the text of a key of an element; empty without it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def frame(self, where: str, element: ET.Element) -> Frame:
         """Return the place of an element in what holds it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def colour(self, where: str, look: ET.Element) -> str:
         """Return the colour of a look as ``#rrggbb``; empty without one."""
-        raise NotImplementedError
 
     # -- links -------------------------------------------------------------------------------------------------------
 
