@@ -4,14 +4,17 @@
     python -m benchmarks.records beside_tools --anew       measures it, on a quiet machine (`make peers`)
 
 Each tool runs a mechanism with all of its settings (`benchmarks.against_peers`, `benchmarks.peers`). The record has the
-runs of each tool that no other run of the same tool beats in both error and time. The interpreter of the other tools is
+runs of each tool that no other run of the same tool beats in both error and time, and the numbers in a vector of the
+processor that symgen compiles for: its own, or one with AVX2. The interpreter of the other tools is
 ``.bench-venv/bin/python``, or what BENCH_PYTHON names.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import random
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -24,12 +27,22 @@ from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
 from benchmarks.peers import models
 from benchmarks.peers.measure import Row
 from benchmarks.records import Line, Pair, Record
+from symgen.native.machine import vector_width
 
 MECHANISMS = ("four-bar-peers", "four-bar", "andrews", "n-four-bar:10")
-OWN, HEYOKA = "symgen", "heyoka"
-TOOLS = {OWN: "symgen", "casadi": "CasADi with gcc", HEYOKA: "heyoka", "exudyn": "Exudyn", "mujoco": "MuJoCo"}
+OWN, NARROW, HEYOKA = "symgen", "symgen-avx2", "heyoka"
+#: A processor with vectors of four numbers.
+AVX2 = "haswell"
+TOOLS = {
+    OWN: "symgen",
+    NARROW: "symgen, AVX2",
+    "casadi": "CasADi with gcc",
+    HEYOKA: "heyoka",
+    "exudyn": "Exudyn",
+    "mujoco": "MuJoCo",
+}
 #: Tools of README's table, whose readers ask for a simulator or an interpreter's code.
-SHORT = {name: label for name, label in TOOLS.items() if name != HEYOKA}
+SHORT = {name: label for name, label in TOOLS.items() if name not in (NARROW, HEYOKA)}
 #: Mechanism and error [rad] of README's sentence.
 FINE = ("four-bar-peers", 1e-9)
 #: Errors [rad] below are those of references.
@@ -68,14 +81,28 @@ def front(runs: Iterable[Row]) -> list[Run]:
     return best
 
 
+def narrow(mechanism: str, folder: Path) -> list[Row]:
+    """Return symgen's runs on a processor with vectors of four numbers."""
+    none, target = folder / "none.json", folder / "rows.json"
+    none.write_text("[]", encoding="utf-8")
+    command = ["-m", "benchmarks.against_peers", "--model", mechanism, "--peers-json", str(none), "--json", str(target)]
+    processor = os.environ | {"NUMBA_CPU_NAME": AVX2, "NUMBA_CPU_FEATURES": ""}
+    subprocess.run([sys.executable, *command], cwd=ROOT, env=processor, check=True, stdout=subprocess.DEVNULL)
+    measured: list[Row] = json.loads(target.read_text(encoding="utf-8"))
+    return measured
+
+
 def examine(job: Job) -> dict[str, Any]:
-    """Return the version of a tool, and its front."""
-    if job.tool == OWN:
-        runs = list(rows(models.load(job.mechanism)))
-    else:
-        with tempfile.TemporaryDirectory() as folder:
+    """Return the version of a tool, the numbers in a vector of the processor where symgen has them, and its front."""
+    width = {OWN: {"width": vector_width()}, NARROW: {"width": 4}}.get(job.tool, {})
+    with tempfile.TemporaryDirectory() as folder:
+        if job.tool == OWN:
+            runs = list(rows(models.load(job.mechanism)))
+        elif job.tool == NARROW:
+            runs = narrow(job.mechanism, Path(folder))
+        else:
             runs = peers([job.mechanism], interpreter(), Path(folder) / "rows.json", job.tool)
-    return {"version": runs[0]["version"] if runs else "", "runs": front(runs)}
+    return {"version": runs[0]["version"] if runs else "", **width, "runs": front(runs)}
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
