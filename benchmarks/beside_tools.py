@@ -43,6 +43,8 @@ TOOLS = {
 }
 #: Tools of README's table, whose readers ask for a simulator or an interpreter's code.
 SHORT = {name: label for name, label in TOOLS.items() if name not in (NARROW, HEYOKA)}
+#: The method that closes joints to rounding.
+CLOSED = "direct-correction"
 #: Mechanism and error [rad] of README's sentence.
 FINE = ("four-bar-peers", 1e-9)
 #: Errors [rad] below are those of references.
@@ -93,16 +95,17 @@ def narrow(mechanism: str, folder: Path) -> list[Row]:
 
 
 def examine(job: Job) -> dict[str, Any]:
-    """Return the version of a tool, the numbers in a vector of the processor where symgen has them, and its front."""
-    width = {OWN: {"width": vector_width()}, NARROW: {"width": 4}}.get(job.tool, {})
+    """Return the version of a tool and its front; for symgen, numbers in a vector and the front with closed joints."""
+    own = dict[str, Any]()
     with tempfile.TemporaryDirectory() as folder:
         if job.tool == OWN:
             runs = list(rows(models.load(job.mechanism)))
+            own = {"width": vector_width(), "closed": front(run for run in runs if CLOSED in run["setting"])}
         elif job.tool == NARROW:
             runs = narrow(job.mechanism, Path(folder))
         else:
             runs = peers([job.mechanism], interpreter(), Path(folder) / "rows.json", job.tool)
-    return {"version": runs[0]["version"] if runs else "", **width, "runs": front(runs)}
+    return {"version": runs[0]["version"] if runs else "", **own, "runs": front(runs)}
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
@@ -115,16 +118,16 @@ def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
         yield Pair(f"{stored['mechanism']}, {run.setting}", run.error, repeats[0]["error"], within)
 
 
-def runs_of(mechanism: str, tool: str) -> list[Run] | None:
+def runs_of(mechanism: str, tool: str, key: str = "runs") -> list[Run] | None:
     """Return the front of a tool, None if it was not measured."""
     lines = (line for line in RECORD.lines() if (line["mechanism"], line["tool"]) == (mechanism, tool))
     line = next(lines, {})
-    return [Run(*run) for run in line["runs"]] if "runs" in line else None
+    return [Run(*run) for run in line[key]] if key in line else None
 
 
-def fastest(mechanism: str, tool: str, error: float = TARGET, text: str = "") -> Run | None:
-    """Return the fastest run within an error whose setting contains a text."""
-    good = (run for run in runs_of(mechanism, tool) or () if run.error <= error and text in run.setting)
+def fastest(mechanism: str, tool: str, error: float = TARGET, text: str = "", key: str = "runs") -> Run | None:
+    """Return the fastest run of a front within an error whose setting contains a text."""
+    good = (run for run in runs_of(mechanism, tool, key) or () if run.error <= error and text in run.setting)
     return next(good, None)
 
 
@@ -153,6 +156,16 @@ def claims() -> Iterator[str]:
         yield f"needs {a} for a four-bar, `dop853` {b} and heyoka {c}."
 
 
+def closed_claims() -> Iterator[str]:
+    """Yield the sentences of benchmarks/README.md: widths of vectors, and symgen's times with closed joints."""
+    widths = {line["width"] for line in RECORD.lines() if line["tool"] == OWN and "width" in line}
+    closed = [fastest(name, OWN, key="closed") for name in MECHANISMS]
+    if len(widths) == 1 and all(closed):
+        yield f"symgen's vectors have {widths.pop()} numbers, with AVX2 4"
+        times = [f"{1e3 * run.seconds:.3g}" for run in closed if run is not None]
+        yield f"With `{CLOSED}`, joints closed to rounding, symgen takes {', '.join(times[:-1])} and {times[-1]} ms"
+
+
 def tables() -> tuple[PageTable, ...]:
     """Return the tables of both pages."""
     page_tables = list[PageTable]()
@@ -162,7 +175,7 @@ def tables() -> tuple[PageTable, ...]:
     ):
         lines = tuple(((f"`{name}`",), partial(list_of, cells, tools, settings, name)) for name in names)
         headings = ("mechanism", *tools.values())
-        sentences = claims if page == "README.md" else tuple
+        sentences = claims if page == "README.md" else closed_claims
         page_tables.append(PageTable("beside_tools", page, headings, lines, stored=True, claims=sentences))
     return tuple(page_tables)
 

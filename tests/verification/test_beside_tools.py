@@ -4,7 +4,7 @@ import json
 from random import Random
 
 from benchmarks import beside_tools
-from benchmarks.beside_tools import KEPT, claims, fastest, front, tables
+from benchmarks.beside_tools import KEPT, MECHANISMS, claims, closed_claims, fastest, front, tables
 
 
 def row(setting, seconds, error):
@@ -20,6 +20,7 @@ def test_cells_are_least_times_within_the_error_and_what_was_not_measured_stays(
     monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
     short, long = tables()
     assert all(set(row[1:]) == {KEPT} for row in short.measured()) and not list(claims())
+    assert not list(closed_claims())
     runs = {
         ("four-bar", "symgen"): [
             ("joint lagrange, dop853 1e-07", 2e-4, 5e-7),
@@ -39,3 +40,14 @@ def test_cells_are_least_times_within_the_error_and_what_was_not_measured_stays(
     monkeypatch.setattr(beside_tools, "rows", lambda model, only: iter([row(only, 1.0, 7e-10)]))
     stored = {"mechanism": "four-bar", "tool": "symgen", "runs": [("dop853", 1.0, 1.2e-9)]}
     assert [pair.agree for pair in beside_tools.again(stored, Random(1))] == [False]
+
+
+def test_sentences_have_widths_and_times_with_closed_joints(tmp_path, monkeypatch):
+    monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
+    runs = [["direct-correction, dop853 1e-06", 1e-4, 2e-6], ["direct-correction, dop853 1e-07", 2.5e-4, 2e-7]]
+    lines = [{"mechanism": name, "tool": "symgen", "width": 8, "closed": runs, "runs": runs} for name in MECHANISMS]
+    (tmp_path / "beside_tools.jsonl").write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
+    assert list(closed_claims()) == [
+        "symgen's vectors have 8 numbers, with AVX2 4",
+        "With `direct-correction`, joints closed to rounding, symgen takes 0.25, 0.25, 0.25 and 0.25 ms",
+    ]
