@@ -131,6 +131,11 @@ def fastest(mechanism: str, tool: str, error: float = TARGET, text: str = "", ke
     return next(good, None)
 
 
+def two_digits(ratio: float) -> str:
+    """Return a ratio to two digits, without an exponent."""
+    return f"{float(f'{ratio:.1e}'):.15g}"
+
+
 def cells(tools: Iterable[str], settings: bool, mechanism: str) -> Iterator[str]:
     """Yield milliseconds of each tool within the error, with the multiple of symgen's and the setting."""
     own = fastest(mechanism, OWN)
@@ -141,7 +146,7 @@ def cells(tools: Iterable[str], settings: bool, mechanism: str) -> Iterator[str]
         elif run is None:
             yield "not reached"
         else:
-            multiple = "" if tool == OWN else f"{run.seconds / own.seconds:.2g}"
+            multiple = "" if tool == OWN else two_digits(run.seconds / own.seconds)
             notes = [x for x in (multiple, f"`{run.setting}`" if settings else "") if x]
             yield f"{1e3 * run.seconds:.3g} ms" + (f" ({'; '.join(notes)})" if notes else "")
 
@@ -149,11 +154,10 @@ def cells(tools: Iterable[str], settings: bool, mechanism: str) -> Iterator[str]
 def claims() -> Iterator[str]:
     """Yield README's sentence on small errors."""
     name, error = FINE
-    chosen = ((OWN, "picard"), (OWN, "dop853"), (HEYOKA, ""))
-    best = [fastest(name, tool, error, text) for tool, text in chosen]
-    a, b, c = ("" if run is None else f"{1e3 * run.seconds:.3f} ms" for run in best)
-    if a and b and c:
-        yield f"needs {a} for a four-bar, `dop853` {b} and heyoka {c}."
+    best = [fastest(name, tool, error) for tool in (OWN, HEYOKA)]
+    own, taylor = (None if run is None else f"{1e3 * run.seconds:.3f} ms" for run in best)
+    if own and taylor:
+        yield f"needs {own} for a four-bar, heyoka {taylor}."
 
 
 def closed_claims() -> Iterator[str]:
