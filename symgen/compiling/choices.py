@@ -246,20 +246,9 @@ def _free(topology: Topology) -> int:
 
 
 def operations(mechanism: Mechanism) -> int:
-    """Return the operations of the right-hand side of `lagrange`, after sharing."""
+    """Return the operations of the right-hand side of `lagrange`, after sharing, without those on parameters alone."""
     from symgen.formulate.formulate import formulate
-    from symgen.lower.law import part_outputs
-    from symgen.lower.plans import cheapest_plan
-    from symgen.lower.record import record_law
-    from symgen.lower.scalar import ScalarNodes
-    from symgen.methods import METHODS
+    from symgen.lower.plans import cheapest_plan, cost
 
-    method = METHODS.get("lagrange", "")
     equations = formulate(mechanism)
-    plan = cheapest_plan(equations)
-    record = record_law(method, method.complete_options({}), equations.driving is not None).resolved(plan.schur)
-    names = [p.name for p in method.parameters]
-    scalars = ScalarNodes(equations, record.operations, names, plan=plan)
-    scalars.compute(record.ends)
-    nodes = [node for part in record.parts if part.role == "acceleration" for _, node in part_outputs(scalars, part)]
-    return scalars.graph.operations(nodes)
+    return cost(equations, cheapest_plan(equations, closing=False))[0]

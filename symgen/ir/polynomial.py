@@ -126,6 +126,7 @@ class NormalForms:
         powers = dict(a)
         for node, power in b:
             powers[node] = powers.get(node, 0) + power
+        self._cancel(powers)
         done: list[tuple[Monomial, int]] = []
         waiting = [(powers, 1)]
         while waiting:
@@ -140,6 +141,17 @@ class NormalForms:
             cosine = self.graph.call("cos", self.graph.nodes[sine].args[0])
             waiting += [(rest | {cosine: rest.get(cosine, 0) + 2}, -sign), (rest, sign)]
         return done
+
+    def _cancel(self, powers: dict[int, int]) -> None:
+        """Take numbers and their reciprocals out of a product in pairs."""
+        for node in list(powers):
+            op, args, _ = self.graph.nodes[node]
+            if op == "div" and args[0] == self.graph.one and args[1] in powers:
+                pairs = min(powers[node], powers[args[1]])
+                for x in (node, args[1]):
+                    powers[x] -= pairs
+                    if not powers[x]:
+                        del powers[x]
 
     # -- to nodes ------------------------------------------------------------------------------------------------------
 
@@ -157,16 +169,23 @@ class NormalForms:
             items = sorted(terms.items())
             sign = items[0][1]
             factors.setdefault(tuple((m, s * sign) for m, s in items), []).append((sign, size, others))
-        total = g.zero
+        products = list[tuple[int, int]]()
         for turned, multiples in factors.items():
             inner = self._signed_sum((sign, self._power_product(m)) for m, sign in turned)
-            outer = self._signed_sum((sign, g.mul(size, self._power_product(m))) for sign, size, m in multiples)
-            total = g.add(total, g.mul(outer, inner))
-        return total
+            if len(multiples) == 1:  # coefficient and sines first, which may be multiplied by other velocities, too
+                ((sign, size, others),) = multiples
+                if len(factors) == 1:  # a difference that depends on no state takes the sign
+                    sign, size = 1, size if sign > 0 else g.neg(size)
+                products.append((sign, g.mul(g.mul(size, inner), self._power_product(others))))
+            else:
+                outer = self._signed_sum((sign, g.mul(size, self._power_product(m))) for sign, size, m in multiples)
+                products.append((1, g.mul(outer, inner)))
+        return self._signed_sum(products)
 
     def _signed_sum(self, terms: Iterable[tuple[int, int]]) -> int:
+        """Return the sum of nodes with signs, positive ones first, so that it needs no sign of its own."""
         g, total = self.graph, self.graph.zero
-        for sign, node in terms:
+        for sign, node in sorted(terms, key=lambda term: -term[0]):
             total = g.add(total, node) if sign > 0 else g.sub(total, node)
         return total
 

@@ -79,6 +79,7 @@ class SaddleMatrix:
         simpler: Callable[[int], int] | None = None,
     ) -> None:
         self.graph, self.nv, self.simpler = graph, nv, simpler or (lambda node: node)
+        self.normal = simpler is not None
         self.entries: list[dict[int, int]] = [{} for _ in range(nv + len(rows))]
         for (i, j), node in mass.items():
             self._set(i, j, self.simpler(node))
@@ -147,7 +148,7 @@ class SaddleMatrix:
         """
         g, k, (a, b) = self.graph, self.entries, (self.nv + r for r in block.rows)
         one, two = ([k[r].get(c, g.zero) for r in (a, b)] for c in block.columns)
-        determinant = g.sub(g.mul(one[0], two[1]), g.mul(two[0], one[1]))
+        determinant, _ = self._adjugate([[x, y] for x, y in zip(one, two, strict=True)])
         self.fix(block)
         self.loops.append(self.fixed.pop())
         simpler = NormalForms(g).simpler  # columns of hinges in the plane have constant lengths
@@ -164,10 +165,17 @@ class SaddleMatrix:
         g = self.graph
         if len(matrix) == 1:
             return [[g.div(g.one, matrix[0][0])]]
-        (a, b), (c, d) = matrix
-        reciprocal = g.div(g.one, g.sub(g.mul(a, d), g.mul(b, c)))
-        inverse = ((d, g.neg(b)), (g.neg(c), a))
-        return [[g.mul(reciprocal, x) for x in line] for line in inverse]
+        determinant, adjugate = self._adjugate(matrix)
+        reciprocal = g.div(g.one, determinant)
+        return [[g.mul(reciprocal, x) for x in line] for line in adjugate]
+
+    def _adjugate(self, matrix: list[list[int]]) -> tuple[int, list[list[int]]]:
+        """Return determinant and adjugate, both with the sign that leaves fewer signs beside normal forms."""
+        g, ((a, b), (c, d)) = self.graph, matrix
+        determinant, entries = g.sub(g.mul(a, d), g.mul(b, c)), [[d, g.neg(b)], [g.neg(c), a]]
+        if self.normal and sum(g.nodes[x].op == "neg" for line in entries for x in line) > 2:
+            return g.neg(determinant), [[g.neg(x) for x in line] for line in entries]
+        return determinant, entries
 
     def eliminate_rest(self, reciprocal: Callable[[int, int, int], int]) -> None:
         """Eliminate the unknowns left over: velocities, then rows, each in an order of low fill.

@@ -10,24 +10,22 @@ from symgen.ir.graph import PARAMETER
 from symgen.ir.program import EliminationPlan
 from symgen.lower.blocks import fixed_velocities
 from symgen.lower.closing import closed_loops
-from symgen.lower.record import Part, RecordedLaw
+from symgen.lower.record import record_multipliers
 from symgen.lower.scalar import ScalarNodes
-from symgen.methods._base import multiplier_law
-from symgen.methods._formula import System
 
 
 def cheapest_plan(equations: Equations, closing: bool = True) -> EliminationPlan:
-    """Return the plan with the fewest operations of accelerations, multipliers and flags of suspicious pivots.
+    """Return the plan whose right-hand side has the fewest operations.
 
     Equal numbers are decided by the longest chain of operations. Loops in closed form are left out unless `closing`.
     """
     if not equations.m:
         return EliminationPlan()
-    costs = {plan: _cost(equations, plan) for plan in _plans(equations) if closing or not plan.loops}
+    costs = {plan: cost(equations, plan) for plan in _plans(equations) if closing or not plan.loops}
     best = min(costs, key=costs.__getitem__)
     normal = replace(best, normal=True)
     # Euler parameters have no sines whose squares meet
-    return best if best.schur or equations.spins or _cost(equations, normal) >= costs[best] else normal
+    return best if best.schur or equations.spins or cost(equations, normal) >= costs[best] else normal
 
 
 def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int]) -> EliminationPlan:
@@ -51,7 +49,7 @@ def closing_plan(equations: Equations, plan: EliminationPlan, free: Sequence[int
     orders = dict.fromkeys((loops, loops[::-1]))  # from free velocities on, and towards them
     normal = (False,) if equations.spins else (False, True)
     plans = [plan, *(EliminationPlan(plan.fixed, False, n, order) for order in orders if order for n in normal)]
-    return min(plans, key=lambda each: _cost(equations, each)) if len(plans) > 1 else plan
+    return min(plans, key=lambda each: cost(equations, each)) if len(plans) > 1 else plan
 
 
 def _plans(equations: Equations) -> Iterator[EliminationPlan]:
@@ -65,20 +63,16 @@ def _plans(equations: Equations) -> Iterator[EliminationPlan]:
             yield EliminationPlan(fixed, schur=False, loops=loops)
 
 
-def _cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
-    system = System()
-    law = multiplier_law(system, system.gamma)
-    outputs = ("rates.v", law.acceleration.index), ("multipliers", law.multipliers.index)
-    part = Part("rhs", "", outputs, system.flag().index)
-    record = RecordedLaw(tuple(system.tape.operations), (part,))
+def cost(equations: Equations, plan: EliminationPlan) -> tuple[int, int]:
+    """Return the operations of a right-hand side, and the longest chain of them: none on parameters alone."""
+    record = record_multipliers(equations.driving is not None)
     record = record.resolved(plan.schur, frozenset(("constrained",) if equations.drags else ()))
     scalars = ScalarNodes(equations, record.operations, plan=plan)
     scalars = scalars.with_closed_loops(record.operations, plan) if plan.loops else scalars
     scalars.compute(record.ends)
-    accelerations, multipliers, flag = (scalars.values[i] for i in record.ends)
-    g, nodes = scalars.graph, [*accelerations, *multipliers, *(() if flag is None else (flag,))]
-    depth: dict[int, int] = {}
-    counted = 0
+    values = [scalars.values[i] for i in record.ends]
+    nodes = [n for value in values for n in (value if isinstance(value, tuple) else (value,)) if n is not None]
+    g, depth, counted = scalars.graph, dict[int, int](), 0
     for node in g.needed(nodes, lambda node: g.depends[node] == PARAMETER):
         op, args, _ = g.nodes[node]
         if op in ("const", "input") or g.depends[node] == PARAMETER:

@@ -129,6 +129,13 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
     return recording.record()
 
 
+def record_multipliers(driven: bool) -> RecordedLaw:
+    """Record a right-hand side of multipliers without a correction: what plans of elimination are compared by."""
+    recording = _Law(driven)
+    recording.law(multiplier_law(recording.system, recording.system.gamma))
+    return recording.record()
+
+
 class _Law:
     def __init__(self, driven: bool = False) -> None:
         self.driven = driven

@@ -27,6 +27,39 @@ def test_terms_that_cancel_vanish():
     assert NormalForms(g).simpler(node) == g.zero
 
 
+def test_a_number_and_its_reciprocal_cancel():
+    """A spring's force k (l - l0) along a direction d / l, with l by sines."""
+    g = Graph()
+    s, k, l0 = g.call("sin", g.input("q", 0)), g.input("p", 0), g.input("p", 1)
+    length = g.call("sqrt", g.add(g.one, s))
+    inverse = g.div(g.one, length)
+    node = g.mul(s, g.mul(inverse, g.mul(k, g.sub(length, l0))))
+    assert NormalForms(g).simpler(g.mul(length, g.mul(s, inverse))) == s
+    assert of_state(g, NormalForms(g).simpler(node)) == of_state(g, node) - 1
+    (value,) = node_values(g, [NormalForms(g).simpler(node)], {("q", 0): 0.5, ("p", 0): 3.0, ("p", 1): 0.7})
+    assert value == pytest.approx(math.sin(0.5) * 3.0 * (1.0 - 0.7 / math.sqrt(1.0 + math.sin(0.5))), rel=1e-15)
+
+
+def test_forces_of_two_velocities_share_coefficient_and_sines():
+    """Each is p v^2 sin(a - b): a difference of two products, times p, and two products more for each velocity."""
+    g, forms = Graph(), []
+    (s, c), (t, d) = ((g.call("sin", g.input("q", i)), g.call("cos", g.input("q", i))) for i in range(2))
+    for i in range(2):
+        square = g.mul(g.input("v", i), g.input("v", i))
+        force = g.sub(g.mul(g.mul(square, s), d), g.mul(g.mul(square, c), t))
+        forms.append(NormalForms(g).simpler(g.mul(g.input("p", 0), force)))
+    kinds = [g.nodes[n].op for n in g.needed(forms)]
+    assert kinds.count("mul") == 2 + 1 + 2 * 2 and kinds.count("sub") == 1
+
+
+def test_positive_terms_stand_first():
+    g = Graph()
+    s, c, v = g.call("sin", g.input("q", 0)), g.call("cos", g.input("q", 0)), g.input("v", 0)
+    node = g.add(g.neg(g.mul(s, v)), g.mul(c, g.add(g.mul(v, v), g.sub(s, s))))
+    result = NormalForms(g).simpler(node)
+    assert "neg" not in {g.nodes[n].op for n in g.needed([result])}
+
+
 def test_differences_of_positions_stay_whole():
     """A gap of 1e-9 between two coordinates of 1, times 1e9, keeps its digits."""
     g = Graph()
