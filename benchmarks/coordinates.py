@@ -5,7 +5,7 @@
 Operations are those of the emitted right-hand side of `lagrange`, and of the tangent of its descriptor form. Run times
 are of `direct-correction`: with `rk4` at the mechanism's own step, runs in both coordinates in turns, medians of their
 ratios; and with `dop853` to the error asked for: errors at a row of tolerances in both coordinates in turns, with the
-shortest times of all turns, and the straight line through the logarithms of those that are within 30 times of it.
+shortest processor times of all turns, and the straight line through the logarithms of those within 30 times of it.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def at_equal_error(model: Model, exact: np.ndarray, points: Points) -> tuple[flo
                 if result.status == "failed" or len(result.t) != len(exact):
                     continue
                 error = float(points.distances(np.asarray(result.q), exact).max())
-                shortest = min(result.seconds.run, curve.get(rtol, [0.0, np.inf])[1])
+                shortest = min(result.outcome.cpu_seconds, curve.get(rtol, [0.0, np.inf])[1])
                 curve[rtol] = [error, shortest]
     absolute, joint = (crossing(np.array([curves[c][tol] for tol in sorted(curves[c])])) for c in COORDINATES)
     return absolute, joint

@@ -7,8 +7,8 @@
     python -m benchmarks.picard figure ROWS FILE     error against run time, from rows of `benchmarks.against_peers`
 
 References are motions in extended precision (`benchmarks.extended`). Errors are those of q at the end of a run, the
-largest; a time is the least of several runs, and that at an error follows from a quadratic through logarithms of the
-runs with 21 tolerances.
+largest; a time is the least processor time of several runs, and that at an error follows from a quadratic through
+logarithms of the runs with 21 tolerances.
 """
 
 from __future__ import annotations
@@ -52,9 +52,9 @@ def prepared(mechanism: Any, integrator: str, until: float, **more: Any) -> Prep
 
 
 def best_of(run: Prepared, repeats: int = REPEATS) -> tuple[Outcome, float]:
-    """Return the last of several runs, and the shortest time [s]."""
+    """Return the last of several runs, and the shortest processor time [s]."""
     outcomes = [run.integrate() for _ in range(repeats)]
-    return outcomes[-1], min(outcome.run_seconds for outcome in outcomes)
+    return outcomes[-1], min(outcome.cpu_seconds for outcome in outcomes)
 
 
 def at_end(outcome: Outcome) -> Array:

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from benchmarks.findings import TABLES
+from benchmarks.findings import TABLES, measured_tables
 from benchmarks.page_tables import (
     BAND,
     DECADE,
@@ -24,8 +24,9 @@ from benchmarks.page_tables import (
 )
 from benchmarks.records import NAMES, Pair, Record, record_of, shortened
 
-#: Tables that are measured, and those that follow from records.
-MEASURED = [table for table in TABLES if not table.stored]
+#: Tables that are measured, run times among them, and those that follow from records.
+MEASURED = [table for table in measured_tables(times=True) if not table.stored]
+TIMED = [table for table in MEASURED if table.times]
 STORED = [table for table in TABLES if table.stored]
 NUMBER = re.compile(r"-?\d\.\d+e[-+]?\d+")
 
@@ -91,6 +92,31 @@ def test_ten_numbers_spoilt_by_hand_are_found_with_page_and_line():
         assert f"{table.page}:{number + 1}" in str(found[0])
 
 
+@pytest.mark.parametrize("table", TIMED, ids=lambda table: table.command)
+def test_a_stale_time_is_found_with_page_and_line(table):
+    first, end = place(table, text_of(table))
+    for number in range(first + 2, end):
+        lines = text_of(table).splitlines()
+        cells = cells_of(lines[number])
+        for column in table.times:
+            own = list(cells)
+            times = re.search(r"\d+\.?\d*", own[column])
+            if times is None:
+                continue
+            own[column] = own[column].replace(times[0], f"{4.0 * float(times[0]):.3g}", 1)
+            lines[number] = "| " + " | ".join(own) + " |"
+            (found,) = differences(table, "\n".join(lines), dict(enumerate(printed(table))))
+            assert (found.page, found.line) == (table.page, number + 1) and found.measured == cells[column]
+
+
+def test_a_page_keeps_times_that_a_quiet_machine_repeats():
+    table = next(table for table in TIMED if table.command == "literature classes")
+    rows = printed(table)
+    for factor, kept in ((1.2, True), (1.4, False)):
+        again = [[*row[:2], f"{factor * float(row[2]):.2f}", *row[3:]] for row in rows]
+        assert (written(table, text_of(table), again, "2031-01-02") == text_of(table)) is kept
+
+
 @pytest.mark.parametrize(
     ("one", "other", "band", "same"),
     [
@@ -103,7 +129,10 @@ def test_ten_numbers_spoilt_by_hand_are_found_with_page_and_line():
         ("1,394", "1394", 0.0, True),
         ("ok", "failed", 0.0, False),
         ("1.08", "1.9", BAND, True),  # times by a band
-        ("1.08", "2.3", BAND, False),
+        ("1.08", "3.3", BAND, False),
+        ("2.0, 2.8, 4.4", "1.4, 1.6, -", BAND, True),
+        ("2.0, 2.8, 4.4", "2.0, 2.8, 1.4", BAND, False),
+        ("2.0, 2.8, 4.4", "2.0, 2.8", BAND, False),
         ("1.08", KEPT, BAND, True),
         ("1e-3", "2e-6", 0.0, False),  # one digit of other sizes
         ("9.9e-8", "1.0e-7", 0.0, True),
@@ -138,8 +167,10 @@ def test_a_table_is_what_is_written():
 
 @pytest.mark.slow  # measures: a tenth of all cells, others on another day
 def test_a_tenth_of_the_cells_is_measured_again():
-    chosen = drawn(MEASURED, 0.1, datetime.datetime.now(tz=datetime.UTC).date().toordinal())
+    today = datetime.datetime.now(tz=datetime.UTC).date().toordinal()
+    chosen, dice = drawn(MEASURED, 0.1, today), random.Random(today)
     assert len(chosen) >= 3
+    chosen.append((table := dice.choice(TIMED), dice.randrange(len(table.rows))))
     found = []
     for table, number in chosen:
         names, measure = table.rows[number]
