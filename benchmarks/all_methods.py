@@ -21,9 +21,9 @@ from benchmarks.page_tables import PageTable, list_of, number, print_tables
 from benchmarks.records import Line, Pair, Record
 from symgen.integrators import INTEGRATORS as KINDS
 from symgen.methods import METHODS
+from symgen.report.comparison_findings import WRONG
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.study.comparison.compare import compare
-from symgen.study.stress.cell_outcome import ACCURATE
 
 MECHANISMS = ("four-bar", "spatial-slider-crank", "bricard", "front-suspension", "n-four-bar:2")
 INTEGRATORS = ("rk4", "dop853", "picard")
@@ -103,7 +103,7 @@ def ends() -> PageTable:
         count = Counter(run.status for run in runs)
         yield str(len(runs))
         yield from (str(count[name]) for name in (OK, UNVERIFIED, FAILED))
-        wrong = [run for run in runs if run.status == OK and not (run.error or 0.0) <= ACCURATE]
+        wrong = [run for run in runs if run.status == OK and not (run.error or 0.0) <= WRONG]
         settings = Counter(run.integrator for run in wrong)
         listed = ", ".join(f"{n} with `{name}`" for name, n in settings.most_common())
         yield f"{listed}; at most {number(max(run.error or 0.0 for run in wrong))} m" if wrong else "none"

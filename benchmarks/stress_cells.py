@@ -1,11 +1,13 @@
 """Stiff and extreme cases of the catalogue: tables of docs/stress.md from a record of `symgen stress`.
 
-    python -m benchmarks.stress_cells [models] [families] [methods]     tables of the page, from the record
+    python -m benchmarks.stress_cells [models] [causes] [families] [methods]    tables of the page, from the record
+    python -m benchmarks.stress_cells picture                                   draws its picture
     python -m benchmarks.records stress_cells [--workers N]             measures what it lacks, hours on one core
 
-A line of the record is a family on a model, with the outcomes of its cells by method and integrator and with the cells
-that report success and are wrong. `models` counts outcomes; `families` has the accurate cells of those judged, for
-integrators that all methods are run with; `methods` has the cells of four families on the four-bar by method.
+A line of the record is a family on a model, with the outcomes of its cells by method and integrator, with the cells
+that report success and are wrong, and why. `models` counts outcomes, `causes` false successes; `families` has the
+accurate cells of those judged, for integrators that all methods are run with; models whose families are not all there
+are left out. `methods` has the cells of four families on the four-bar by method.
 """
 
 from __future__ import annotations
@@ -15,23 +17,29 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
+import numpy as np
+
+from benchmarks.gallery import slim
+from benchmarks.page_tables import KEPT, ROOT, PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
 from symgen.methods import METHODS
 from symgen.running.automatic import AUTO
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
 from symgen.study.stress.families import FAMILIES
+from symgen.study.stress.findings import cause
 from symgen.study.stress.study import stress
 
 #: Stands for the mechanisms of families of their own.
 OWN = "-"
 OWN_FAMILIES = ("length-ratio", "singular-passage")
+#: Quick ones first.
 MODELS = (
-    *("andrews", "bricard", "chain:4", "driven-four-bar", "flyball-governor", "four-bar", "free-rigid-body"),
-    *("front-suspension", "heavy-top", "n-four-bar:2", "pendulum", "rolling-disc", "slider-crank"),
-    *("spatial-slider-crank", "spherical-double-pendulum", "stewart-platform"),
+    *("four-bar", "andrews", "slider-crank", "pendulum", "spatial-slider-crank", "n-four-bar:2", "heavy-top"),
+    *("rolling-disc", "driven-four-bar", "free-rigid-body", "spherical-double-pendulum", "bricard", "chain:4"),
+    *("flyball-governor", "stewart-platform", "front-suspension"),
 )
 #: Families of planes, and the one of gains, which have tables of their own.
 PLANES = ("alpha-beta", "step-stiffness", "gain")
@@ -42,6 +50,10 @@ COLUMNS = ("rk4", "dop853", "radau5", AUTO)
 COMPILATION, LARGE = 36.0, {"bricard", "chain:4", "flyball-governor", "front-suspension", "stewart-platform"}
 #: Processor time of a family on a model at most [s].
 PATIENCE = 7200.0
+
+PAGE, PICTURE = "docs/stress.md", "docs/pictures/stress-catalogue.svg"
+#: Pairs of fewer judged cells have no share; so many are listed as the most and the least often accurate.
+LEAST, MOST = 50, 4
 
 Outcomes = Counter[str]
 
@@ -54,21 +66,21 @@ class Job(NamedTuple):
 
 
 def jobs() -> Iterator[Job]:
-    """Yield all families on all models, those of the table by method first."""
-    every = [Job(model, family) for model in MODELS for family in FAMILIES if family not in OWN_FAMILIES]
-    every += [Job(OWN, family) for family in OWN_FAMILIES]
-    return iter(sorted(every, key=lambda job: (job.family not in CASES, job.model not in (OWN, "four-bar"))))
+    """Yield all families, model by model."""
+    yield from (Job(OWN, family) for family in OWN_FAMILIES)
+    yield from (Job(model, family) for model in MODELS for family in FAMILIES if family not in OWN_FAMILIES)
 
 
 def examine(job: Job, methods: Sequence[str] = ()) -> dict[str, Any]:
-    """Return the outcomes of cells by method and integrator, and how many are false successes."""
+    """Return outcomes of cells and false successes by method and integrator, and causes of those of named methods."""
     model = "four-bar" if job.model == OWN else job.model
     study = stress([model], [job.family], methods, compilation=1.0 if model in LARGE else COMPILATION)
     cells = dict[str, Counter[str]]()
     for row in study.rows:
         cells.setdefault(f"{row.method} {row.integrator}", Counter())[row.outcome] += 1
     false = Counter(f"{row.method} {row.integrator}" for row in study.false_successes)
-    return {"cells": cells, "false": false}
+    causes = Counter(cause(row) for row in study.false_successes if row.method != AUTO)
+    return {"cells": cells, "false": false, "causes": causes}
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
@@ -103,11 +115,26 @@ def judged(count: Outcomes) -> int:
     return count.total() - count[REFUSED] - count[UNJUDGED]
 
 
-def whole(model: str = "", family: str = "") -> list[Line] | None:
-    """Return the lines of a model or a family, None while one is missing."""
-    wanted = {job for job in jobs() if model in ("", job.model) and family in ("", job.family)}
-    lines = {Job(line["model"], line["family"]): line for line in RECORD.lines() if "cells" in line}
-    return [lines[job] for job in wanted] if wanted <= lines.keys() else None
+def whole() -> tuple[str, ...]:
+    """Return the models of which the record has all families."""
+    done = {Job(line["model"], line["family"]) for line in RECORD.lines() if "cells" in line}
+    return tuple(model for model in (OWN, *MODELS) if all(job in done for job in jobs() if job.model == model))
+
+
+def lines_of(model: str = "", family: str = "") -> list[Line]:
+    """Return the lines of a model or a family, of models that are whole."""
+    complete = whole()
+    return [
+        line
+        for line in RECORD.lines()
+        if line["model"] in complete and model in ("", line["model"]) and family in ("", line["family"])
+    ]
+
+
+def false_of(lines: Iterable[Line], auto: bool) -> int:
+    """Return how many cells of `auto`, or of named methods, report success and are wrong."""
+    pairs = (item for line in lines for item in line["false"].items())
+    return sum(n for name, n in pairs if (name.split()[0] == AUTO) is auto)
 
 
 def models() -> PageTable:
@@ -115,39 +142,79 @@ def models() -> PageTable:
     shown = [name for name in OUTCOMES if name != REFUSED]
 
     def cells(model: str) -> Iterator[str]:
-        lines = whole(model)
-        if lines is None:
-            yield from [KEPT] * (len(shown) + 3)
-            return
-        count = outcomes(lines)
-        false = Counter[str]()
-        for line in lines:
-            false.update(line["false"])
-        own = sum(n for name, n in false.items() if name.split()[0] == AUTO)
-        yield from map(str, (count.total(), *(count[name] for name in shown), false.total(), own))
+        lines = lines_of(model)
+        count, false = outcomes(lines), [false_of(lines, auto) for auto in (False, True)]
+        yield from map(str, (count.total(), *(count[name] for name in shown), *false))
 
-    rows = [((f"`{model}`",), partial(list_of, cells, model)) for model in (OWN, *MODELS)]
+    rows = [((f"`{model}`",), partial(list_of, cells, model)) for model in whole()]
     rows.append((("all",), partial(list_of, cells, "")))
     headings = ("model", "cells", *shown, "false successes", "of `auto`")
-    return PageTable("stress_cells models", "docs/stress.md", headings, tuple(rows), stored=True)
+    return PageTable("stress_cells models", PAGE, headings, tuple(rows), stored=True, claims=claims)
+
+
+def claims() -> Iterator[str]:
+    """Yield what the page says of all cells."""
+    lines = lines_of()
+    by_auto = outcomes(lines, lambda method, _: method == AUTO)
+    ends = ", ".join(f"{by_auto[name]} {name}" for name in OUTCOMES if by_auto[name])
+    wrong = false_of(lines, auto=True)
+    yield f"`auto` reports success and is not accurate in {wrong or 'none'} of {by_auto.total()} cells: {ends}."
+    watched = [line for line in lines if line["family"] not in PLANES]
+    named, false = outcomes(watched, lambda method, _: method != AUTO).total(), false_of(lines, auto=False)
+    share = 100.0 * false / max(named, 1)
+    yield f"Of {named} cells of named methods {false} ({share:.2g} percent) are false successes."
+    missing = [f"`{model}`" for model in MODELS if model not in whole()]
+    if missing:
+        yield f"Not measured: {', '.join(missing)}."
+
+
+def causes() -> PageTable:
+    """Return why named methods report success and are wrong, with the families in which they do."""
+    by_cause = dict[str, Outcomes]()
+    for line in lines_of():
+        for why, n in line["causes"].items():
+            by_cause.setdefault(why, Counter())[line["family"]] += n
+    ordered = sorted(by_cause.items(), key=lambda item: -item[1].total())
+
+    def cells(why: str) -> Iterator[str]:
+        yield str(by_cause[why].total())
+        yield ", ".join(f"{family} {n}" for family, n in by_cause[why].most_common())
+
+    rows = tuple(((why,), partial(list_of, cells, why)) for why, _ in ordered)
+    return PageTable("stress_cells causes", PAGE, ("why", "cells", "families"), rows, stored=True)
 
 
 def families() -> PageTable:
     """Return the accurate cells of those judged, by family and integrator."""
 
     def cells(family: str) -> Iterator[str]:
-        lines = whole(family=family)
         for column in COLUMNS:
-            if lines is None:
-                yield KEPT
-                continue
-            count = outcomes(lines, partial(of_column, column))
+            count = outcomes(lines_of(family=family), partial(of_column, column))
             yield f"{count[GOOD]} of {judged(count)}"
 
     named = [*OWN_FAMILIES, *(family for family in FAMILIES if family not in (*OWN_FAMILIES, *PLANES))]
     rows = tuple(((family,), partial(list_of, cells, family)) for family in named)
     headings = ("family", *(f"`{name}`" for name in COLUMNS))
-    return PageTable("stress_cells families", "docs/stress.md", headings, rows, stored=True)
+    return PageTable("stress_cells families", PAGE, headings, rows, stored=True, claims=shares)
+
+
+def shares() -> Iterator[str]:
+    """Yield which pairs are accurate most and least often."""
+    count = dict[str, Outcomes]()
+    for line in lines_of():
+        if line["family"] not in PLANES:
+            for name, cells in line["cells"].items():
+                count.setdefault(name, Counter()).update(cells)
+    share = {name: count[name][GOOD] / judged(count[name]) for name in count if judged(count[name]) >= LEAST}
+    order = sorted(share, key=lambda name: -share[name])
+    for word, chosen in (("Most", order[:MOST]), ("Least", order[: -MOST - 1 : -1])):
+        listed = ", ".join(f"{_named(name)} {100.0 * share[name]:.0f}" for name in chosen)
+        yield f"{word} often accurate [percent]: {listed}."
+
+
+def _named(pair: str) -> str:
+    method, integrator = pair.split()
+    return f"`{method}`" if method == integrator else f"`{method}` with `{integrator}`"
 
 
 def methods() -> PageTable:
@@ -172,16 +239,50 @@ def methods() -> PageTable:
     rows = tuple(
         ((", ".join(f"`{name}`" for name in names),), partial(list_of, cells, names[0])) for names in alike.values()
     )
-    return PageTable("stress_cells methods", "docs/stress.md", ("methods", *CASES), rows, stored=True)
+    own = [line for family, line in lines.items() if family in CASES]
+
+    def false() -> Iterator[str]:
+        pairs = Counter[str]()
+        for line in own:
+            pairs.update(line["false"])
+        listed = ", ".join(f"{_named(name)} {n}" for name, n in pairs.most_common()) or "none"
+        yield f"Of these {outcomes(own).total()} cells {pairs.total()} are false successes: {listed}."
+
+    return PageTable("stress_cells methods", PAGE, ("methods", *CASES), rows, stored=True, claims=false)
 
 
 def tables() -> dict[str, PageTable]:
     """Return all tables by name."""
-    return {"models": models(), "families": families(), "methods": methods()}
+    return {"models": models(), "causes": causes(), "families": families(), "methods": methods()}
+
+
+def picture(path: Path) -> None:
+    """Draw the shares of accurate cells by pair and model."""
+    from symgen.report.stress_figures import overview_of
+
+    cells = {(line["model"], name): Counter[str]() for line in lines_of() for name in line["cells"]}
+    false = {key: 0 for key in cells}
+    for line in lines_of():
+        for name in line["cells"]:
+            if line["family"] not in PLANES:
+                cells[line["model"], name].update(line["cells"][name])
+                false[line["model"], name] += line["false"].get(name, 0)
+    order = {name: i for i, name in enumerate((*METHODS.names, AUTO))}
+    pairs = sorted({name for _, name in cells}, key=lambda name: order[name.split()[0]])
+    share, wrong = np.full((len(pairs), len(whole())), np.nan), np.zeros((len(pairs), len(whole())), dtype=int)
+    for i, j in np.ndindex(share.shape):
+        key = whole()[j], pairs[i]
+        if key in cells and judged(cells[key]):
+            share[i, j], wrong[i, j] = 100.0 * cells[key][GOOD] / judged(cells[key]), false[key]
+    drawn = overview_of([tuple(name.split()) for name in pairs], whole(), share, wrong)  # type: ignore[misc]  # two words
+    path.write_text(slim(drawn.data.decode()), encoding="utf-8")
 
 
 RECORD = Record("stress_cells", jobs, examine, again, PATIENCE)
 
 
 if __name__ == "__main__":
-    sys.exit(print_tables(tables(), sys.argv[1:]))
+    if sys.argv[1:] == ["picture"]:
+        picture(ROOT / PICTURE)
+    else:
+        sys.exit(print_tables(tables(), sys.argv[1:]))

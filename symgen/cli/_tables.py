@@ -292,7 +292,7 @@ def show_stress(study: Stress) -> None:
         show_rows(out, headings, rows, headings, first=2)
         out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
     if study.limits:
-        out.print("largest constant step [s] that follows the motion, and that keeps the error below 1e-3 m")
+        out.print("largest constant step [s] that follows the motion, and with an error below 1e-3 of the length")
         steps = [["none" if h is None else f"{h:.3g}" for h in (x.stable_step, x.accurate_step)] for x in study.limits]
         words = [(x.model, f"{x.family} {x.case}", x.method, x.integrator) for x in study.limits]
         headings = ("model", "case", "method", "integrator", "stable", "accurate")

@@ -49,7 +49,7 @@ def command(
 
     Each cell is compared with an independent reference, and its own status is listed as well. Ctrl-C shows the finished
     cells; with --resume the same command continues after them. Exit code 1 if auto reports success with an error above
-    1e-3 m.
+    1e-3 of the mechanism's length.
     """
     if compilation is not None:
         arguments.number("--compilation", compilation, positive=True)
@@ -102,5 +102,5 @@ def _exit_code(study: Stress, stored: bool) -> int:
     wrong = sum(row.method == AUTO for row in study.false_successes)
     if wrong:
         cells = "1 cell" if wrong == 1 else f"{wrong} cells"
-        return complain(f"auto reports success with an error above 1e-3 m in {cells}", FAILURE)
+        return complain(f"auto reports success with an error above 1e-3 of the length in {cells}", FAILURE)
     return OK

@@ -19,7 +19,8 @@ from symgen.study.stress.stress_rows import LEGEND, Map, Stress, StressRow, outc
 _LEAD = (
     "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "
     "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
-    f"judged by that distance, not by the status of the run. A run is accurate (ok) up to {ACCURATE:g} m."
+    f"judged by that distance, not by the status of the run. A run is accurate (ok) up to {ACCURATE:g} of the "
+    "mechanism's length."
 )
 #: Reports of more models than this have an overview.
 FEW_MODELS = 3
@@ -27,7 +28,7 @@ FEW_MODELS = 3
 MOST_CELLS = 6000
 _MOODS = {"ok": "good", "inaccurate": "doubtful", "refused": "faint", "unjudged": "faint", "too slow": "faint"}
 _MEANINGS = {
-    "ok": f"the error is at most {ACCURATE:g} m at all outputs",
+    "ok": f"the error is at most {ACCURATE:g} of the mechanism's length at all outputs",
     "inaccurate": "the error is larger, but the mechanism is closed or near its motion; or the run stopped itself for "
     "violations although its motion was right",
     "wrong branch": "the error arose near a singular position, and the mechanism moves on, closed, on another branch",
@@ -121,8 +122,8 @@ def _limits_section(study: Stress) -> list[Section]:
     )
     text = (
         "Found by bisection to about 1 percent, with runs that do not watch themselves: the largest constant step up "
-        "to which a run stays within a tenth of the mechanism's size of the reference, and the largest one up to which "
-        f"its error stays below {ACCURATE:g} m. Methods with their own integrator."
+        "to which a run stays within a tenth of the mechanism's length of the reference, and the largest one up to "
+        f"which its error stays below {ACCURATE:g} of it. Methods with their own integrator."
     )
     headings = ("model", "case", "method", "integrator", "stable up to [s]", "accurate up to [s]")
     return [Section("Largest steps", (text,), tables=(DocumentTable("", headings, rows, words=4),))]
@@ -143,18 +144,19 @@ def _trust_section(study: Stress) -> Section:
         )
     if not others:
         text.append("No run of another method reports success with such an error.")
-    headings = ("model", "case", "method", "integrator", "why", "error [m]")
+    headings = ("model", "case", "method", "integrator", "why", "error [m]", "error / length")
     tables = tuple(
         DocumentTable(caption, headings, tuple(map(_trust_row, rows)), words=5)
         for caption, rows in (("auto.", own), ("Methods selected by name.", others))
         if rows
     )
-    return Section(f"Success reported with an error above {ACCURATE:g} m", tuple(text), tables=tables)
+    return Section(f"Success reported with an error above {ACCURATE:g} of the length", tuple(text), tables=tables)
 
 
 def _trust_row(row: StressRow) -> tuple[str, ...]:
     case = f"{row.family} {row.case}"
-    return row.model, case, row.method, row.integrator, cause(row), words.rounded(row.error)
+    errors = map(words.rounded, (row.error, row.relative_error))
+    return row.model, case, row.method, row.integrator, cause(row), *errors
 
 
 def _left_out(study: Stress) -> list[Section]:
@@ -174,7 +176,7 @@ def _cells_section(study: Stress) -> Section:
     shown = Map.of(study)
     headings = (
         *("model", "case", "method", "integrator", "outcome", "own status"),
-        *("error [m]", "reference ± [m]", "evaluations"),
+        *("error [m]", "error / length", "reference ± [m]", "evaluations"),
     )
     parts = []
     for family in shown.families:
@@ -190,5 +192,6 @@ def _cell_row(row: StressRow) -> tuple[str | TableCell, ...]:
     integrator = row.chosen or row.integrator
     return (
         *(row.model, row.case, row.method, integrator, TableCell(row.outcome, _MOODS.get(row.outcome, "bad")), status),
-        *(words.rounded(row.error), words.rounded(row.reference_error), str(row.evaluations)),
+        *map(words.rounded, (row.error, row.relative_error, row.reference_error)),
+        str(row.evaluations),
     )

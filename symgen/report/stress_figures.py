@@ -73,7 +73,7 @@ def _map(shown: Map, model: str) -> Picture:
     name = "mechanisms of their own" if model == "-" else model
     caption = (
         f"Outcomes on {name}, a row for each pair of method and integrator, a column for each case. A frame marks runs "
-        "that report success although their error exceeds 1e-3 m."
+        "that report success although their error exceeds 1e-3 of the length."
     )
     alternative = f"Map of outcomes on {name} by method and case; the tables below say the same."
     return drawn(
@@ -92,6 +92,23 @@ def overview(study: Stress) -> Picture:
             entry = Entry(tuple(r for r in shown.entry(line).rows if r.model == model))
             shares[i, j] = 100.0 * entry.good / entry.judged if entry.judged else np.nan
             wrong[i, j] = sum(row.false_success for row in entry.rows)
+    return overview_of(shown.lines, models, shares, wrong)
+
+
+def overview_of(
+    lines: Sequence[tuple[str, str]], models: Sequence[str], shares: np.ndarray[Any, Any], wrong: np.ndarray[Any, Any]
+) -> Picture:
+    """Return the picture of shares of accurate cells [percent], framed where cells are false successes.
+
+    Parameters
+    ----------
+    lines : sequence of (str, str)
+        Method and integrator of each row.
+    models : sequence of str
+        Of each column.
+    shares, wrong : Array, shape (lines, models)
+        Shares, not a number where nothing was judged; numbers of false successes.
+    """
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
@@ -100,23 +117,23 @@ def overview(study: Stress) -> Picture:
         ax.plot(places[:, 1], places[:, 0], "s", markersize=5.5, markerfacecolor="none", markeredgecolor="#D55E00")
         ax.grid(False)
         # a method's name stands once, where its integrators begin: letters are most of the file
-        before = ("", *(method for method, _ in shown.lines))
+        before = ("", *(method for method, _ in lines))
         labels = [
             integrator if method == last else method if method == integrator else f"{method}, {integrator}"
-            for last, (method, integrator) in zip(before, shown.lines, strict=False)
+            for last, (method, integrator) in zip(before, lines, strict=False)
         ]
-        ax.set_yticks(range(len(shown.lines)), labels, fontsize=7.0)
+        ax.set_yticks(range(len(lines)), labels, fontsize=7.0)
         names = ["own" if model == "-" else model for model in models]
         ax.set_xticks(range(len(models)), names, rotation=90, fontsize=7.0)
         ax.tick_params(which="both", length=0)
         figure.colorbar(image, ax=ax, label="accurate [percent]", ticks=[0, 50, 100], fraction=0.03, pad=0.02)
 
     caption = (
-        "Accurate cells of those judged, a row for each pair of method and integrator, a column for each "
-        "model; a frame marks where runs report success although their error exceeds 1e-3 m; white: not run."
+        "Accurate cells of those judged, a row for each pair of method and integrator, a column for each model; a "
+        "frame marks where runs report success although their error exceeds 1e-3 of the length; white: not run."
     )
     alternative = "Share of accurate cells by method and model; the tables below say the same for each family."
-    return drawn("overview", caption, alternative, draw, height=2.0 + 0.17 * len(shown.lines), wide=True)
+    return drawn("overview", caption, alternative, draw, height=2.0 + 0.17 * len(lines), wide=True)
 
 
 def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:

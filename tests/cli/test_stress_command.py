@@ -15,7 +15,7 @@ def test_tables_json_csv_and_reports(cli, tmp_path):
     journal = tmp_path / "journal.jsonl"
     code, out, err = cli(*FEW, "--resume", journal)
     assert code == 0 and all(" of " in line for line in err.splitlines())  # nothing but progress
-    assert "4 cells" in out and "auto reports success with an error above 0.001 m in no cell of 2." in out
+    assert "4 cells" in out and "auto reports success with an error above 0.001 of the length in no cell of 2." in out
     kept = journal.read_bytes()
     files = ("--csv", tmp_path / "cells.csv", "-o", tmp_path / "stress.html")
     code, out, err = cli(*FEW, "--journal", journal, "--json", *files)
@@ -35,7 +35,7 @@ def test_tables_json_csv_and_reports(cli, tmp_path):
 
 def wrong(method):
     return StressRow(
-        *("four-bar", "gravity", "1 m/s^2", (1.0,), method, "rk4", 1e-3, 1.0, "inaccurate", 0.5, 1e-9, "ok", None),
+        *("four-bar", "gravity", "1 m/s^2", (1.0,), method, "rk4", 1e-3, 1.0, "inaccurate", 0.5, 0.1, 1e-9, "ok", None),
         *(4000, 1e-12, 1e-12, 0.0, "", "", True),
     )
 
@@ -46,7 +46,7 @@ def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
     monkeypatch.setattr(module, "stress", lambda *a, **k: study)
     found, _, err = cli("stress", "--jobs", "1")
     assert found == code
-    assert ("auto reports success with an error above 1e-3 m in 1 cell" in err) == bool(code)
+    assert ("auto reports success with an error above 1e-3 of the length in 1 cell" in err) == bool(code)
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,7 @@ def study(rows=None, **changes):
 def stress_row(model, method, outcome, error, **changes):
     """Return a cell of a stress study with rk4 that ended ok."""
     base = StressRow(
-        *(model, "stiffness", "1", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None, 4000),
+        *(model, "stiffness", "1", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, error, 1e-9, "ok", None, 4000),
         *(1e-12, 1e-12, 0.0, "", "", True),
     )
     return replace(base, **changes)

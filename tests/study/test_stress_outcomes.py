@@ -24,8 +24,9 @@ JUMP = np.array([0.0] * 5 + [1.0] * 6)
     ("changes", "outcome"),
     [
         ({}, "ok"),
-        ({"errors": np.full(11, ACCURATE)}, "ok"),
-        ({"errors": np.full(11, ACCURATE * 1.001)}, "inaccurate"),
+        ({"errors": np.full(11, 2.0 * ACCURATE)}, "ok"),  # of a length of 2 m
+        ({"errors": np.full(11, 2.0 * ACCURATE * 1.001)}, "inaccurate"),
+        ({"errors": np.full(11, ACCURATE), "length": 0.9}, "inaccurate"),
         ({"errors": SMALL, "violation": 10.0}, "inaccurate"),
         ({"errors": LARGE}, "inaccurate"),  # out of phase, but where the mechanism can be
         ({"errors": LARGE, "violation": 10.0}, "diverged"),
@@ -51,12 +52,10 @@ def test_outcomes(changes, outcome):
 
 
 def test_a_run_is_not_believed():
-    assert false_success("ok", "inaccurate", 2e-3)
-    assert false_success("ok", "diverged", None)
-    assert not false_success("ok", "ok", ACCURATE)
-    assert not false_success("unverified", "wrong branch", 1.0)
-    assert not false_success("failed", "diverged", 1.0)
-    assert not false_success("ok", "unjudged", 1.0)
+    for outcome in OUTCOMES:
+        wrong = outcome in ("inaccurate", "wrong branch", "singular", "diverged")
+        assert false_success("ok", outcome) is wrong
+        assert not false_success("unverified", outcome) and not false_success("failed", outcome)
 
 
 @pytest.mark.parametrize("limit", [3e-6, 0.9e-3, 1.1e-3, 0.02, 0.7])
@@ -112,10 +111,13 @@ def test_findings_say_what_the_rows_say():
     assert (
         "1 of 3 pairs are accurate in every case that was judged (auto); hardest: 2 on four-bar and 2 others" in found
     )
-    assert "auto reports success with an error above 0.001 m in no cell of 2." in found
-    assert "Methods chosen by name report success with an error above 0.001 m in 2 of 5 cells: 1 because" in found
+    assert "auto reports success with an error above 0.001 of the length in no cell of 2." in found
+    assert (
+        "Methods chosen by name report success with an error above 0.001 of the length in 2 of 5 cells: 1 because"
+        in found
+    )
     study = replace(STUDY, rows=(*ROWS, row("auto", "inaccurate", 0.02, "3", integrator="auto", step=None)))
-    assert "auto reports success with an error above 0.001 m in 1 cell of 3." in " ".join(findings(study))
+    assert "auto reports success with an error above 0.001 of the length in 1 cell of 3." in " ".join(findings(study))
     assert [r.method for r in study.false_successes] == ["lagrange", "penalty", "auto"]
 
 

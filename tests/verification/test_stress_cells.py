@@ -1,40 +1,61 @@
 """Stress cells: tables count the outcomes of a record, and a family measured again has them."""
 
 import json
+from itertools import groupby
 from random import Random
 
 import pytest
 
 from benchmarks import stress_cells
 from benchmarks.page_tables import KEPT
-from benchmarks.stress_cells import Job, again, examine, families, jobs, methods, models
+from benchmarks.stress_cells import Job, again, causes, examine, families, jobs, methods, models
+
+CELLS = {"lagrange rk4": {"ok": 3, "inaccurate": 1, "refused": 1}, "auto auto": {"ok": 2}}
+WHY = "nothing estimates the error of a constant step"
 
 
-def stored(folder, lines):
-    rows = [{"model": model, "family": family, "cells": cells, "false": false} for model, family, cells, false in lines]
-    (folder / "stress_cells.jsonl").write_text("\n".join(map(json.dumps, rows)), encoding="utf-8")
+@pytest.fixture
+def four_bar(tmp_path, monkeypatch):
+    """A record of all families of the four-bar, and of one of another model."""
+    monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
+    monkeypatch.setattr(stress_cells, "MODELS", ("four-bar", "andrews"))
+    jobs_of_it = [*(job for job in jobs() if job.model == "four-bar"), Job("andrews", "gravity")]
+    rows = [job._asdict() | {"cells": CELLS, "false": {"lagrange rk4": 1}, "causes": {WHY: 1}} for job in jobs_of_it]
+    (tmp_path / "stress_cells.jsonl").write_text("\n".join(map(json.dumps, rows)), encoding="utf-8")
 
 
 def test_every_family_stands_once_for_each_model_and_those_of_their_own_once():
     found = list(jobs())
     assert len(found) == len(set(found)) == 2 + len(stress_cells.MODELS) * 14
-    assert {job.family for job in found[:5]} <= set(stress_cells.CASES)
+    together = [model for model, _ in groupby(job.model for job in found)]
+    assert together == [stress_cells.OWN, *stress_cells.MODELS]
 
 
-def test_tables_count_outcomes_and_keep_what_is_not_whole(tmp_path, monkeypatch):
-    monkeypatch.setattr("benchmarks.records.FOLDER", tmp_path)
-    monkeypatch.setattr(stress_cells, "MODELS", ("four-bar",))
-    cells = {"lagrange rk4": {"ok": 3, "inaccurate": 1, "refused": 1}, "auto auto": {"ok": 2}}
-    lines = [("four-bar", family, cells, {"lagrange rk4": 1}) for model, family in jobs() if model == "four-bar"]
-    stored(tmp_path, lines)
-    own, four_bar, whole = models().measured()
-    assert set(own[1:]) == set(whole[1:]) == {KEPT}
-    assert four_bar == ["`four-bar`", "98", "70", "14", "0", "0", "0", "0", "0", "14", "0"]
+def test_tables_count_outcomes_of_models_that_are_whole(four_bar):
+    numbers = ["98", "70", "14", "0", "0", "0", "0", "0", "14", "0"]
+    assert models().measured() == [["`four-bar`", *numbers], ["all", *numbers]]
     by_family = {row[0]: row[1:] for row in families().measured()}
     assert by_family["gravity"] == ["3 of 4", "0 of 0", "0 of 0", "2 of 2"]
-    assert by_family["length-ratio"] == [KEPT] * 4
+    assert by_family["length-ratio"] == ["0 of 0"] * 4
     by_method = {row[0]: row[1:] for row in methods().measured()}
     assert by_method["`lagrange`"] == [KEPT, *["3 of 4; 1 inaccurate"] * 3]
+    ((why, count, listed),) = causes().measured()
+    assert (why, count) == (WHY, "14") and "gravity 1" in listed
+
+
+def test_sentences_count_what_the_tables_do(four_bar):
+    assert list(models().claims()) == [
+        "`auto` reports success and is not accurate in none of 28 cells: 28 ok.",
+        "Of 55 cells of named methods 14 (25 percent) are false successes.",
+        "Not measured: `andrews`.",
+    ]
+    assert list(families().claims())[1] == "Least often accurate [percent]: ."
+    assert list(methods().claims()) == ["Of these 21 cells 3 are false successes: `lagrange` with `rk4` 3."]
+
+
+def test_the_picture_has_a_column_for_a_model_that_is_whole(four_bar, tmp_path):
+    stress_cells.picture(tmp_path / "shares.svg")
+    assert "<svg" in (tmp_path / "shares.svg").read_text(encoding="utf-8")
 
 
 @pytest.mark.slow  # compiles four pairs, twice

@@ -72,6 +72,8 @@ class Level:
         Index of the first coordinate of the body, and the fixed end [m], of a spring that is unloaded at the start.
     watched : bool
         Whether the run watches its own violations and energy; off for tests of stability alone.
+    length : float or None
+        Length of which errors are shares [m], None for the mechanism's.
     closed : str or None
         Closed form for comparison: a catalogue entry, or ``"parallelogram"``.
     family, model : str
@@ -91,6 +93,7 @@ class Level:
     constant_steps: bool = False
     spring_end: tuple[float, ...] | None = None
     watched: bool = True
+    length: float | None = None
     closed: str | None = None
     family: str = ""
     model: str = "-"

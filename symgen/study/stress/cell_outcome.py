@@ -16,16 +16,16 @@ Array = NDArray[np.float64]
 GOOD, INACCURATE, WRONG_BRANCH, SINGULAR, DIVERGED, TOO_SLOW, REFUSED, UNJUDGED = OUTCOMES = (
     *("ok", "inaccurate", "wrong branch", "singular", "diverged", "too slow", "refused", "unjudged"),
 )
-#: Largest error of an accurate run [m].
+#: Largest error of an accurate run, as a share of the mechanism's length.
 ACCURATE = 1e-3
 #: Largest estimated error of a usable reference, as a share of `ACCURATE`.
 TRUSTED = 0.5
-#: Errors above this share of the mechanism's size are no longer those of its motion.
+#: Errors above this share of the length are no longer those of the motion.
 LOST = 0.1
 #: Smallest singular value of the constraint rows (scaled to length 1), as a share of its largest over the motion, below
 #: which the reference is near a singular position; outputs are some way apart, and it falls in a straight line.
 NEAR = 0.15
-#: |Phi| by the independent equations, as a share of the size, up to which a state is one of the mechanism.
+#: |Phi| by the independent equations, as a share of the length, up to which a state is one of the mechanism.
 CLOSED = 1e-3
 
 
@@ -44,36 +44,36 @@ class Run:
         1, as a share of the largest on the way.
     violation : float
         |Phi| by the independent equations at the last output reached.
-    size : float
-        Of the mechanism [m].
+    length : float
+        Of the mechanism [m], as in comparisons.
     """
 
     finished: bool
     errors: Array
     sines: Array
     violation: float
-    size: float
+    length: float
 
 
 def classify(run: Run) -> str:
     """Return one of `OUTCOMES` for a run.
 
-    An error up to `ACCURATE` is ok. Beyond that, a run that keeps the constraints by the independent equations closed,
-    after an error that arose near a singular position, is on a wrong branch; other finished runs are inaccurate while
-    constraints are closed or the error is below `LOST` of the size, else diverged. A run that ended
+    An error up to `ACCURATE` of the length is ok. Beyond that, a run that keeps the constraints by the independent
+    equations closed, after an error that arose near a singular position, is on a wrong branch; other finished runs are
+    inaccurate while constraints are closed or the error is below `LOST` of the length, else diverged. A run that ended
     early is singular where the reference is near a singular position there, else diverged.
     """
     last = len(run.errors)
     largest = largest_error(run.errors)
     if run.finished:
-        if largest is not None and largest <= ACCURATE:
+        if largest is not None and largest <= ACCURATE * run.length:
             return GOOD
-        closed = run.violation <= CLOSED * run.size
+        closed = run.violation <= CLOSED * run.length
         if largest is None or not np.isfinite(run.violation):
             return DIVERGED
-        if closed and largest > LOST * run.size and _lost_near_a_singular_position(run):
+        if closed and largest > LOST * run.length and _lost_near_a_singular_position(run):
             return WRONG_BRANCH
-        return INACCURATE if closed or largest <= LOST * run.size else DIVERGED
+        return INACCURATE if closed or largest <= LOST * run.length else DIVERGED
     # the outputs around the end: it lies between the last one reached and the next
     around = run.sines[max(0, last - 2) : last + 2]
     if len(around) and float(np.min(around)) < NEAR:
@@ -90,15 +90,15 @@ def largest_error(errors: Array) -> float | None:
 
 def _lost_near_a_singular_position(run: Run) -> bool:
     """Whether the error grew beyond bounds within a few outputs of a position where the rows are almost dependent."""
-    lost = int(np.argmax(run.errors > LOST * run.size))
-    began = int(np.argmax(run.errors > ACCURATE))
+    lost = int(np.argmax(run.errors > LOST * run.length))
+    began = int(np.argmax(run.errors > ACCURATE * run.length))
     before = run.sines[max(0, began - 3) : lost + 1]
     return bool(len(before)) and float(np.min(before)) < NEAR
 
 
-def false_success(status: str, outcome: str, error: float | None) -> bool:
+def false_success(status: str, outcome: str) -> bool:
     """Whether a run says ok although its error exceeds `ACCURATE`; False without a reference."""
-    return status == OK and outcome not in (UNJUDGED, TOO_SLOW, REFUSED) and (error is None or error > ACCURATE)
+    return status == OK and outcome not in (GOOD, UNJUDGED, TOO_SLOW, REFUSED)
 
 
 def counts(outcomes: Sequence[str]) -> dict[str, int]:

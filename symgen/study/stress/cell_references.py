@@ -34,7 +34,7 @@ from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
 
-#: A start counts as consistent up to this |Phi| and |D v - nu| by the independent equations, times size and speed.
+#: A start counts as consistent up to this |Phi| and |D v - nu| by the independent equations, times length and speed.
 CONSISTENT = 1e-8
 
 
@@ -61,10 +61,10 @@ def _moved(level: Level) -> Fields:
     planar = level.mechanism.space == "planar"
     equations: Any = equations_of(level, parameters) if planar else EmittedGeometry(compiled, start)
     points = Points.of(level.mechanism, parameters)
-    size = _size(points, q[None, :])
+    length = points.size(q[None, :])
     phi, d, nu = equations.evaluate(0.0, q, v)[:3]
     speed = max(1.0, float(np.abs(v).max(initial=0.0)))
-    if not (np.linalg.norm(phi) <= CONSISTENT * max(1.0, size) and np.linalg.norm(d @ v - nu) <= CONSISTENT * speed):
+    if not (np.linalg.norm(phi) <= CONSISTENT * max(1.0, length) and np.linalg.norm(d @ v - nu) <= CONSISTENT * speed):
         raise SimulationError("the start does not satisfy the independent equations")
     times = np.array(times_of(level))
     closed = _closed(level, parameters, q, times)
@@ -88,7 +88,7 @@ def _moved(level: Level) -> Fields:
         "q": moved.tolist(),
         "decay": falling,
         "sines": _sines(equations, times, moved).tolist(),
-        "size": _size(points, moved),
+        "length": points.size(moved) if level.length is None else level.length,
         "parameters": {
             name: value for name, value in parameters.items() if name in {**level.parameters, FREE_LENGTH: 0}
         },
@@ -99,7 +99,7 @@ def without_reference(motion: Mapping[str, Any]) -> str | None:
     """Return the reason why a reference is unusable, None if it is usable."""
     if motion["unusable"] is not None:
         return str(motion["unusable"])
-    if motion["estimated_error"] > TRUSTED * ACCURATE:
+    if motion["estimated_error"] > TRUSTED * ACCURATE * motion["length"]:
         return f"the two reference runs differ by {motion['estimated_error']:.2g} m"
     return None
 
@@ -107,22 +107,6 @@ def without_reference(motion: Mapping[str, Any]) -> str | None:
 def times_of(level: Level) -> list[float]:
     """Return the output times of a case [s]."""
     return [level.until * k / level.outputs for k in range(level.outputs + 1)]
-
-
-def _size(points: Points, q: Array) -> float:
-    """Return the size of a mechanism [m]: of its largest body, between two bodies, or of the space that one moves in.
-
-    Parameters
-    ----------
-    points : Points
-        Its bodies.
-    q : Array, shape (k, nq)
-        A motion.
-    """
-    places = np.array([q[:, i : i + points.dimension] for i, _ in points.bodies])
-    between = float(np.max(np.ptp(places, axis=0), initial=0.0))
-    travelled = 0.5 * float(np.max(np.ptp(places, axis=1), initial=0.0))
-    return max(1e-6, between, travelled, *(length for _, length in points.bodies))
 
 
 def equations_of(level: Level, parameters: Mapping[str, float]) -> Any:

@@ -85,7 +85,8 @@ def compute_cell(task: CellReference | RunTask) -> Fields:
 
 
 def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> Fields:
-    numbers = dict.fromkeys(("error", "position_violation_max", "velocity_violation_max", "energy_drift_max"))
+    names = ("error", "relative_error", "position_violation_max", "velocity_violation_max", "energy_drift_max")
+    numbers = dict.fromkeys(names)
     words = {"outcome": outcome, "status": "not run", "reason": reason, "chosen": chosen, "note": ""}
     return {**words, **numbers, "evaluations": evaluations}
 
@@ -144,9 +145,11 @@ def _run(task: RunTask) -> Fields:
         kind = classify(compared)
         if kind == judged.GOOD:
             kind, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
+    error = largest_error(compared.errors)
     return {
         "outcome": kind,
-        "error": largest_error(compared.errors),
+        "error": error,
+        "relative_error": None if error is None or not compared.length else error / compared.length,
         "status": verdict.status,
         "reason": verdict.reason,
         "evaluations": outcome.evaluations,
@@ -187,7 +190,7 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, m
     with np.errstate(all="ignore"):
         errors = points.distances(states, np.array(motion["q"])[:count])
     violation = 0.0
-    if not np.all(errors <= judged.ACCURATE):  # the equations are compiled only where it matters
+    if not np.all(errors <= judged.ACCURATE * motion["length"]):  # the equations are compiled only where it matters
         violation = math.inf
         if count and np.all(np.isfinite(outcome.states[-1])):
             planar = level.mechanism.space == "planar"
@@ -200,7 +203,7 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, m
         errors=errors,
         sines=np.array(motion["sines"]),
         violation=violation,
-        size=motion["size"],
+        length=motion["length"],
     )
 
 
@@ -217,9 +220,9 @@ def _limit(task: LimitTask) -> Fields:
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
             fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common))
-            lost = judged.LOST * task.reference["size"]
+            length = task.reference["length"]
             error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf
-            ran[step] = error <= lost, error <= judged.ACCURATE
+            ran[step] = error <= judged.LOST * length, error <= judged.ACCURATE * length
         return ran[step]
 
     first = task.level.step

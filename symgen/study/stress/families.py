@@ -238,9 +238,12 @@ def step_stiffness(base: Base, point: tuple[float, float]) -> Level:
 
 
 def length_ratio(base: Base, ratio: float) -> Level:
-    """Return the case of a four-bar linkage with a crank of 1 m and other links that are longer by a ratio."""
+    """Return the case of a four-bar linkage with a crank of 1 m and other links that are longer by a ratio.
+
+    Errors count in lengths of the crank: on the other links its motion is none.
+    """
     mechanism = quadrilateral(1.0, 4.0 * ratio, 2.5 * ratio, 5.0 * ratio, math.pi / 3.0)
-    return Level(f"1 : {ratio:g}", (ratio,), mechanism, until=2.0, step=1e-3)
+    return Level(f"1 : {ratio:g}", (ratio,), mechanism, until=2.0, step=1e-3, length=1.0)
 
 
 def singular_passage(base: Base, gap: float) -> Level:

@@ -174,14 +174,14 @@ def _trust(study: Stress) -> Iterator[str]:
         own = [row for row in wrong if row.method == AUTO]
         total = sum(row.method == AUTO for row in study.rows)
         cells = _many(len(own), "cell") if own else "no cell"
-        yield f"auto reports success with an error above {ACCURATE:g} m in {cells} of {total}."
+        yield f"auto reports success with an error above {ACCURATE:g} of the length in {cells} of {total}."
     others = [row for row in wrong if row.method != AUTO]
     watched = [row for row in study.rows if row.method != AUTO and row.watched]
     if not watched:
         return
     causes = "; ".join(f"{count} because {why}" for why, count in Counter(map(cause, others)).most_common())
     cells = f"in {len(others)} of {len(watched)} cells" + (f": {causes}" if others else "")
-    yield f"Methods chosen by name report success with an error above {ACCURATE:g} m {cells}."
+    yield f"Methods chosen by name report success with an error above {ACCURATE:g} of the length {cells}."
 
 
 def cause(row: StressRow) -> str:

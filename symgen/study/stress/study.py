@@ -271,6 +271,7 @@ def _cell(task: CellReference | RunTask) -> Cell:
         "outputs": level.outputs,
         "spring_end": level.spring_end,
         "closed": level.closed,
+        "length": level.length,
     }
     steps = min(level.until / level.step, float(BUDGET))
     if isinstance(task, CellReference):
@@ -291,7 +292,7 @@ class _Motion(TypedDict):
     q: list[list[float]]
     decay: float
     sines: list[float]
-    size: float
+    length: float
     parameters: dict[str, float]
 
 
@@ -309,6 +310,7 @@ def check_motion(entry: Outcome) -> None:
 class _Run(TypedDict):
     outcome: str
     error: float | None
+    relative_error: float | None
     status: str
     reason: str | None
     evaluations: int
