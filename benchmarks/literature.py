@@ -1,8 +1,9 @@
 """Claims of the literature on constraint stabilisation, measured: one table each.
 
-    python -m benchmarks.literature [gains] [adaptive] [energy] [violation] [projection] [classes] [closing]
+    python -m benchmarks.literature [gains] [law] [adaptive] [energy] [violation] [projection] [classes] [closing]
 
 `gains`: errors of `baumgarte` with gains from the step, alpha = beta = g / h, against g, by schemes of order 1 to 8;
+`law`: rates of motions, and the gain of least violation in units of them, with the slopes on both sides;
 `adaptive`: errors of `adaptive-baumgarte` against its largest gain; `energy`: errors with and without scaling
 velocities to the energy, on one and on three degrees of freedom; `violation`: violations beside errors of the motion;
 `projection`: the energy that velocity projections take beside the energy error of the integrator; `classes`: run times
@@ -20,12 +21,16 @@ from functools import cache, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.coordinates import span
 from benchmarks.page_tables import KEPT, ROUNDING, PageTable, list_of, number, print_tables, step_size
 from symgen.api import Model, load
+from symgen.base.settings import Settings
 from symgen.describe import MechanismBuilder
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS, STATUS
-from symgen.result.result import Result
+from symgen.result.result import FAILED, Result
+from symgen.running.prepare import first_rate
+from symgen.study.stress.findings import slope
 
 Array = NDArray[np.float64]
 Options = Mapping[str, str | float]
@@ -54,6 +59,8 @@ CLASSES: tuple[tuple[str, str, str, Options], ...] = (
     ("stabilised invariants", "`invariant-stabilization`", "invariant-stabilization", {}),
     ("", "`braun-goldfarb`", "braun-goldfarb", {}),
 )
+#: Mechanisms whose gain of least violation is looked for.
+LAW = ("four-bar", "slider-crank", "andrews", "bricard", "spatial-slider-crank")
 #: Methods by integrator, beside one another at one step.
 CLOSING = {
     "rk4": (
@@ -138,6 +145,27 @@ def gains() -> PageTable:
     return PageTable("literature gains", PAGES + "gains.md", headings, tuple(rows))
 
 
+def law() -> PageTable:
+    """Return rates of motions, and gains of least violation over these rates with the slopes below and above."""
+
+    def cells(name: str) -> Iterator[str]:
+        model, points = load(name), list[tuple[float, float]]()
+        step, end = 2.0 * model.mechanism.defaults.step, span(model)
+        rate = first_rate(model.mechanism, Settings(until=end))[0] or 0.0
+        for gain in np.geomspace(0.01, 31.6, 15).tolist():
+            one = run(model, "baumgarte", step, end, {"method.alpha": gain * rate, "method.beta": gain * rate})
+            if one.status != FAILED:
+                points.append((gain, one.position_violation_max))
+        gain, least = min(points, key=lambda point: point[1])
+        below, above = ([(x, y) for x, y in points if side * x >= side * gain * 2.0**side] for side in (-1.0, 1.0))
+        yield from (f"{rate:.0f}" if rate > 100.0 else f"{rate:.2g}", f"{gain:.2g}", number(least))
+        yield from ("" if (own := slope(part)) is None else f"{own:.1f}" for part in (below, above))
+
+    rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in LAW)
+    headings = ("mechanism", "rate r [1/s]", "best gain / r", r"\|Phi\| there [m]", "slope below", "above")
+    return PageTable("literature law", PAGES + "gains.md", headings, rows)
+
+
 def adaptive() -> PageTable:
     """Return errors of `adaptive-baumgarte` by its largest gain, and of what it is compared with."""
 
@@ -186,10 +214,12 @@ def violation() -> PageTable:
     kinds: tuple[tuple[str, Options], ...] = (
         *(("lagrange", {}), ("baumgarte", {}), ("velocity-projection", {}), ("velocity-projection", MASS)),
         *(("dependent-correction", {}), ("direct-correction", {}), ("direct-correction", MASS)),
-        *(("post-stabilization", {}), ("coordinate-partitioning", {}), ("braun-goldfarb", {})),
+        *(("direct-correction", {"method.when": "stage"}), ("post-stabilization", {})),
+        *(("coordinate-partitioning", {}), ("braun-goldfarb", {})),
     )
+    labels = {"": "", "mass": ", mass", "stage": ", `when=stage`"}
     rows = tuple(
-        ((f"`{method}`" + (", mass" if options else ""),), partial(list_of, cells, method, options))
+        ((f"`{method}`{labels[''.join(map(str, options.values()))]}",), partial(list_of, cells, method, options))
         for method, options in kinds
     )
     headings = ("method", r"\|Phi\| [m]", r"\|D v - nu\| [m/s]", "error [m, rad]")
@@ -285,7 +315,7 @@ def relative_time(model: Model, method: str, options: Options, turns: int, integ
 
 def tables(times: bool = False) -> dict[str, PageTable]:
     """Return all tables by name; run times are measured only if asked for."""
-    measured = (gains(), adaptive(), energy(), violation(), projection(), classes(times), closing(times))
+    measured = (gains(), law(), adaptive(), energy(), violation(), projection(), classes(times), closing(times))
     return {table.command.split()[-1]: table for table in measured}
 
 

@@ -83,7 +83,8 @@ def test_ten_numbers_spoilt_by_hand_are_found_with_page_and_line():
             continue
         match = dice.choice(numbers)
         mantissa, power = match[0].split("e")
-        wrong = f"{float(mantissa) + 0.3:.1f}e{power}"
+        column = len(cells_of(lines[number][: match.start()] + "|")) - 1
+        wrong = f"{float(mantissa) + 0.3:.1f}e{int(power) + 2 * (column in table.loose)}"
         lines[number] = lines[number][: match.start()] + wrong + lines[number][match.end() :]
         spoilt[table.page, number + 1] = wrong
         found = list(differences(table, "\n".join(lines), dict(enumerate(printed(table)))))
