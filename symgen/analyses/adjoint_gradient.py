@@ -23,7 +23,7 @@ from symgen.running.moving_breaks import with_moving_kinks
 from symgen.running.start_directions import StartDirections
 from symgen.runs.adjoint import Adjoint, Uncovered, run_for_adjoint
 from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.runs.directions import Course, Part
+from symgen.runs.directions import Course, Part, run_with_directions
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -38,6 +38,8 @@ Array = NDArray[np.float64]
 COST, COST_OF_DIRECTION = 3.0, 0.25
 #: Most operations of a right-hand side whose adjoint is compiled without being wanted: more take ten seconds.
 LARGEST = 5000
+#: Directions of the run that examines whether steps are short enough.
+MIXES = 4
 
 
 def is_cheaper(count: int) -> bool:
@@ -86,6 +88,51 @@ class EndDirections:
 
 
 @dataclass(frozen=True)
+class Mixed:
+    """Few directions that have a part of each named number.
+
+    Parameters
+    ----------
+    start : StartDirections
+        Directions of the start.
+    factors : Array, shape (n, k)
+        Of the numbers in each direction.
+    """
+
+    start: StartDirections
+    factors: Array
+
+    @property
+    def directions(self) -> tuple[Direction, ...]:
+        """Their names: of the numbers that have a part."""
+        names = np.array([d.name for d in self.start.directions])
+        several = (names[part != 0.0].tolist() for part in self.factors.T)
+        return tuple(Direction(x[0] if len(x) == 1 else f"{x[0]} to {x[-1]}", "", "state", x[0]) for x in several)
+
+    def parameters(self, compiled: CompiledModel) -> Array:
+        """Return the directions of the array of parameters of a model."""
+        return self.start.parameters(compiled) @ self.factors
+
+
+def doubt_of_steps(run: Prepared, start: StartDirections, seeds: Seeds) -> str | None:
+    """Return why derivatives by the adjoint are in doubt, by a run with directions; None where they are not.
+
+    An adjoint goes back through steps that the state alone chose. Whether these are short enough for derivatives is
+    seen forward, by the embedded estimates of few mixes of all directions; constant steps have none.
+    """
+    if not run.spec.adaptive:
+        return None
+    p, n = run.start.p, seeds.count
+    sizes = np.abs(seeds.p[p != 0.0] / p[p != 0.0, np.newaxis]).max(axis=0, initial=0.0)
+    sizes = np.maximum(sizes, np.abs(seeds.y).max(axis=0, initial=0.0))
+    factors, number = np.zeros((n, min(n, MIXES))), np.arange(n)
+    factors[number, number * factors.shape[1] // n] = (1.0 - 2.0 * (number % 2)) / np.where(sizes > 0.0, sizes, 1.0)
+    mixed = Seeds(seeds.y @ factors, seeds.p @ factors)
+    course = run_with_directions(run.compiled, run.plan.integrator, run.start, run.spec, mixed)
+    return Sensitivities(Evaluated(run, Mixed(start, factors), course), course.outcome).doubt_of_steps(run.spec.rtol)
+
+
+@dataclass(frozen=True)
 class AdjointGradient:
     """A number at the end of a run, and its derivatives.
 
@@ -122,6 +169,7 @@ def adjoint_gradient(
     keys: Mapping[str, str],
     quick: bool,
     pages: list[Array],
+    checked: bool,
 ) -> AdjointGradient:
     """Return a column of results at the end of a run with its derivatives.
 
@@ -139,6 +187,8 @@ def adjoint_gradient(
         Whether code that takes long to compile is refused.
     pages : list of Array
         Memory of an earlier run of the same model, empty for the first one.
+    checked : bool
+        Whether a run with a direction examines the steps.
 
     Raises
     ------
@@ -170,7 +220,8 @@ def adjoint_gradient(
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
     result = replace(result, notes=(*result.notes, *notes, *start.notes))
-    if result.status == "ok" and (doubt := doubt_of_motion(result)):
+    doubt = doubt_of_motion(result) or (doubt_of_steps(run, start, seeds) if checked else None)
+    if result.status == "ok" and doubt:
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])
     return AdjointGradient(value, unit, slopes, adjoint.run.bytes_of_steps, start.directions, run, result)

@@ -307,6 +307,8 @@ def _fit(task: Identification, solution: Any) -> Fit:
                 deviations.setdefault(name, []).append(part)
                 first += len(data.t)
     result = task.result_at(x, task.data[0])
+    if result.status == "unverified":
+        notes.append(f"derivatives are in doubt: {result.reason}")
     return Fit(
         parameters={name: float(value) for name, value in zip(labels, x, strict=True)},
         units={name: task.units[name] for name in labels},

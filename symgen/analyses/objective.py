@@ -103,6 +103,9 @@ class Objective:
         Their bounds.
     first : Gradient
         Value and derivatives in that run. At `x0` the start holds values of its own that are varied.
+    doubt : str or None
+        Why the derivatives of the last run are in doubt. Whether steps are short enough for the adjoint is examined in
+        the first run.
     """
 
     def __init__(
@@ -124,6 +127,7 @@ class Objective:
         self._pages = list[Array]()
         self._quick = arguments.one_of(f"{where}: way", way, ("auto", "forward", "adjoint")) == "auto"
         self._way = way if not self._quick else "adjoint" if is_cheaper(len(self.names)) else "forward"
+        self.doubt: str | None = None
         self.first, directions, prepared = self._run(None)
         self.x0 = self._free.values(directions, prepared, self.first.result)
         limits(f"{where}: by", self.names, self.bounds, self.x0)
@@ -166,6 +170,12 @@ class Objective:
 
     def _run(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
         """Make a run with the values `x`, by default as the settings are; return it with its derivatives."""
+        gradient, directions, prepared = self._directed(x)
+        doubtful = gradient.result.status == "unverified"
+        self.doubt = gradient.result.reason if doubtful else None
+        return gradient, directions, prepared
+
+    def _directed(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
         if self._way == "adjoint":
             try:
                 return self._by_adjoint(x)
@@ -183,7 +193,7 @@ class Objective:
         self._free.runs += 1
         ending = replace(settings, times=[*self._times], until=self._times[-1])
         named = self._where, self.mechanism, ending, self._column, self._free.keys
-        adjoint = adjoint_gradient(*named, self._quick, self._pages)
+        adjoint = adjoint_gradient(*named, self._quick, self._pages, x is None)
         slopes = dict(zip(self.names, adjoint.slopes.tolist(), strict=True))
         units = {
             name: derivative_unit(adjoint.unit, d.unit) for name, d in zip(self.names, adjoint.directions, strict=True)

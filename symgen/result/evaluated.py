@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.events import STOP
 from symgen.layout import abi
+from symgen.result.step_errors import least_sizes
 from symgen.running.prepare import Prepared
 from symgen.runs.directed_model import DirectedModel
 from symgen.runs.directed_observer import Observer
@@ -140,11 +141,14 @@ class Evaluated:
         return np.concatenate(parts)[: self.course.count]
 
     def apart(self) -> Array:
-        """Return by how much directions leave the constraints, over their size, shape (n,)."""
+        """Return by how much directions leave the constraints, over their size, shape (n,); rounding is left out."""
         parts = [(part.model, self._own(part)) for part in self.course.parts]
-        gaps = list[Array]()
+        gaps, first, least = list[Array](), 0, least_sizes(self)[:, 0]
         for model, observer in parts:
             sizes = np.abs(model.shadow(observer.states, "y")[:, : model.plain.info.nq]).max(axis=(0, 1), initial=0.0)
             largest = observer.violations().max(axis=0, initial=0.0)
-            gaps.append(largest / np.where(sizes > 0.0, sizes, 1.0))
+            own = np.zeros_like(largest)
+            own[: len(least) - first] = least[first : first + model.lanes]
+            gaps.append(np.where(largest > own, largest / np.where(sizes > 0.0, sizes, 1.0), 0.0))
+            first += model.lanes
         return np.concatenate(gaps)[: self.course.count]

@@ -21,6 +21,7 @@ from symgen.describe.stops import refuse_bounds
 from symgen.integrators import INTEGRATORS
 from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
+from symgen.result.step_errors import DOUBTFUL, errors_of_steps
 from symgen.running.directions import named_directions
 from symgen.running.moving_breaks import with_moving_kinks
 from symgen.running.prepare import Prepared, preparation
@@ -183,13 +184,22 @@ class Sensitivities:
     def __getstate__(self) -> dict[str, Any]:
         for name in ("q", "v"):
             self.table(name)
-        _ = self.violation, self.moves, self.end
+        _ = self.violation, self.error, self.moves, self.end
         return {**self.__dict__, "_evaluated": None, "_outcome": None}
 
     @cached_property
     def violation(self) -> float:
         """How far directions leave the constraints: a row's largest derivative over a coordinate's."""
         return float(self._evaluated.apart().max(initial=0.0))
+
+    @cached_property
+    def _errors(self) -> tuple[Array, Array] | None:
+        return errors_of_steps(self._evaluated)
+
+    @property
+    def error(self) -> float | None:
+        """Largest estimated error of a derivative in one step, over its size; None for constant steps."""
+        return None if self._errors is None else float(self._errors[0].max(initial=0.0))
 
     @cached_property
     def end(self) -> dict[str, float] | None:
@@ -264,7 +274,7 @@ class Sensitivities:
             for column, row in zip(getattr(result, table).names, self.table(table)[-1].tolist(), strict=True):
                 final[column] = dict(zip(self.names, row, strict=True))
         by = dict(zip(self.names, self.units, strict=True))
-        return {"by": by, "violation": self.violation, "end": self.end, "final": final}
+        return {"by": by, "violation": self.violation, "error": self.error, "end": self.end, "final": final}
 
     def doubt(self, result: Result) -> str | None:
         """Return why the sensitivities of a run are in doubt, None where they are not."""
@@ -276,7 +286,17 @@ class Sensitivities:
             return "the event that ended the run is met without speed: its time has no derivative"
         if self.violation > CONSISTENT:
             return f"sensitivities leave the constraints by {self.violation:.1g} of their size"
-        return None
+        return self.doubt_of_steps(result.outcome.simulation.spec.rtol)
+
+    def doubt_of_steps(self, rtol: float) -> str | None:
+        """Return that steps of a relative tolerance are too long for derivatives, None where they are not."""
+        if self.error is None or self._errors is None or not self.error > DOUBTFUL * rtol:
+            return None
+        errors, times = self._errors
+        k = int(errors.argmax())
+        where = f"in the one that ends at t = {times[k]:.6g} s the derivative by {self.names[k]}"
+        error = f"errs by about {errors[k]:.1g} of its size; take a smaller max_step, or a constant step"
+        return f"steps follow the state alone: {where} {error}"
 
 
 def doubt_of_motion(result: Result) -> str | None:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.layout import abi
 from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
+from symgen.runs.direction_errors import StepErrors, begin_estimates, estimating, step_errors
 from symgen.runs.reset_directions import events_at_start, with_directions
 from symgen.runs.run import Progress, completed
 from symgen.runs.simulation import Simulation
@@ -92,6 +93,11 @@ class Course:
         """Directions of the state at the outputs, shape (k, ny, n)."""
         return self.gathered(lambda part: part.states)
 
+    @cached_property
+    def errors(self) -> StepErrors | None:
+        """Errors of directions in steps; None for constant steps, which have no estimate."""
+        return step_errors([part.outcome.simulation for part in self.parts], self.count)
+
 
 def run_with_directions(
     compiled: CompiledModel,
@@ -116,7 +122,9 @@ def run_with_directions(
         p = model.parameters(start.p, own.p)
         initial = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
         doubts = events_at_start(spec, model, initial)
-        simulation = Simulation(model.whole, integrator, initial, with_directions(spec, model, doubts))
+        scheme = estimating(integrator, spec, model.lanes)
+        simulation = Simulation(model.whole, scheme, initial, with_directions(spec, model, doubts))
+        begin_estimates(simulation, model.sizes["y"])
         outcome = completed(simulation, progress)
         parts.append(Part(model, outcome, doubts))
         progress = None

@@ -171,10 +171,11 @@ def memory(width: int) -> tuple[int, int]:
 
 _PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}
 
-_ADAPTIVE: dict[str, Any] = {
+#: Parts of the frame.
+ADAPTIVE_PARTS: dict[str, Any] = {
     **_PARTS,
     **{"refuse": refuse, "ADAPTIVE": True, "SHRINK_ACCEPTED": 0.3, "GROW": 2.0, "FLOOR": 1e-12},
 }
 
 constant = loop(__name__, "constant", MULTISTEP, **_PARTS)
-adaptive = loop(__name__, "adaptive", MULTISTEP, **_ADAPTIVE)
+adaptive = loop(__name__, "adaptive", MULTISTEP, **ADAPTIVE_PARTS)

@@ -1,0 +1,100 @@
+"""Errors of the directions of an adaptive run, which its steps leave out: embedded estimates of its own stages."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+    from symgen.loops.integrator import Integrator, Setup
+    from symgen.loops.run_spec import RunSpec
+    from symgen.runs.simulation import Simulation
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Estimating:
+    """An adaptive scheme that keeps the errors of directions.
+
+    Parameters
+    ----------
+    integrator : Integrator
+        The scheme.
+    loop : compiled loop
+        From `symgen.loops.schemes.directed`.
+    lanes : int
+        Number of directions.
+    """
+
+    integrator: Integrator
+    loop: Any
+    lanes: int
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.integrator, name)
+
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return the arguments of the loop, with room for errors."""
+        from symgen.loops.schemes.directed import HEAD, NUMBERS, PARTS
+
+        plain = self.integrator.setup(compiled, spec, w)
+        return replace(plain, loop=self.loop, memory=plain.memory + HEAD + self.lanes * PARTS * NUMBERS)
+
+
+def estimating(integrator: Integrator, spec: RunSpec, lanes: int) -> Integrator | Estimating:
+    """Return a scheme that keeps the errors of directions; constant steps have no estimate."""
+    from symgen.loops.schemes import adams, directed, explicit
+
+    loops = {explicit.adaptive: directed.explicit, adams.adaptive: directed.adams}
+    loop = loops.get(integrator.loop(spec.adaptive)) if spec.adaptive else None
+    return integrator if loop is None else Estimating(integrator, loop, lanes)
+
+
+def begin_estimates(simulation: Simulation, own: int) -> None:
+    """Prepare the memory of errors; `own` elements of the state come before directions."""
+    from symgen.loops.schemes.directed import LANES, OWN
+
+    if isinstance(scheme := simulation.integrator, Estimating):
+        kept = _kept(simulation, scheme.lanes)
+        kept[OWN], kept[LANES] = own, scheme.lanes
+
+
+def _kept(simulation: Simulation, lanes: int) -> Array:
+    """Return the memory of the errors of a run."""
+    from symgen.loops.schemes.directed import HEAD, NUMBERS, PARTS
+
+    memory: Array = simulation.state.memory
+    return memory[-HEAD - lanes * PARTS * NUMBERS :]
+
+
+@dataclass(frozen=True)
+class StepErrors:
+    """Errors of directions in the steps of a run, by direction and part of the state.
+
+    Attributes
+    ----------
+    sizes, errors, times : Array, shape (n, 3)
+        Of coordinates, velocities and auxiliary states: the largest element in the run, the largest estimate of the
+        error of a step, and the end of that step [s].
+    """
+
+    sizes: Array
+    errors: Array
+    times: Array
+
+
+def step_errors(simulations: Sequence[Simulation], count: int) -> StepErrors | None:
+    """Return the errors of the first `count` directions of loops; None where steps have no estimate."""
+    from symgen.loops.schemes.directed import ERROR, HEAD, MOMENT, NUMBERS, PARTS, SIZE
+
+    kept = [_kept(x, x.integrator.lanes)[HEAD:] for x in simulations if isinstance(x.integrator, Estimating)]
+    if not kept:
+        return None
+    numbers = np.concatenate(kept).reshape(-1, PARTS, NUMBERS)[:count]
+    return StepErrors(numbers[:, :, SIZE], numbers[:, :, ERROR], numbers[:, :, MOMENT])
