@@ -10,12 +10,16 @@ import pytest
 
 import symgen
 from symgen import Settings
+from symgen.api import Model
+from symgen.describe.lifted import lifted
 from symgen.integrators import INTEGRATORS
 from symgen.layout import abi
 from symgen.methods import METHODS
 from symgen.result.sensitivities import prepared
 
-DIGITS, WIDTH = 45, "1e-18"
+DIGITS = 45
+#: By order: distance of the values of a number, the factors of the motions with these values, and their divisor.
+DIFFERENCES = {2: ("1e-18", {-1: -1, 1: 1}, 2), 4: ("1e-9", {-2: 1, -1: -8, 1: 8, 2: -1}, 12)}
 MASSES = ("crank_mass", "rocker_mass")
 #: Elementary functions of emitted code in 45 digits.
 NAMES = ("sin", "cos", "tan", "sqrt", "exp", "log", "asin", "acos", "atan", "atan2", "floor", "tanh", "sinh", "cosh")
@@ -142,38 +146,40 @@ def adams_step(rate_at, y):
     return step
 
 
-def largest_difference(method, integrator, steps):
+def largest_difference(name, numbers, method, integrator, steps, step=1e-2, coordinates="absolute", order=2):
     """Return how far sensitivities are from differences in 45 digits, over the largest."""
     adaptive = {} if integrator in ("rk4", "abm4") else {"integrator.adaptive": "false"}
     settings = Settings(
         method=method,
         integrator=integrator,
-        step=1e-2,
-        until=1e-2 * steps,
-        times=[1e-2 * steps],
+        step=step,
+        until=step * steps,
+        times=[step * steps],
         options=adaptive,
+        coordinates=coordinates,
         verify=False,
         max_violation=1.0,
         max_energy_error=1e3,
     )
-    model = symgen.load("four-bar")
-    run, _ = prepared(model.mechanism, settings)
-    directed = model.simulate(settings, sensitivities=MASSES)
-    found = np.concatenate([directed.sensitivities.table(name)[-1] for name in ("q", "v")])
+    own = lifted("numbers", symgen.load(name).mechanism, numbers)
+    run, _ = prepared(own.mechanism, settings)
+    assert (run.tree is None) == (coordinates == "absolute")
+    directed = Model(own.mechanism).simulate(settings, sensitivities=tuple(own.keys.values()))
+    found = directed.sensitivities._evaluated.course.states[-1, : run.compiled.info.work]
     with mp.workdps(DIGITS):
-        width = mp.mpf(WIDTH)
+        width, factors, divisor = DIFFERENCES[order]
         expected = np.zeros_like(found)
-        for k, name in enumerate(MASSES):
-            ends = [moved(run, {name: way * width}, steps) for way in (-1, 1)]
-            slopes = [(b - a) / (2 * width) for a, b in zip(*ends, strict=True)]
-            expected[:, k] = [float(x) for x in slopes[: len(found)]]
-    assert np.abs(expected).max() > 1e-4
+        for k, key in enumerate(own.keys.values()):
+            ends = [(factor, moved(run, {key: way * mp.mpf(width)}, steps)) for way, factor in factors.items()]
+            for i in range(len(found)):
+                expected[i, k] = float(sum(factor * end[i] for factor, end in ends) / (divisor * mp.mpf(width)))
+    assert np.abs(expected).max(axis=0).min() > 1e-9
     return float((np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)).max())
 
 
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "velocity-projection"])
 def test_derivatives_are_those_of_the_run_that_was_made(method):
-    assert largest_difference(method, "rk4", 10) < 1e-11
+    assert largest_difference("four-bar", MASSES, method, "rk4", 10) < 1e-11
 
 
 PAIRS = [
@@ -191,4 +197,19 @@ PAIRS = [
 def test_every_method(method, integrator):
     # penalties multiply the rounding of what they hold back
     bound = 1e-7 if "penalty" in method else 1e-11
-    assert largest_difference(method, integrator, 30) < bound
+    assert largest_difference("four-bar", MASSES, method, integrator, 30) < bound
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(
+    ("name", "numbers", "step", "steps"),
+    [
+        ("slider-crank", ("rod_mass", "mechanism.gravity[1]"), 2e-3, 100),
+        ("andrews", ("bodies.K2.mass", "bodies.K3.inertia"), 5e-5, 40),
+        ("bricard", ("mechanism.gravity[1]", "bodies.rod3.mass"), 5e-3, 10),
+        ("rolling-disc", ("mechanism.gravity[2]", "bodies.disc.mass"), 1e-2, 40),
+    ],
+)
+def test_mechanisms_of_the_catalogue(name, numbers, step, steps, coordinates):
+    assert largest_difference(name, numbers, "lagrange", "rk4", steps, step, coordinates, order=4) < 1e-10

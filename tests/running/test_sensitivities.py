@@ -168,7 +168,7 @@ def test_a_rolling_disc_whose_start_is_closed_again(name, coordinates):
     value = disc.parameters()[name]
     for quantity in ("disc.x", "disc.e1", "disc.wy"):
         expected = differences(disc, name, value, 1e-3 * value, quantity, **settings)
-        assert run.gradient(quantity).row()[name] == pytest.approx(expected, rel=1e-9, abs=1e-10)
+        assert run.gradient(quantity).row()[name] == pytest.approx(expected, rel=1e-10, abs=1e-11)
 
 
 @pytest.mark.parametrize("name", ["crank.theta", "crank.omega", "rocker.omega", "D.angle"])

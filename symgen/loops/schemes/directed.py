@@ -31,7 +31,7 @@ SIZE, ERROR, MOMENT, NUMBERS, PARTS = 0, 1, 2, 3, 3
 
 @called
 def keep_errors(system: Any, run: Any, t: float, memory: int, error: Any, other: Any, both: int) -> None:
-    """Keep the largest errors of directions, `both`: from two estimates, which are combined as those of the state."""
+    """Keep the largest errors of directions; with `both`, two estimates are combined as in the error of the state."""
     sizes = system.sizes
     own, lanes = int(run.memory[memory + OWN]), int(run.memory[memory + LANES])
     work = sizes.nq + sizes.nv
