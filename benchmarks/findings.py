@@ -35,7 +35,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
     return (
         *literature.tables(times).values(),
         *(shared_loads.table(), stiff.table(), long.table(), singular.table()),
-        *(coordinates.table(times), picard.work_table(times)),
+        *(coordinates.table(times), picard.work_table(times), picard.hard_table(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
         *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),

@@ -149,9 +149,9 @@ def agrees(printed: str, measured: str, band: float = 0.0) -> bool:
     for one, other in zip(_NUMBER.findall(printed), _NUMBER.findall(measured), strict=True):
         a, b = (float(x.replace(",", "")) for x in (one, other))
         exact = not any(c in one + other for c in ".e")
-        if band and not max(abs(a), abs(b)) <= band * min(abs(a), abs(b)):
-            return False
         rounding = not exact and max(abs(a), abs(b)) < ROUNDING
+        if band and not rounding and not max(abs(a), abs(b)) <= band * min(abs(a), abs(b)):
+            return False
         least = 0.0 if exact else 1.01 * max(unit(one), unit(other))
         if "e" in one + other and not rounding and not band and max(abs(a), abs(b)) > 2.1 * min(abs(a), abs(b)):
             return False

@@ -139,6 +139,7 @@ def test_a_page_keeps_times_that_a_quiet_machine_repeats():
         ("9.9e-8", "1.0e-7", 0.0, True),
         ("1e-3, 2e-7", "5e-3, 3e-8", DECADE, True),  # rounding decides
         ("1e-3, 2e-7", "5e-3, 3e-6", DECADE, False),
+        ("2e-14", "8e-13", DECADE, True),
         ("-6.4e-6", "6.4e-6", 0.0, False),
         ("1.0e-3", "nan", 0.0, False),
     ],
