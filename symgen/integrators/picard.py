@@ -52,7 +52,6 @@ class Coefficients:
     share: Array
     legendre: Array
     dense: Array
-    recurrence: Array
 
 
 @lru_cache(maxsize=1)
@@ -67,9 +66,10 @@ def coefficients() -> Coefficients:
     between = np.cos(np.pi * (np.arange(NODES, 0, -1) - 0.5) / NODES)
     every = np.concatenate([points[1:], between, points[:1]])
     through_all = np.linalg.inv(legendre.legvander(every, len(every) - 1))
-    dense = np.zeros((count + len(every), 3 * NODES))
-    dense[:count, :NODES], dense[:count, 2 * NODES] = through[:, 1:], through[:, 0]
-    dense[count:, : len(every)] = through_all
+    # that of degree 16 has no integral over a whole step, and is far below the last of the nodes
+    dense = np.concatenate(
+        [legendre.legvander(between, NODES).ravel("F"), through_all[:-1, NODES : 2 * NODES].T.ravel()]
+    )
 
     def collocation(x: Array) -> Array:
         once, twice = legendre_integrals(count, x)
@@ -77,10 +77,7 @@ def coefficients() -> Coefficients:
 
     table = np.zeros((count, 2 * NODES))
     table[:, :count] = through.T
-    k = np.arange(3 * NODES)
-    recurrence = np.concatenate([1 / (4 * k + 2), (2 * k + 1) / (k + 1), k / (k + 1)])
-    tables = collocation(points[1:]), collocation(between), 0.5 * weights[1:], table.ravel(), dense.ravel(), recurrence
-    return Coefficients(*tables)
+    return Coefficients(collocation(points[1:]), collocation(between), 0.5 * weights[1:], table.ravel(), dense)
 
 
 def rates_of(info: ModelInfo) -> NDArray[np.int64]:
@@ -138,7 +135,7 @@ class Picard:
         info, c = compiled.info, coefficients()
         derive, vector = at_nodes(compiled)
         degree = int(min(max(1.0 - np.log10(spec.rtol), 4.0), NODES)) if spec.adaptive else NODES
-        arrays = c.table, c.middle, c.share, c.legendre, c.dense, c.recurrence, np.arange(3 * NODES, dtype=np.int64)
+        arrays = c.table, c.middle, c.share, c.legendre, c.dense
         scheme = Nodes(derive, vector, rates_of(info), *arrays, degree, DOP853.record(True))
         width = padded(info.ny)
         memory, room = picard.memory(width), picard.room(width, info.kept)

@@ -231,13 +231,8 @@ class Nodes(NamedTuple):
         Weights of the nodes in an integral over the step.
     legendre : Array, shape (9, 16), flat
         Coefficients of Legendre polynomials from rates.
-    dense : Array, shape (26, 24), flat
-        Legendre coefficients of the polynomial through the rates at the nodes, and of that through rates at the nodes
-        and between them.
-    recurrence : Array, shape (3, 24), flat
-        See `symgen.loops.schemes.picard.integrate_legendre`.
-    count : Array of int64
-        0, 1, 2, ...
+    dense : Array, shape (200,)
+        Table of `symgen.loopcode.nodes.refine`.
     degree : int
         Of the polynomial by which rates of a step are predicted from those of the step before.
     tableau : TableauRecord
@@ -252,8 +247,6 @@ class Nodes(NamedTuple):
     share: Any
     legendre: Any
     dense: Any
-    recurrence: Any
-    count: Any
     degree: int
     tableau: Any
 
@@ -268,7 +261,7 @@ SCREWS = types.RecordType((TABLEAU, _K, _K, _I), Screws)
 MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
 STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
 ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
-NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _A, _K, _I, TABLEAU), Nodes)
+NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _I, TABLEAU), Nodes)
 CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
 PARTITIONED = types.RecordType((_A, _A, _A, _A, _A, _I, _I, _K, _A, _A, _K), PartitionedStages)
 PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)

@@ -9,8 +9,8 @@ from typing import Any
 
 from llvmlite import ir
 
-from symgen.loopcode.nodes import DOUBLED, INTEGRALS, PLACES, POINTS
-from symgen.loopcode.vector_code import I64, VECTOR, ZERO, added, each_of, folded, load, spread, store, variable
+from symgen.loopcode.nodes import CORRECTIONS, DOUBLED, INTEGRALS, PLACES, POINTS, TERMS
+from symgen.loopcode.vector_code import I32, I64, VECTOR, ZERO, added, each_of, folded, load, spread, store, variable
 from symgen.native.types import NODES
 
 
@@ -121,29 +121,84 @@ def expand(builder: Any, rows: Any, weights: Any, first: Any, rates: Any, table:
         store(builder, builder.load(sum_of_squares), squares, I64(half * NODES))
 
 
-def sum_up(
-    builder: Any, h: Any, x: Any, rows: Any, y: Any, first: Any, rates: Any, more: Any, once: Any, twice: Any, out: Any
-) -> None:
-    """Write `symgen.loopcode.nodes.sum_up`."""
-    square, way = builder.fmul(h, h), builder.fmul(h, x)
-    weights = [
-        (load(builder, w, I64(0)), load(builder, w, I64(NODES)), _at(builder, w, I64(2 * NODES))) for w in (once, twice)
-    ]
+def refine(builder: Any, rows: Any, table: Any, coefficients: Any, more: Any, out: Any) -> None:
+    """Write `symgen.loopcode.nodes.refine`."""
+    polynomials, minus = _vectors(builder, table, 0), ir.Constant(VECTOR, [-1.0] * NODES)
+    undefined = ir.Constant(VECTOR, ir.Undefined)
+    halves = [[load(builder, table, I64(CORRECTIONS + p * TERMS + half)) for p in range(NODES)] for half in (0, NODES)]
     with _each_row(builder, rows) as c:
         i = _at(builder, rows, c)
-        at, start, begin = _eight(builder, i), _at(builder, first, i), _at(builder, y, i)
-        here, there = load(builder, rates, at), load(builder, more, at)
+        first = builder.mul(i, I64(TERMS))
+        numbers = _numbers(builder, coefficients, first, 0, POINTS)
+        left = added(builder, minus, _sum(builder, numbers, polynomials), load(builder, more, _eight(builder, i)))
+        each = [
+            builder.shuffle_vector(left, undefined, ir.Constant(ir.VectorType(I32, NODES), [p] * NODES))
+            for p in range(NODES)
+        ]
+        for half, vectors in zip((0, NODES), halves, strict=True):
+            at = builder.add(first, I64(half))
+            total = load(builder, coefficients, at)
+            for number, vector in zip(each, vectors, strict=True):
+                total = added(builder, vector, number, total)
+            store(builder, total, out, at)
 
-        def integral(
-            which: int, factor: Any, base: Any, here: Any = here, there: Any = there, start: Any = start
-        ) -> Any:
-            nodes, others, own = weights[which]
-            total = folded(builder, added(builder, here, nodes, builder.fmul(there, others)), builder.fadd)
-            total = builder.fadd(total, builder.fmul(own, start))
-            return builder.fadd(base, builder.fmul(factor, total))
 
-        builder.store(integral(0, h, begin), builder.gep(out, [i]))
+def _numbers(builder: Any, data: Any, first: Any, start: int, stop: int) -> list[Any]:
+    """Return elements of an array behind its index `first`, as vectors of equal numbers."""
+    return [spread(builder, _at(builder, data, builder.add(first, I64(k)))) for k in range(start, stop)]
+
+
+def integrate_legendre(builder: Any, terms: Any, x: Any, once: Any, twice: Any) -> None:
+    """Write `symgen.loopcode.nodes.integrate_legendre`: for the polynomials of a step, and for more."""
+    place = load(builder, x, I64(0))
+    z = added(builder, _all(2.0), place, _all(-1.0))
+    values, integrals = [_all(1.0), z], [place]
+    store(builder, place, once, I64(0))
+    store(builder, builder.fmul(builder.fmul(_all(0.5), place), place), twice, I64(0))
+
+    def up_to(last: int) -> None:
+        for k in range(len(integrals), last + 1):
+            lower, here = values[-2:]
+            falling = builder.fmul(_all(-k / (k + 1)), lower)
+            values.append(added(builder, builder.fmul(_all((2 * k + 1) / (k + 1)), z), here, falling))
+            integrals.append(builder.fmul(builder.fsub(values[-1], lower), _all(1 / (4 * k + 2))))
+            if k < TERMS:
+                store(builder, integrals[k], once, I64(k * NODES))
+            if k > 1:
+                doubled = builder.fmul(builder.fsub(integrals[k], integrals[k - 2]), _all(1 / (4 * k - 2)))
+                store(builder, doubled, twice, I64((k - 1) * NODES))
+
+    up_to(POINTS)
+    with builder.if_then(builder.icmp_signed(">", terms, I64(POINTS))):
+        up_to(TERMS)
+
+
+def _all(number: float) -> Any:
+    return ir.Constant(VECTOR, [number] * NODES)
+
+
+def sum_up(
+    builder: Any, h: Any, terms: Any, x: Any, rows: Any, y: Any, coefficients: Any, once: Any, twice: Any, out: Any
+) -> None:
+    """Write `symgen.loopcode.nodes.sum_up`."""
+    h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
+    way, further = builder.fmul(h_all, load(builder, x, I64(0))), builder.icmp_signed(">", terms, I64(POINTS))
+    tables = [[load(builder, table, I64(k * NODES)) for k in range(POINTS)] for table in (once, twice)]
+
+    def series(which: int, first: Any) -> Any:
+        total = variable(builder, _sum(builder, _numbers(builder, coefficients, first, 0, POINTS), tables[which]))
+        with builder.if_then(further):
+            more = builder.load(total)
+            for k, number in enumerate(_numbers(builder, coefficients, first, POINTS, TERMS), POINTS):
+                more = added(builder, load(builder, (once, twice)[which], I64(k * NODES)), number, more)
+            builder.store(more, total)
+        return builder.load(total)
+
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        first, begin = builder.mul(i, I64(TERMS)), spread(builder, _at(builder, y, i))
+        store(builder, added(builder, h_all, series(0, first), begin), out, _eight(builder, i))
         q, is_velocity = _coordinate(builder, rows, c)
         with builder.if_then(is_velocity):
-            moved = builder.fadd(_at(builder, y, q), builder.fmul(way, begin))
-            builder.store(integral(1, square, moved), builder.gep(out, [q]))
+            moved = added(builder, way, begin, spread(builder, _at(builder, y, q)))
+            store(builder, added(builder, h_square, series(1, first), moved), out, _eight(builder, q))

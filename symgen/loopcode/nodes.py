@@ -22,6 +22,8 @@ POINTS = NODES + 1
 #: First indices of the parts of `table`: the integrals of a polynomial through the rates up to each node, the second
 #: integrals, and the nodes themselves.
 INTEGRALS, DOUBLED, PLACES = 0, POINTS * NODES, 2 * POINTS * NODES
+#: Room for Legendre coefficients of a rate, and the first index of the second part of the table of `refine`.
+TERMS, CORRECTIONS = 2 * NODES, POINTS * NODES
 
 
 def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out: Any) -> None:
@@ -77,29 +79,63 @@ def _expand(rows: Any, weights: Any, first: Any, rates: Any, table: Any, out: An
             squares[k] += weights[i] * total * total
 
 
-def _sum_up(
-    h: float, x: float, rows: Any, y: Any, first: Any, rates: Any, more: Any, once: Any, twice: Any, out: Any
-) -> None:
-    """Set `out` to the state at the part `x` of a step.
+def _refine(rows: Any, table: Any, coefficients: Any, more: Any, out: Any) -> None:
+    """Set `out` to Legendre `coefficients`, corrected by the rates `more` at points between the nodes.
 
-    `once` and `twice` are weights of the rates for integrals and second integrals: those at the nodes, those of `more`,
-    then that at the start.
+    `table` has the polynomials at these points, then the coefficients of those that are 1 at one of these points and 0
+    at all others and at the nodes.
     """
+    for c in range(1, rows[0] + 1):
+        first = TERMS * rows[c]
+        for k in range(TERMS):
+            out[first + k] = coefficients[first + k]
+        for p in range(NODES):
+            left = more[NODES * rows[c] + p]
+            for k in range(POINTS):
+                left -= table[k * NODES + p] * coefficients[first + k]
+            for k in range(TERMS):
+                out[first + k] += table[CORRECTIONS + p * TERMS + k] * left
+
+
+def _integrate_legendre(terms: int, x: Any, once: Any, twice: Any) -> None:
+    """Set `once` and `twice` to integrals and second integrals of shifted Legendre polynomials from 0 to eight `x`.
+
+    The integral of P_k on (0, 1) is (P_k+1 - P_k-1) / (4 k + 2), the second one likewise.
+    """
+    for o in range(NODES):
+        z = 2.0 * x[o] - 1.0
+        lower, here, last, now = 1.0, z, 0.0, x[o]
+        once[o], twice[o] = x[o], 0.5 * x[o] * x[o]
+        for k in range(1, terms + 1):
+            upper = ((2 * k + 1) / (k + 1)) * z * here - (k / (k + 1)) * lower
+            last, before, now = now, last, (upper - lower) / (4 * k + 2)
+            if k < terms:
+                once[k * NODES + o] = now
+            if k > 1:
+                twice[(k - 1) * NODES + o] = (now - before) / (4 * k - 2)
+            lower, here = here, upper
+
+
+def _sum_up(
+    h: float, terms: int, x: Any, rows: Any, y: Any, coefficients: Any, once: Any, twice: Any, out: Any
+) -> None:
+    """Set `out` to the states at eight parts `x` of a step, from Legendre coefficients and integrals."""
     count = rows[0]
     for c in range(1, count + 1):
         i, q = rows[c], rows[c + count]
-        velocity, place = once[2 * NODES] * first[i], twice[2 * NODES] * first[i]
-        for k in range(NODES):
-            velocity += once[k] * rates[i * NODES + k] + once[NODES + k] * more[i * NODES + k]
-            place += twice[k] * rates[i * NODES + k] + twice[NODES + k] * more[i * NODES + k]
-        out[i] = y[i] + h * velocity
-        if q >= 0:
-            out[q] = y[q] + h * x * y[i] + h * h * place
+        for o in range(NODES):
+            velocity = place = 0.0
+            for k in range(terms):
+                velocity += coefficients[TERMS * i + k] * once[k * NODES + o]
+                place += coefficients[TERMS * i + k] * twice[k * NODES + o]
+            out[i * NODES + o] = y[i] + h * velocity
+            if q >= 0:
+                out[q * NODES + o] = y[q] + h * x[o] * y[i] + h * h * place
 
 
 PLAIN: dict[str, Callable[..., Any]] = {
     **{"place": _place, "extrapolate": _extrapolate, "distance": _distance},
-    **{"expand": _expand, "sum_up": _sum_up},
+    **{"expand": _expand, "refine": _refine, "integrate_legendre": _integrate_legendre, "sum_up": _sum_up},
 }
 
 
@@ -110,4 +146,5 @@ def _function(name: str) -> Any:
 
 
 place, extrapolate, distance = _function("place"), _function("extrapolate"), _function("distance")
-expand, sum_up = _function("expand"), _function("sum_up")
+expand, refine = _function("expand"), _function("refine")
+integrate_legendre, sum_up = _function("integrate_legendre"), _function("sum_up")

@@ -21,8 +21,19 @@ from symgen.layout.scales import weights_of
 from symgen.layout.scheme_records import NODES as SCHEME
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called
-from symgen.loopcode.nodes import PLACES, distance, expand, extrapolate, place, sum_up
-from symgen.loopcode.vectors import copied, total
+from symgen.loopcode.nodes import (
+    PLACES,
+    POINTS,
+    TERMS,
+    distance,
+    expand,
+    extrapolate,
+    integrate_legendre,
+    place,
+    refine,
+    sum_up,
+)
+from symgen.loopcode.vectors import copied
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import DIVERGED, correct, evaluate, store
 from symgen.loops.schemes.explicit import attempt as one_step
@@ -45,8 +56,6 @@ _FIRST_GROWTH = 3.0
 _SLOW, _SMOOTH = 0.008, 1.0
 #: Factor of the estimate, so that errors over the tolerance are those of `dop853`.
 STRICT = 10.0
-#: Legendre polynomials of rates at the nodes, and of those between them as well; numbers of a row of their table.
-TERMS, ALL_TERMS, COLUMNS = NODES + 1, 2 * NODES + 1, 3 * NODES
 #: Outputs use more rates where the last coefficients of rates, over the tolerance, are more than this.
 _LEFT_OUT = 12.0
 #: Memory, before rates at the start of a step and Legendre coefficients of those of the last: the last step [s], 0 at
@@ -56,14 +65,17 @@ STEP, SINGLE, STALE = range(3)
 #: them; 1 where nodes were evaluated one by one; 1 where the iteration has not converged; 1 where convergence bounds
 #: the step, not the motion.
 RATIO, BUFFER, COARSE, ALONE, ADRIFT, SLOW = range(6)
-#: First indices of its parts: times of nodes, squares of coefficients, weights of outputs, and arrays of the width of a
-#: state.
-_TIMES, _SQUARES, _WEIGHTS = NODES, 2 * NODES, 4 * NODES
-_WIDE = _WEIGHTS + 4 * COLUMNS
-#: Of these, in widths: weights, a state, its rate, coefficients, states at nodes, two buffers of rates, and a third.
+#: First indices of its parts: times of nodes, squares of coefficients, places of eight outputs, integrals and second
+#: integrals of polynomials up to them, and arrays of the width of a state.
+_TIMES, _SQUARES, _PARTS_OF_STEP, _ONCE = NODES, 2 * NODES, 4 * NODES, 5 * NODES
+_TWICE = _ONCE + TERMS * NODES
+_WIDE = _TWICE + TERMS * NODES
+#: Of these, in widths: weights, a state, its rate, coefficients, states at nodes, two buffers of rates, a third, and
+#: coefficients from all three.
 _WEIGHED, _STATE, _RATE, _COEFFICIENTS, _STATES, _BUFFERS = 0, 1, 2, 3, 3 + 2 * NODES, 3 + 3 * NODES
 _MORE = _BUFFERS + 2 * NODES
-_ENDS = _MORE + NODES
+_REFINED = _MORE + NODES
+_ENDS = _REFINED + TERMS
 
 
 def memory(width: int) -> int:
@@ -316,46 +328,39 @@ def interpolate(
     """Write the outputs inside a step, each corrected; the status at the end of the step is restored.
 
     Where the polynomial of the nodes is less accurate than the tolerance inside the step, the right-hand side is
-    evaluated once more, at eight points between the nodes.
+    evaluated once more, at eight points between the nodes. Eight states are summed up at once.
     """
-    rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
-    first, states = part(run.memory, NODES, width), part(run.room, _WIDE + _STATES * width, size)
-    rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
-    more, new = part(run.room, _WIDE + _MORE * width, size), part(run.room, _WIDE + _STATE * width, width)
-    integrals, doubled = part(run.room, _WEIGHTS, COLUMNS), part(run.room, _WEIGHTS + COLUMNS, COLUMNS)
-    once, twice = part(run.room, _WEIGHTS + 2 * COLUMNS, COLUMNS), part(run.room, _WEIGHTS + 3 * COLUMNS, COLUMNS)
+    rows, n, width, size = scheme.rows, system.sizes.ny, system.sizes.width, NODES * system.sizes.width
+    states, new = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _STATE * width, width)
+    places, once = part(run.room, _PARTS_OF_STEP, NODES), part(run.room, _ONCE, TERMS * NODES)
+    twice, terms, coefficients = part(run.room, _TWICE, TERMS * NODES), POINTS, _WIDE + _COEFFICIENTS * width
     windings, behind = outputs.status.shape[1] - abi.N_STATUS, _WIDE + _ENDS * width
     before, angles = part(run.room, behind, abi.N_STATUS), part(run.room, behind + abi.N_STATUS, windings)
     for i in range(abi.N_STATUS):
         before[i] = run.w[i]
     for i in range(windings):
         angles[i] = run.w[abi.WINDING + i]
-    terms, begin = TERMS, 0
     if run.room[COARSE] != 0.0:
-        terms, begin = ALL_TERMS, TERMS * COLUMNS
-        times = part(run.room, _TIMES, NODES)
-        place(h, rows, run.y, first, rates, scheme.middle, states)
+        refine_rates(system, scheme, run, t, h)
+        terms, coefficients = TERMS, _WIDE + _REFINED * width
+    series = part(run.room, coefficients, TERMS * width)
+    out = last = run.control[abi.OUTPUTS]
+    while last < outputs.times.shape[0] and outputs.times[last] < following:
+        last += 1
+    copied(width, run.y, new)
+    while out < last:
+        count = min(NODES, last - out)
         for k in range(NODES):
-            times[k] = t + scheme.middle[PLACES + k] * h
-        if scheme.vector == 0 or scheme.derive(times, states, run.p, run.w, more) != 0:
-            one_by_one(system, run, times, states, more)
-        run.control[abi.EVALUATIONS] += NODES
-    else:
-        for i in range(size):
-            more[i] = 0.0
-    weights = part(scheme.dense, begin, terms * COLUMNS)
-    out = run.control[abi.OUTPUTS]
-    while out < outputs.times.shape[0] and outputs.times[out] < following:
-        x = (outputs.times[out] - t) / h
-        integrate_legendre(terms, x, scheme.recurrence, integrals, doubled)
-        total(COLUMNS, 1.0, 0, terms, scheme.count, integrals, weights, once)
-        total(COLUMNS, 1.0, 0, terms, scheme.count, doubled, weights, twice)
-        copied(width, run.y, new)
-        sum_up(h, x, rows, run.y, first, rates, more, once, twice, new)
-        correct(system, run, outputs.times[out], new, True)
-        keep_maxima(system.sizes, run, new)
-        store(system.sizes, run.w, outputs, out, new)
-        out += 1
+            places[k] = (outputs.times[out + min(k, count - 1)] - t) / h
+        integrate_legendre(terms, places, once, twice)
+        sum_up(h, terms, places, rows, run.y, series, once, twice, states)
+        for k in range(count):
+            for i in range(n):
+                new[i] = states[i * NODES + k]
+            correct(system, run, outputs.times[out], new, True)
+            keep_maxima(system.sizes, run, new)
+            store(system.sizes, run.w, outputs, out, new)
+            out += 1
     run.control[abi.OUTPUTS] = out
     for i in range(abi.N_STATUS):
         run.w[i] = before[i]
@@ -363,21 +368,21 @@ def interpolate(
         run.w[abi.WINDING + i] = angles[i]
 
 
-def integrate_legendre(terms: int, x: float, numbers: Any, once: Any, twice: Any) -> None:
-    """Set `once` and `twice` to integrals and second integrals of shifted Legendre polynomials from 0 to `x`.
-
-    The integral of P_k on (0, 1) is (P_k+1 - P_k-1) / (4 k + 2), the second one likewise. `numbers` are 1 / (4 k + 2)
-    for each k, then the two numbers of the recurrence of the polynomials.
-    """
-    z = 2.0 * x - 1.0
-    lower, here = 1.0, z
-    once[0], twice[0] = x, 0.5 * x * x
-    for k in range(1, terms + 1):
-        upper = numbers[COLUMNS + k] * z * here - numbers[2 * COLUMNS + k] * lower
-        once[k] = (upper - lower) * numbers[k]
-        lower, here = here, upper
-    for k in range(1, terms):
-        twice[k] = (once[k + 1] - once[k - 1]) * numbers[k]
+@called
+def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None:
+    """Evaluate rates between the nodes; set more Legendre coefficients than those of the iteration."""
+    rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
+    states, more = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _MORE * width, size)
+    rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
+    coefficients, refined = _WIDE + _COEFFICIENTS * width, part(run.room, _WIDE + _REFINED * width, 2 * size)
+    times = part(run.room, _TIMES, NODES)
+    place(h, rows, run.y, part(run.memory, NODES, width), rates, scheme.middle, states)
+    for k in range(NODES):
+        times[k] = t + scheme.middle[PLACES + k] * h
+    if scheme.vector == 0 or scheme.derive(times, states, run.p, run.w, more) != 0:
+        one_by_one(system, run, times, states, more)
+    run.control[abi.EVALUATIONS] += NODES
+    refine(rows, scheme.dense, part(run.room, coefficients, 2 * size), more, refined)
 
 
 _PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}
