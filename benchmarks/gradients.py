@@ -5,21 +5,29 @@ way back, in memory of the run before. Starts and tables of results, which Pytho
 column has a whole gradient less a whole run, by number.
 
     OPENBLAS_NUM_THREADS=1 python -m benchmarks.gradients [MODEL ...] [--pairs 9] [--method lagrange]
+    python -m benchmarks.gradients --way beside [--peers-python .bench-venv/bin/python]
+
+The second one has errors and times of a quantity of IDAS's slider-crank with two derivatives, of symgen and CasADi.
 """
 
 from __future__ import annotations
 
 import argparse
 import itertools
+import json
 import statistics
+import subprocess
+import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from rich.table import Table
 
+from benchmarks.peers.gradients import DURATION, REPEATS, TOLERANCES, error_of
 from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.base.errors import InputError
@@ -33,6 +41,9 @@ from symgen.running.start_directions import StartDirections
 from symgen.runs.adjoint import run_for_adjoint
 from symgen.runs.directions import run_with_directions
 
+ROOT = Path(__file__).resolve().parents[1]
+#: Errors at which times are compared.
+LIMITS = 1e-6, 1e-8, 1e-9, 2e-12
 #: Quantity, end [s], and settings.
 ADJOINT: dict[str, tuple[str, float, dict[str, Any]]] = {
     "four-bar": ("crank.theta", 60.0, {}),
@@ -139,15 +150,57 @@ def forward(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
     return [name, coordinates, str(seeds.count), f"{1e3 * plain:.1f}", f"{directed / plain:.2f}", f"{each:.2f}"]
 
 
+def beside(interpreter: Path) -> None:
+    """Print errors and loop times of IDAS's slider-crank, of symgen and, with its interpreter, of CasADi.
+
+    Loop times of symgen are medians of 15 runs; those of both are wall times.
+    """
+    model, rows = load(Path(__file__).with_name("idas-slider-crank.toml")), list[dict[str, Any]]()
+    for coordinates in ("joint", "absolute"):
+        for tolerance in TOLERANCES:
+            settings = {"rtol": tolerance, "atol": tolerance, "times": [DURATION], "coordinates": coordinates}
+            settings |= {"integrator": "dop853", "verify": False}
+            runs = [model.simulate(sensitivities=("k", "c"), **settings) for _ in range(REPEATS + 1)][1:]
+            error = error_of([runs[0].outputs.row()["G"], *runs[0].gradient("G").row().values()])
+            taken = statistics.median(run.seconds.run for run in runs)
+            rows.append(
+                {"peer": "symgen", "way": f"dop853 {tolerance:.0e}, {coordinates}", "error": error, "seconds": taken}
+            )
+    if interpreter.exists():
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "rows.json"
+            command = [str(interpreter), "-m", "benchmarks.peers.gradients", "--json", str(path)]
+            subprocess.run(command, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+            rows += json.loads(path.read_text())
+    table = Table("peer", "way", "error", "ms", title="slider-crank of IDAS: G, dG/dk, dG/dc")
+    for row in rows:
+        table.add_row(row["peer"], row["way"], *("" if x is None else f"{x:.2g}" for x in (row["error"], _ms(row))))
+    show(table)
+    for limit in LIMITS:
+        best = dict[str, float]()
+        for row in rows:
+            if row["error"] is not None and row["error"] <= limit:
+                best[row["peer"]] = min(row["seconds"], best.get(row["peer"], np.inf))
+        print(f"error {limit:.0e}: " + ", ".join(f"{peer} {1e3 * x:.3g} ms" for peer, x in best.items()))
+
+
+def _ms(row: dict[str, Any]) -> float | None:
+    return None if row["seconds"] is None else 1e3 * float(row["seconds"])
+
+
 def main() -> None:
-    """Print both tables."""
+    """Print a table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("models", nargs="*", default=[*ADJOINT])
     parser.add_argument("--pairs", type=int, default=9)
     parser.add_argument("--coordinates", default="absolute,joint")
     parser.add_argument("--method", default="lagrange,direct-correction")
-    parser.add_argument("--way", choices=("adjoint", "forward"), default="adjoint")
+    parser.add_argument("--way", choices=("adjoint", "forward", "beside"), default="adjoint")
+    parser.add_argument("--peers-python", type=Path, default=ROOT / ".bench-venv" / "bin" / "python")
     own = parser.parse_args()
+    if own.way == "beside":
+        beside(own.peers_python)
+        return
     measure, headings = (adjoint, ADJOINT_HEADINGS) if own.way == "adjoint" else (forward, FORWARD_HEADINGS)
     table = Table(*headings, title=f"{own.way}, in plain runs")
     for name in own.models:

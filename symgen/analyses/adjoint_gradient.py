@@ -129,7 +129,7 @@ def doubt_of_steps(run: Prepared, start: StartDirections, seeds: Seeds) -> str |
     factors[number, number * factors.shape[1] // n] = (1.0 - 2.0 * (number % 2)) / np.where(sizes > 0.0, sizes, 1.0)
     mixed = Seeds(seeds.y @ factors, seeds.p @ factors)
     course = run_with_directions(run.compiled, run.plan.integrator, run.start, run.spec, mixed)
-    return Sensitivities(Evaluated(run, Mixed(start, factors), course), course.outcome).doubt_of_steps(run.spec.rtol)
+    return Sensitivities(Evaluated(run, Mixed(start, factors), course), course.outcome).doubt_of_steps(run.spec)
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
     from symgen.layout.compiled import CompiledModel
+    from symgen.loops.run_spec import RunSpec
     from symgen.result.result import Result
     from symgen.runs.outcome import Outcome
 
@@ -286,11 +287,11 @@ class Sensitivities:
             return "the event that ended the run is met without speed: its time has no derivative"
         if self.violation > CONSISTENT:
             return f"sensitivities leave the constraints by {self.violation:.1g} of their size"
-        return self.doubt_of_steps(result.outcome.simulation.spec.rtol)
+        return self.doubt_of_steps(result.outcome.simulation.spec)
 
-    def doubt_of_steps(self, rtol: float) -> str | None:
-        """Return that steps of a relative tolerance are too long for derivatives, None where they are not."""
-        if self.error is None or self._errors is None or not self.error > DOUBTFUL * rtol:
+    def doubt_of_steps(self, spec: RunSpec) -> str | None:
+        """Return that steps of a run are too long for derivatives, None where they are not."""
+        if self.error is None or self._errors is None or not self.error > DOUBTFUL * max(spec.rtol, spec.atol):
             return None
         errors, times = self._errors
         k = int(errors.argmax())

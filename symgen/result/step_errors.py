@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Estimated error of directions in a step over their size, in relative tolerances of the state, above which a run is
-#: unverified. In the catalogue and random mechanisms estimates are below, unless derivatives are off by more than 100
-#: tolerances; near equilibria, where they are off by more than 1000, one of them is above.
+#: Estimated error of directions in a step over their size, in tolerances of the state (the larger of both), above which
+#: a run is unverified. In the catalogue and random mechanisms estimates are below, unless derivatives are off by more
+#: than 100 tolerances; near equilibria, where they are off by more than 1000, one of them is above.
 DOUBTFUL = 300.0
 #: A direction below this part of the values of a state over that of its number is rounding; the least such number, as a
 #: part of 1, since a number near 0 is no measure of its own changes.

@@ -1,5 +1,7 @@
 """Mechanisms whose lengths are parameters, with derivatives from closed forms and from models without symgen."""
 
+from pathlib import Path
+
 #: The catalogue's four-bar; the crank is held at 60 degrees, at rest.
 FOUR_BAR = """
 [mechanism]
@@ -105,54 +107,7 @@ ROD_BY = {
 ROD_PERIOD = 1.746598536990109, {"length": 0.8732992684950546, "g": -0.08902133216055602, "angle": 0.230762206713677}
 
 #: The slider-crank of IDAS's example ``idasSlCrank_FSA_dns``; G is the integral of the kinetic energy over 10 s.
-SLIDER_CRANK = """
-[mechanism]
-name = "idas-slider-crank"
-[run]
-until = 10.0
-[parameters]
-k = { value = 1.0, unit = "N/m" }
-c = { value = 1.0, unit = "N s/m" }
-[bodies.crank]
-mass = 1.0
-inertia = 1.0
-points = { mid = [0.25, 0.0], tip = [0.5, 0.0] }
-angle = 1.5707963267948966
-angular_velocity = 0.0
-[bodies.rod]
-mass = 1.0
-inertia = 2.0
-points = { pin = [-1.0, 0.0], mid = [-0.5, 0.0], far = [1.0, 0.0] }
-position = [0.8660254037844387, 0.0]
-angle = -0.5235987755982989
-[joints.pivot]
-type = "revolute"
-between = ["ground", "crank"]
-at = [[0.0, 0.0], "centre"]
-[joints.knee]
-type = "revolute"
-between = ["crank", "rod"]
-at = ["tip", "pin"]
-[joints.slide]
-type = "pin-in-slot"
-between = ["rod", "ground"]
-at = ["centre", [0.0, 0.0]]
-axis = [1.0, 0.0]
-[forces.spring]
-type = "spring-damper"
-between = ["crank", "rod"]
-at = ["mid", "mid"]
-stiffness = "k"
-damping = "c"
-free_length = 1.0
-[forces.push]
-type = "force"
-body = "rod"
-at = "far"
-force = [1.0, 0.0]
-[outputs]
-G = { value = "integral(0.5*crank.omega**2 + 0.5*(rod.vx**2 + rod.vy**2) + rod.omega**2)", unit = "J s" }
-"""
+SLIDER_CRANK = (Path(__file__).parents[2] / "benchmarks" / "idas-slider-crank.toml").read_text(encoding="utf-8")
 #: G and its derivatives, by a model in one coordinate in 30 digits; the example prints 5 of them.
 G, G_BY = 3.3366067994828, {"k": 0.33344810612844, "c": -0.36375403397095}
 

@@ -100,6 +100,13 @@ def test_constant_steps_have_no_estimate(rod):
     assert error < 1e-8
 
 
+def test_a_tight_relative_tolerance_alone(rod):
+    # the absolute one bounds steps, for derivatives as well
+    run, _ = swing(rod, 1.0, integrator="dop853", rtol=1e-13, atol=1e-10)
+    assert run.status == "ok"
+    assert 300.0 * 1e-13 < run.sensitivities.error < 300.0 * 1e-10
+
+
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "rolling-disc"])
 def test_ordinary_runs_are_not_in_doubt(name):
     mass = {"four-bar": "crank_mass", "slider-crank": "rod_mass", "rolling-disc": "radius"}[name]
