@@ -52,13 +52,17 @@ class Generated:
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method with its requested structural options, the shape of its code, and velocities that loops leave free."""
+    """A method with its requested structural options, the shape of its code, and velocities that loops leave free.
+
+    `directed`: with a right-hand side for derivatives.
+    """
 
     method: Method
     options: Mapping[str, str]
     implicit: bool = False
     shape: str = "straight"
     free: tuple[int, ...] = ()
+    directed: bool = False
 
     @property
     def stem(self) -> str:
@@ -67,8 +71,8 @@ class MethodChoice:
 
     @property
     def suffix(self) -> str:
-        """End of the file stem, which says the free velocities."""
-        return "".join(f"_f{j}" for j in self.free)
+        """End of the file stem, which says the free velocities, and whether it is for derivatives."""
+        return "".join(f"_f{j}" for j in self.free) + "_slopes" * self.directed
 
     def with_options(self, **options: str) -> MethodChoice:
         """Return the choice with other values of some options."""
@@ -221,7 +225,8 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
         closing = closings.get(choice.free)
         if closing is None:
             closing = closings[choice.free] = closing_plan(equations, program.plan, choice.free)
-        law = lower_law(equations, program, choice.method, choice.options, choice.implicit, closing, choice.suffix)
+        arguments = choice.method, choice.options, choice.implicit, closing, choice.suffix, choice.directed
+        law = lower_law(equations, program, *arguments)
         words = (choice.method.summary, choice.method.reference)
         if target == "lanes":
             sources = {f"{choice.stem}{suffix}": emit_lanes_law(law, program, equations, *words)}
@@ -281,7 +286,8 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
         As for `generate`.
     """
     store, choice = Entries(), for_coordinates(mechanism, choice)
-    arguments = mechanism, choice.method.name, dict(choice.options), choice.implicit, choice.shape, target
+    options = dict(choice.options)
+    arguments = mechanism, choice.method.name, options, choice.implicit, choice.shape, target, choice.directed
     if choice.shape == "looped" and target == "cpu":
         from symgen.compiling.looped import compile_looped
 
@@ -304,10 +310,17 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
 
 
 def compile_again(
-    mechanism: Mechanism, method: str, options: Mapping[str, str], implicit: bool, shape: str, target: str
+    mechanism: Mechanism,
+    method: str,
+    options: Mapping[str, str],
+    implicit: bool,
+    shape: str,
+    target: str,
+    directed: bool,
 ) -> CompiledModel:
     """Return a compiled model that was pickled elsewhere: from the cache, or generated."""
-    return compile_model(mechanism, replace(choose_method(method, options, implicit), shape=shape), target=target)
+    choice = replace(choose_method(method, options, implicit), shape=shape, directed=directed)
+    return compile_model(mechanism, choice, target=target)
 
 
 @final

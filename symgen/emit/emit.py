@@ -20,7 +20,7 @@ from symgen.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_mo
 from symgen.emit.whole import Places, model_name
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
+from symgen.ir.program import BY_RESIDUAL, DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
 from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
@@ -290,6 +290,7 @@ def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[Mod
 _FOLLOWED = {
     "rhs": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
     "confirm": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    BY_RESIDUAL: ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
     "residual": ("t, y, k, p, w, r", "accumulate(t, y, k, p, w)"),
 }
 

@@ -9,8 +9,19 @@ from typing import Any
 
 from symgen.emit.module import PLATFORMS, ModulePiece, Origins, function_source, module_source, python_number, render
 from symgen.emit.whole import Places
+from symgen.ir.graph import CARRIED
 from symgen.ir.numerics import NUMBERS
-from symgen.ir.program import BY_PIVOTS, COUNTERS, FREE_RHS, HELD_RHS, MODE_NUMBERS, STATUS, Correction, LawCode
+from symgen.ir.program import (
+    BY_PIVOTS,
+    BY_RESIDUAL,
+    COUNTERS,
+    FREE_RHS,
+    HELD_RHS,
+    MODE_NUMBERS,
+    STATUS,
+    Correction,
+    LawCode,
+)
 
 
 class PartsLayout:
@@ -133,9 +144,10 @@ ROLES = {
     "closed": ("rhs_closed", "Right-hand side behind the closure of the state"),
     "confirmation": ("confirm", "Second evaluation without rows that come out doubtful"),
     "form": ("form", "Descriptor form"),
+    "derivation": ("slopes", "Right-hand side for derivatives"),
 }
 #: Functions that a law's module exports.
-_EXPORTS = ("prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent")
+_EXPORTS = "prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent", BY_RESIDUAL
 
 
 def law_modules(
@@ -208,6 +220,8 @@ def law_modules(
 def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, ModulePiece]]:
     """Return the functions of a law with loops, with their roles, in the order of their text."""
     form, parts = law.form, Parts(layout, law.correction)
+    if BY_RESIDUAL in names:
+        parts.pieces += (("derivation", _carried(layout, name, arguments)) for name, arguments in CARRIED.items())
     if "refactor" in names:
         parts.add("metric", "metric")
     if FREE_RHS in names:
@@ -231,6 +245,12 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     by_metric = "partition" if partitioned else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")
     return parts.pieces
+
+
+def _carried(layout: PartsLayout, name: str, arguments: tuple[str, ...]) -> ModulePiece:
+    """Return a function of a number whose derivatives are others."""
+    purpose = "A without derivatives." if len(arguments) == 1 else "A with the derivatives of b."
+    return function_source(name, ", ".join(arguments), purpose, ["return a"], layout.decorator)
 
 
 def _by_modes(layout: PartsLayout) -> ModulePiece:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.base.escapes import comment_text
+from symgen.ir.graph import CARRIED
 from symgen.ir.program import STATUS, Block, JacobianEntry, ModelLayout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
 
@@ -184,6 +185,9 @@ class Printer:
             self.functions.add(name)
             return f"{name}({', '.join(texts)})", 5
         if op in ("abs", "min", "max"):
+            return f"{op}({', '.join(texts)})", 5
+        if op in CARRIED:
+            self.functions.add(op)
             return f"{op}({', '.join(texts)})", 5
         special = {
             "step": "1.0*({0} > {1})",

@@ -20,6 +20,8 @@ TIME, POSITION, VELOCITY, PARAMETER, SCRATCH = 1, 2, 4, 8, 16
 #: Input spaces that are not scratch: every other name is a section of ``w`` or an array of the block's own.
 _BITS = {"t": TIME, "q": POSITION, "v": VELOCITY, "p": PARAMETER, "parameter": PARAMETER}
 
+#: Numbers with other derivatives: ``held(a)`` is a without derivatives, ``carried(a, b)`` is a with those of b.
+CARRIED = {"held": ("a",), "carried": ("a", "b")}
 #: Operations that are not arithmetic; ``step(a, b)`` is 1.0 where a > b and 0.0 elsewhere, without a branch, and
 #: ``defined(a)`` is true where a is a number.
 FUNCTIONS = frozenset((*ELEMENTARY, *"atan2 abs floor min max sign lt le gt ge and or not where step defined".split()))
@@ -227,7 +229,10 @@ class Graph:
             return self.call("abs", self.nodes[args[0]].args[0])
         if function == "where" and (condition := self.value(args[0])) is not None:
             return args[1] if condition else args[2]
-        if function in FUNCTIONS:
+        if function == "held":  # never hoisted: derivatives of numbers that depend on parameters would go with it
+            own = self.value(args[0]) is not None
+            return args[0] if own else self._node(Operation(function, args), self.depends[args[0]] | SCRATCH)
+        if function in FUNCTIONS or function in CARRIED:
             return self._apply(function, *args)
         return self._apply("table", *args, payload=function.removeprefix("table:"))
 

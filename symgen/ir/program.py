@@ -23,6 +23,9 @@ BY_PIVOTS = "rhs_by_pivots"
 #: The right-hand sides of motions with rows with bounds in force and without: ``rhs`` enters one of them.
 HELD_RHS, FREE_RHS = "rhs_held", "rhs_free"
 
+#: The right-hand side whose derivatives are those of the residual.
+BY_RESIDUAL = "rhs_by_residual"
+
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3
 
@@ -161,7 +164,7 @@ class Block:
         Node whose truth the function returns; None: it returns 0.
     arguments : tuple of str
         Arrays passed to the function.
-    role : {"", "preparation", "acceleration", "iteration", "metric", "form"}
+    role : {"", "preparation", "acceleration", "iteration", "metric", "form", "derivation"}
         The part of a law that the function belongs to; none for functions of the model.
     """
 

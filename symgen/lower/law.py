@@ -10,6 +10,7 @@ from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import (
     BY_PIVOTS,
+    BY_RESIDUAL,
     FREE_RHS,
     HELD_RHS,
     JAMMING,
@@ -25,6 +26,7 @@ from symgen.lower.hoist import Hoister
 from symgen.lower.plans import closing_plan
 from symgen.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
 from symgen.lower.record_form import record_form
+from symgen.lower.residual import by_residual
 from symgen.lower.scalar import ScalarNodes
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
@@ -44,6 +46,7 @@ def lower_law(
     implicit: bool = False,
     closing: EliminationPlan | None = None,
     suffix: str = "",
+    directed: bool = False,
 ) -> LawProgram:
     """Lower one method: its acceleration law, and its correction where it differs from the model's.
 
@@ -63,6 +66,8 @@ def lower_law(
         Plan with loops in closed form, as velocities chosen at the start allow; see `closing_plan`.
     suffix : str
         Of the file stem, which says the choice.
+    directed : bool
+        Whether a right-hand side for derivatives is added, where these take fewer operations by it.
 
     Raises
     ------
@@ -96,8 +101,13 @@ def lower_law(
         hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
     degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
+    solver = scalars
     if closing.loops and closed and loose is None:
-        blocks = [*_with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0]), *blocks[1:]]
+        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
+        blocks = [*own, *blocks[1:]]
+    if directed and closed and loose is None and not equations.drags:
+        part = recorded.resolved(solver.plan.schur).parts[0]
+        blocks += _by_residual(hoister, solver, recorded, part)
     if loose is not None:
         held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
         free = replace(law_block(hoister, *loose), name=FREE_RHS)
@@ -188,15 +198,25 @@ def _eliminates(record: RecordedLaw) -> bool:
 
 def _with_closed_loops(
     hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, plan: EliminationPlan, block: Block
-) -> list[Block]:
+) -> tuple[ScalarNodes, list[Block]]:
     """Return the right-hand side with loops in closed form, and behind it the one that `confirm` evaluates."""
     if not any(operation.kind == "constrained" for operation in record.operations):
-        return [block]
+        return scalars, [block]
     part, closing = record.parts[0], scalars.with_closed_loops(record.operations, plan)
     closing.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
     behind = replace(block, name=BY_PIVOTS, purpose=f"the same with a pivot for each row of a loop, {block.purpose}")
     closed = law_block(hoister, closing, part)
-    return [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
+    return closing, [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
+
+
+def _by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, part: Part) -> list[Block]:
+    """Return the right-hand side for derivatives, if there is one."""
+    outputs = by_residual(scalars, record, part_outputs(scalars, part))
+    if outputs is None:
+        return []
+    purpose = "q', v', power and multipliers, with the derivatives of the residual"
+    flag = None if part.flag is None else scalars.values[part.flag]
+    return [replace(hoister.block(BY_RESIDUAL, purpose, outputs, ARGUMENTS["rhs"], flag), role="derivation")]
 
 
 def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:

@@ -65,6 +65,10 @@ class ScalarNodes(OfMass):
         accelerations, multipliers = self._dragged(f, gamma) if self.equations.drags else self.saddle.solve(f, gamma)
         return accelerations if operation.payload == ("accelerations",) else multipliers
 
+    def solution(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
+        """Return v' and lambda with ``M v' + D^T lambda = f``, ``D v' = gamma``, eliminated as the plan says."""
+        return self.by_factor(f, gamma, self._schur) if self.plan.schur else self.saddle.solve(f, gamma)
+
     def _dragged(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
         """Return v' and lambda with friction by reactions; leave its power and the squares of jamming numbers."""
         g, drags = self.graph, self.equations.drags

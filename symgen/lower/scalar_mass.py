@@ -183,6 +183,10 @@ class OfMass(NodeValues):
         return super()._on_product(operation, matrix, x)
 
     def _on_mass(self, operation: FormulaStep, x: Nodes) -> Nodes:
+        return self.mass_times(x)
+
+    def mass_times(self, x: Nodes) -> Nodes:
+        """Return M times a vector."""
         g = self.graph
         result = [g.zero] * len(x)
         for block in self.equations.mass:

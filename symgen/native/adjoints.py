@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import msgspec
 
+from symgen.ir.graph import CARRIED
 from symgen.native import language as lang
 from symgen.native import sines
 from symgen.native.llvm import FunctionPrinter, declarations, taken
@@ -131,7 +132,7 @@ class AdjointPrinter(TangentPrinter):
                 own = self.put(f"getelementptr double, ptr {self.base(e.array)}, i64 {place[1]}")
                 self.read[place] = self.put(f"load double, ptr {own}"), self.summed()
             return self.read[place]
-        if isinstance(e, lang.FunctionCall):
+        if isinstance(e, lang.FunctionCall) and e.function.name not in CARRIED:
             return self.called_here(e)
         return super().dual(e)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from symgen.ir.graph import CARRIED
 from symgen.native import language as lang
 from symgen.native import sines
 from symgen.native.llvm import FunctionPrinter, declarations, head, reached, taken
@@ -219,12 +220,19 @@ class TangentPrinter(FunctionPrinter):
             return self.put(f"load double, ptr {own}"), self.put(f"load {self.kind}, ptr {place}, align 8")
         if isinstance(e, lang.ScalarOperation):
             return self.differentiated(e)
+        if isinstance(e, lang.FunctionCall) and e.function.name in CARRIED:
+            return self.carried(e)
         if isinstance(e, lang.FunctionCall):
             pair, kind = self.call(e), self.returned("float")
             return self.put(f"extractvalue {kind} {pair}, 0"), self.put(f"extractvalue {kind} {pair}, 1")
         if isinstance(e, lang.Choice):
             return self.chosen(e)
         raise Foreign(f"a {type(e).__name__} with directions")
+
+    def carried(self, e: lang.FunctionCall) -> Dual:
+        """Print a number with the directions of another one, or with none."""
+        (value, _), *others = [self.dual(a) for a in e.arguments if not isinstance(a, str)]
+        return value, others[0][1] if others else None
 
     def called(self, function: str, returned: lang.Scalar, arguments: tuple[lang.Expression | str, ...]) -> str:
         """Print a call with directions behind each float."""

@@ -24,7 +24,7 @@ from symgen.result.labelled import Labelled
 from symgen.result.step_errors import DOUBTFUL, errors_of_steps
 from symgen.running.directions import named_directions
 from symgen.running.moving_breaks import with_moving_kinks
-from symgen.running.prepare import Prepared, preparation
+from symgen.running.prepare import Preparation, Prepared, preparation
 from symgen.running.start_directions import StartDirections
 from symgen.runs.directions import Course, run_with_directions
 
@@ -80,13 +80,19 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
         if "ode" in forms:
             hint = f"take {works[0]}"
         raise InputError("sensitivities: integrator", f"an explicit scheme ({', '.join(works)})", got, hint)
-    run = ready.run()
+    run = _with_slopes(ready).run()
     watched = run.spec.events
     if any(x.jumps for x in discontinuities_of(run.plan.mechanism)) or (watched and watched.rows is not None):
         expected, got = "a run without jumps of formulas", "formulas that jump where the state passes zero"
         hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"
         raise InputError("sensitivities", expected, got, hint)
     return run, tuple(notes)
+
+
+def _with_slopes(ready: Preparation) -> Preparation:
+    """Return a run with the code for derivatives."""
+    plan = ready.plan
+    return replace(ready, plan=replace(plan, choice=replace(plan.choice, directed=True)), assembled=None)
 
 
 class Differentiated:

@@ -17,6 +17,7 @@ from symgen.base.errors import InputError
 from symgen.layout import abi
 from symgen.native.adjoints import Accesses, accesses, correction
 from symgen.native.read_values import Foreign
+from symgen.runs.directed_model import rhs_for_derivatives
 from symgen.runs.run import Progress, completed
 from symgen.runs.simulation import Simulation
 from symgen.store.emitted import AdjointFunction, EmittedFunction
@@ -65,8 +66,9 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
     if not isinstance(law.rhs, EmittedFunction):
         raise _refusal("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
     method = f"the method {compiled.law.method}"
-    own, other = _accesses(law.rhs, abi.RHS), _accesses(law.accept, abi.ACCEPT)
-    _compile(_adjoint(law.rhs), RATES, f"accelerations of {method}")
+    rhs = rhs_for_derivatives(law)
+    own, other = _accesses(rhs, abi.RHS), _accesses(law.accept, abi.ACCEPT)
+    _compile(_adjoint(rhs), RATES, f"accelerations of {method}")
     angles = {("w", abi.WINDING + i) for i in range(min(compiled.info.windings, HEAD - ANGLES))}
     passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
     read = own.read
@@ -251,7 +253,11 @@ class Adjoint:
                 raise _refusal(expected, f"a step with {counts[-1]}", "take smaller steps or tolerances")
             made = {k: _adjoint(law.accept, k) for k in counts}
             functions = Corrections(*(made.get(k, made[counts[0]]) for k in range(most)))
-        back, rates, table = corrected if own else back_through, _adjoint(law.rhs), transposed(run.scheme)
+        back, rates, table = (
+            corrected if own else back_through,
+            _adjoint(rhs_for_derivatives(law)),
+            transposed(run.scheme),
+        )
         angles = min(run.compiled.info.windings, HEAD - ANGLES)
         for records in reversed(run.pieces[1:]):
             back(rates, functions or 0, run.scheme, table, width, angles, records, p, w, iw, bars, room)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
+from symgen.ir.program import BY_RESIDUAL
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.store.emitted import EmittedFunction, TangentFunction
@@ -93,6 +94,8 @@ class DirectedModel:
 
     def _module(self, module: Any, names: dict[str, Any]) -> Any:
         functions = {name: self.function(getattr(module, name)) for name in names if hasattr(module, name)}
+        if hasattr(module, BY_RESIDUAL):
+            functions["rhs"] = self.function(rhs_for_derivatives(module))
         return SimpleNamespace(**{**vars(module), **functions})
 
     def function(self, function: Any, length: int = 0, timed: bool = False) -> TangentFunction:
@@ -149,6 +152,11 @@ class DirectedModel:
     def caller(name: str, function: TangentFunction) -> Callable[..., Any]:
         """Return a function of model or law for calls from Python."""
         return function.caller((_MODEL | _LAW)[name].signature.arguments)
+
+
+def rhs_for_derivatives(law: Any) -> Any:
+    """Return the right-hand side of a law whose derivatives take the fewest operations."""
+    return getattr(law, BY_RESIDUAL, law.rhs)
 
 
 @functools.lru_cache(maxsize=256)
