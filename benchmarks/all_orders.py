@@ -62,6 +62,7 @@ STEPS = {
     "phem56": (8, 7, 2),
     "rattle": (64, 6, 2),
     "discrete-gradient": (64, 6, 2),
+    "gauss": (8, 6, 2),
     "symplectic-euler": (512, 6, 2),
     "sdirk": (8, 6, 2),
     "radau5": (8, 6, 2),

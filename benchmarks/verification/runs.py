@@ -175,6 +175,7 @@ METHODS: dict[str, tuple[str, float | None]] = {
     "half-explicit": ("half-explicit", None),
     "rattle": ("rattle", None),
     "discrete-gradient": ("discrete-gradient", None),
+    "symmetric-projection": ("gauss", None),
 }
 #: Methods that have straight code only.
 DENSE = (

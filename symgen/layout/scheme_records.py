@@ -214,6 +214,27 @@ class PartitionedStages(NamedTuple):
     plan: Any
 
 
+class Symmetric(NamedTuple):
+    """A symmetric scheme between projections of its model.
+
+    Attributes
+    ----------
+    geometry, measure, spread : function
+        Emitted functions of the model.
+    share, residual : int
+        Index in ``p`` of the part of the projection at the beginning, and the first one of the section in ``w``.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
+    """
+
+    geometry: Any
+    measure: Any
+    spread: Any
+    share: int
+    residual: int
+    nonholonomic: Any
+
+
 class Nodes(NamedTuple):
     """A collocation scheme whose rates are unknown at all nodes of a step at once.
 
@@ -264,4 +285,5 @@ ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
 NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _I, TABLEAU), Nodes)
 CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
 PARTITIONED = types.RecordType((_A, _A, _A, _A, _A, _I, _I, _K, _A, _A, _K), PartitionedStages)
+SYMMETRIC = types.RecordType((abi.MEASURE, abi.MEASURE, abi.MOVE, _I, _I, _A), Symmetric)
 PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)

@@ -173,7 +173,7 @@ class Descriptor:
 
 
 #: Forms of problems that explicit integrators solve with the law alone; all others have a descriptor form.
-EXPLICIT_FORMS = frozenset(("ode", "one-step", "semi-implicit"))
+EXPLICIT_FORMS = frozenset(("ode", "one-step", "semi-implicit", "symmetric"))
 
 Law = Acceleration | Iteration | Tangent | Dense
 

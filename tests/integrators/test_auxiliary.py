@@ -22,7 +22,7 @@ def pendulum(count):
 def check(integrator, coordinates):
     method = {"generalized-alpha": "generalized-alpha", "trapezoidal": "index3-augmented-lagrangian"}
     method |= {"half-explicit": "half-explicit", "phem56": "half-explicit", "rattle": "rattle"}
-    method["discrete-gradient"] = "discrete-gradient"
+    method |= {"discrete-gradient": "discrete-gradient", "gauss": "symmetric-projection"}
     constant = {"options": {"integrator.adaptive": "false"}} if INTEGRATORS.get(integrator).adaptive else {}
     settings = {"method": method.get(integrator, "lagrange"), "integrator": integrator, "coordinates": coordinates}
     settings |= {"step": STEP, "until": STEP * STEPS, "max_energy_error": 1e9, "max_violation": 1.0, **constant}

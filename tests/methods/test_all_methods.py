@@ -88,6 +88,7 @@ def test_the_error_of_penalty_falls_with_the_penalty():
         ("ggl", "radau5"),
         ("rattle", "rattle"),
         ("discrete-gradient", "discrete-gradient"),
+        ("symmetric-projection", "gauss"),
         ("augmented-hamiltonian", "rk4"),
         ("coordinate-partitioning", "rk4"),
         ("coordinate-partitioning", "dop853"),

@@ -23,7 +23,7 @@ SCHEMES = {
     "picard": ("constant", "adaptive"),
     **dict.fromkeys(("explicit", "adams", "implicit", "partitioned"), ("constant", "adaptive")),
     **dict.fromkeys(("alpha", "lie", "projected", "half_explicit", "rattle", "symplectic", "screw"), ("constant",)),
-    "discrete_gradient": ("constant",),
+    **dict.fromkeys(("discrete_gradient", "symmetric"), ("constant",)),
 }
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
@@ -102,6 +102,7 @@ CASES = {
     "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
     "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
     "mean": ("four-bar", "discrete-gradient", "discrete-gradient"),
+    "symmetric": ("spatial-slider-crank", "symmetric-projection", "gauss"),
     "partitioned": ("spatial-slider-crank", "half-explicit", "phem56"),
 }
 #: Integrators whose steps depend on rounding, as errors are estimated.

@@ -13,6 +13,7 @@ import symgen
         ("generalized-alpha", "generalized-alpha", 1, 20),  # of Newton, once a step at least
         ("rattle", "rattle", 1, 100),
         ("discrete-gradient", "discrete-gradient", 1, 100),
+        ("symmetric-projection", "gauss", 2, 100),
         ("index3-augmented-lagrangian", "trapezoidal", 1, 100),
     ],
 )

@@ -323,7 +323,7 @@ SAMPLED = ("rk4", "dop853")
 def settings_of(integrator):
     method = {"generalized-alpha": "generalized-alpha", "trapezoidal": "index3-augmented-lagrangian"}
     method |= {"half-explicit": "half-explicit", "phem56": "half-explicit", "rattle": "rattle"}
-    method["discrete-gradient"] = "discrete-gradient"
+    method |= {"discrete-gradient": "discrete-gradient", "gauss": "symmetric-projection"}
     settings = {"method": method.get(integrator, "lagrange"), "integrator": integrator}
     return settings if INTEGRATORS.get(integrator).adaptive else settings | {"step": 2e-3}
 

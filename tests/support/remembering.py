@@ -10,7 +10,7 @@ PAIRS = [
     *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
     *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm", "dop853", "picard")),
     *(("half-explicit", "half-explicit"), ("half-explicit", "phem56"), ("rattle", "rattle")),
-    ("discrete-gradient", "discrete-gradient"),
+    *(("discrete-gradient", "discrete-gradient"), ("symmetric-projection", "gauss")),
     ("implicit-constraint", "symplectic-euler"),
     *(("augmented-hamiltonian", "dopri5"), ("augmented-lagrangian", "rk4")),
 ]
