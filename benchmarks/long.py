@@ -31,6 +31,8 @@ FORMULATIONS: tuple[tuple[str, str, str, Mapping[str, str | float]], ...] = (
     ("`generalized-alpha`", "generalized-alpha", "generalized-alpha", {}),
     ("`rattle`", "rattle", "rattle", {}),
     ("`discrete-gradient`", "discrete-gradient", "discrete-gradient", {}),
+    ("`symmetric-projection`", "symmetric-projection", "gauss", {}),
+    ("`symmetric-projection`, `share=0`", "symmetric-projection", "gauss", {"method.share": 0.0}),
 )
 
 

@@ -123,7 +123,8 @@ def four_bar() -> Mechanism:
 
 
 def ready(mechanism: Mechanism, until: float, integrator: str = "dop853", **settings: Any) -> Prepared:
-    steps = {"step": 4e-3} if integrator == "rk4" else {"rtol": 1e-12, "atol": 1e-12}
+    constant = {"rk4": {"step": 4e-3}, "gauss": {"step": 1e-3, "method": "symmetric-projection"}}
+    steps = constant.get(integrator, {"rtol": 1e-12, "atol": 1e-12})
     return prepare(mechanism, Settings(integrator=integrator, until=until, verify=False, **steps | settings))
 
 
@@ -137,7 +138,7 @@ def multiplier(outcome: Any, row: str) -> float:
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5", "rk4"])
+@pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5", "rk4", "gauss"])
 def test_a_ball_bounces_and_rests(integrator: str, coordinates: str) -> None:
     """Flights last 2 v / g; their series ends at sqrt(2 h / g) (1 + e) / (1 - e)."""
     outcome = ready(described(BALL), 4.0, integrator, coordinates=coordinates).integrate()
@@ -159,7 +160,8 @@ def test_a_ball_bounces_and_rests(integrator: str, coordinates: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "joint"), ("radau5", "joint")]
+    ("integrator", "coordinates"),
+    [("dop853", "absolute"), ("picard", "joint"), ("radau5", "joint"), ("gauss", "absolute"), ("gauss", "joint")],
 )
 def test_a_four_bar_strikes_a_stop_of_its_crank(integrator: str, coordinates: str) -> None:
     """Impacts, their end and the torque at rest of an event-driven reference in one coordinate."""
