@@ -31,7 +31,7 @@ _TEXT = (
     "10.1007/s11044-016-9530-y) give computing times as ratios to the standard Lagrange method. Their figures are "
     "taken second hand: Carvalho 2022 (T. M. S. P. Carvalho, Multibody 3D Simulation Tool for Vehicle Development, MSc "
     "thesis, IST Lisbon, 2022, tables 3.4 and 3.5). They were measured with other, interpreted code on mechanisms "
-    "whose dimensions are not all published, so this compares magnitudes and reproduces nothing: what Baumgarte's "
+    "whose dimensions were not available to us, so this compares magnitudes and reproduces nothing: what Baumgarte's "
     "method adds are two products of a matrix and a vector, and a ratio well above 1 measures an implementation.",
     "Both columns are for the classical Runge-Kutta method of fourth order at constant steps, 1 ms in the source.",
 )
