@@ -23,6 +23,7 @@ from benchmarks import (
     picard,
     shared_loads,
     singular,
+    space,
     statistics,
     stiff,
     stress_cells,
@@ -35,7 +36,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
     return (
         *literature.tables(times).values(),
         *(shared_loads.table(), stiff.table(), long.table(), singular.table()),
-        *(coordinates.table(times), picard.work_table(times), picard.hard_table(times)),
+        *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
         *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),

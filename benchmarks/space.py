@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +25,13 @@ from rich.table import Table
 
 import symgen
 from benchmarks import against_gcc
+from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
 from benchmarks.show import show
 from symgen.compiling.pipeline import choose_method
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
+from symgen.report.source import RATIOS
 from symgen.study.references.reference import reference as second_derivation
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -39,16 +41,12 @@ TARGETS = (1e-6, 1e-9)
 #: Rod and joint relative to its middle.
 JOINTS = ((0, (0.5, 0.0, 0.0)), (1, (0.0, -0.5, 0.0)), (2, (0.0, 0.0, 0.5)), (3, (-0.5, 0.0, 0.0)))
 METHODS = (
-    *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
-    *("coordinate-partitioning", "direct-correction"),
+    *("baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian", "coordinate-partitioning"),
+    "direct-correction",
 )
-#: Cost of Baumgarte's stabilisation, the augmented Lagrangian formulation and direct correction over Lagrange's
-#: multipliers in F. Marques, A. P. Souto and P. Flores, Multibody Syst. Dyn. 39 (2017), as read off by others.
-SOURCE: Mapping[str, Mapping[str, float]] = {
-    "bricard": {"baumgarte": 1.16, "augmented-lagrangian": 1.33, "direct-correction": 1.28},
-    "spatial-slider-crank": {"baumgarte": 1.16, "augmented-lagrangian": 1.30, "direct-correction": 1.39},
-    "front-suspension": {"baumgarte": 1.10, "augmented-lagrangian": 1.17, "direct-correction": 1.25},
-}
+#: The methods that the source times.
+TIMED = ("baumgarte", "augmented-lagrangian", "direct-correction")
+TURNS = 5
 
 
 def operations(name: str) -> int:
@@ -71,27 +69,26 @@ def rhs(names: Sequence[str] = ("bricard", "spatial-slider-crank")) -> Table:
     return table
 
 
-def methods(names: Sequence[str] = tuple(SOURCE), rounds: int = 5) -> Table:
-    """Return what the six methods cost over Lagrange's multipliers, RK4 at the mechanisms' own step, in turns."""
-    table = Table(title="run time over that of lagrange, RK4; in brackets the source's")
-    table.add_column("mechanism")
-    for method in METHODS:
-        table.add_column(method, justify="right")
-    for name in names:
-        model = symgen.load(name)
-        best = dict.fromkeys(METHODS, math.inf)
-        for _ in range(rounds):
-            for method in METHODS:
-                result = model.simulate(method=method, integrator="rk4", until=2.0, repeat=3)
-                if result.status != "failed":
-                    best[method] = min(best[method], result.seconds.run)
-        cells = []
+def methods(times: bool = False) -> PageTable:
+    """Return what methods cost over `lagrange`, RK4 at the mechanisms' own step, in turns; the source's in brackets."""
+
+    def cells(name: str) -> Iterator[str]:
+        model, source = symgen.load(name), dict(zip(TIMED, RATIOS[name][1], strict=True))
         for method in METHODS:
-            figure = SOURCE[name].get(method)
-            ratio = f"{best[method] / best['lagrange']:.2f}" if math.isfinite(best[method]) else "failed"
-            cells.append(ratio + (f" ({figure:.2f})" if figure else ""))
-        table.add_row(f"{name}, {best['lagrange'] * 1e3:.1f} ms", *cells)
-    return table
+            ratios = []
+            for _ in range(TURNS if times else 0):
+                own, base = (
+                    model.simulate(method=one, integrator="rk4", until=2.0, repeat=3, max_violation=1e3).outcome
+                    for one in (method, "lagrange")
+                )
+                ratios.append(own.cpu_seconds / base.cpu_seconds)
+            second_hand = f" ({source[method]:.2f})" if method in source else ""
+            yield f"{np.median(ratios):.2f}{second_hand}" if ratios else KEPT
+
+    spatial = [name for name in RATIOS if symgen.load(name).mechanism.space == "spatial"]
+    rows = tuple(((f"`{name}`",), partial(list_of, cells, name)) for name in spatial)
+    headings = ("mechanism", *(f"`{name}`" for name in METHODS))
+    return PageTable("space methods", "benchmarks/README.md", headings, rows, tuple(range(1, len(headings))))
 
 
 # -- Bricard's six-bar beside other tools ------------------------------------------------------------------------------
@@ -197,7 +194,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if "rhs" in wanted:
         show(rhs())
     if "methods" in wanted:
-        show(methods())
+        print_tables({"methods": methods(times=True)}, ())
     if "peers" in wanted:
         table, lines = peers(options.peers_python)
         show(table)
