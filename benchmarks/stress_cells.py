@@ -239,14 +239,14 @@ def methods() -> PageTable:
     rows = tuple(
         ((", ".join(f"`{name}`" for name in names),), partial(list_of, cells, names[0])) for names in alike.values()
     )
-    own = [line for family, line in lines.items() if family in CASES]
+    counted = [line for family, line in lines.items() if family in CASES]
 
     def false() -> Iterator[str]:
         pairs = Counter[str]()
-        for line in own:
+        for line in counted:
             pairs.update(line["false"])
         listed = ", ".join(f"{_named(name)} {n}" for name, n in pairs.most_common()) or "none"
-        yield f"Of these {outcomes(own).total()} cells {pairs.total()} are false successes: {listed}."
+        yield f"Of these {outcomes(counted).total()} cells {pairs.total()} are false successes: {listed}."
 
     return PageTable("stress_cells methods", PAGE, ("methods", *CASES), rows, stored=True, claims=false)
 
@@ -274,7 +274,8 @@ def picture(path: Path) -> None:
         key = whole()[j], pairs[i]
         if key in cells and judged(cells[key]):
             share[i, j], wrong[i, j] = 100.0 * cells[key][GOOD] / judged(cells[key]), false[key]
-    drawn = overview_of([tuple(name.split()) for name in pairs], whole(), share, wrong)  # type: ignore[misc]  # two words
+    lines = [(method, integrator) for method, integrator in map(str.split, pairs)]
+    drawn = overview_of(lines, whole(), share, wrong)
     path.write_text(slim(drawn.data.decode()), encoding="utf-8")
 
 

@@ -145,11 +145,11 @@ def _run(task: RunTask) -> Fields:
         kind = classify(compared)
         if kind == judged.GOOD:
             kind, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
-    error = largest_error(compared.errors)
+    largest = largest_error(compared.errors)
     return {
         "outcome": kind,
-        "error": error,
-        "relative_error": None if error is None or not compared.length else error / compared.length,
+        "error": largest,
+        "relative_error": None if largest is None or not compared.length else largest / compared.length,
         "status": verdict.status,
         "reason": verdict.reason,
         "evaluations": outcome.evaluations,
