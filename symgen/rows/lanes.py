@@ -49,7 +49,8 @@ _LARGEST_SINE, _PASSAGE = abi.LARGEST_SINE * _L, watching.PASSAGE
 _SUSPECTS, _FAILURES = LANE_COUNTERS.index("suspects") * _L, LANE_COUNTERS.index("failures") * _L
 _ITERATIONS = LANE_COUNTERS.index("iterations") * _L
 #: After the gauges of all lanes: the largest coordinate, the rank at the start, 1 for lanes left to single runs, and
-#: the part of the best pivot below which lanes with rows left out are left to single runs, 0 for others.
+#: the part of the best pivot below which lanes with rows left out are left to single runs, 0 for others. Then the
+#: factors from velocities to speeds.
 _LARGEST, _FIRST_RANK, _ODD = abi.N_GAUGES * _L, (abi.N_GAUGES + 1) * _L, (abi.N_GAUGES + 2) * _L
 _LEAST_PART, _N_LANE_GAUGES = (abi.N_GAUGES + 3) * _L, abi.N_GAUGES + 4
 #: Angles beyond this lose digits in the reduction of emitted sines.
@@ -71,7 +72,11 @@ def opened(sizes: Any, state: Any) -> Any:
 
 
 def settle(sizes: Any, span: Any, run: Any) -> None:
-    """Raise the scales of speeds to speeds of motions that cross the mechanism during the run."""
+    """Set the factors of speeds, and raise their scales to speeds of motions that cross the mechanism during the run."""
+    for i in range(sizes.nv):
+        for lane in range(_L):
+            gauge = run.w[(sizes.gauge + i) * _L + lane]
+            run.gauges[(_N_LANE_GAUGES + i) * _L + lane] = 1.0 / math.sqrt(gauge)
     for lane in range(_L):
         speed = run.w[_LENGTH + lane] / span.duration
         speed = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
@@ -146,7 +151,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
             gauges[_LARGEST + lane] = size if size > gauges[_LARGEST + lane] else gauges[_LARGEST + lane]
     for i in range(sizes.nq, behind):
         for lane in range(_L):
-            size = abs(y[i * _L + lane]) / math.sqrt(w[(sizes.gauge + i - sizes.nq) * _L + lane])
+            size = abs(y[i * _L + lane]) * gauges[(_N_LANE_GAUGES + i - sizes.nq) * _L + lane]
             w[_SPEED + lane] = size if size > w[_SPEED + lane] else w[_SPEED + lane]
     work, going = behind * _L, 0.0
     for lane in range(_L):
@@ -280,9 +285,9 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     width, n, n_p, nw, columns = sizes.width, sizes.ny, state.p.shape[0], state.w.shape[0], kept.outputs.status.shape[1]
     times, total, room = kept.outputs.times, chunk.selected.shape[0], state.room
     numbers = 2 * width + (n_p + nw + _SPARE) * _L
-    z, at = part(room, 0, numbers), numbers
-    y, gauges = part(room, at, width), part(room, at + width, _N_LANE_GAUGES * _L)
-    at += width + _N_LANE_GAUGES * _L
+    z, at, n_gauges = part(room, 0, numbers), numbers, (_N_LANE_GAUGES + sizes.nv) * _L
+    y, gauges = part(room, at, width), part(room, at + width, n_gauges)
+    at += width + n_gauges
     states = part(room, at, times.shape[0] * n * _L)
     at += times.shape[0] * n * _L
     status = part(room, at, times.shape[0] * columns * _L)
@@ -316,7 +321,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
 def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times: int) -> int:
     """Return the length of the working memory of `run_lanes`."""
     bases = lane_bases(n, n_p, nw)
-    numbers = bases["numbers"] + (1 + stages) * bases["ydot"] + _N_LANE_GAUGES
+    numbers = bases["numbers"] + (1 + stages) * bases["ydot"] + _N_LANE_GAUGES + n  # of velocities there are fewer
     return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
