@@ -14,6 +14,8 @@ from symgen.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, function_
 
 #: The argument for the number of runs, in functions for several runs at once.
 COUNT_OF_LANES = "lanes"
+#: Attribute of functions for several runs: LLVM halves vectors of 512 bits of processors where they once cost clock.
+_WIDEST = ' "prefer-vector-width"="512"'
 
 
 def llvm_module(
@@ -153,7 +155,8 @@ class FunctionPrinter(ValuePrinter):
             for name, x in f.tables.items()
         ]
         copied = " alwaysinline" * (f.inlined and bool(self.linkage))
-        begin = f"define {self.linkage}{self.head()}{copied} {{"
+        names = {*f.variables, *(p.name for p in f.parameters)}
+        begin = f"define {self.linkage}{self.head()}{copied}{_WIDEST * (COUNT_OF_LANES in names)} {{"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
 
     def head(self) -> str:

@@ -8,14 +8,21 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 import threading
 from typing import Any
 
 import llvmlite.binding as llvm
 
+from symgen.native import sines
+
 #: Straight functions of more instructions are compiled in blocks, in time that grows no faster than their length.
 #: Below, blocks save nothing, and the code of one block is some 5 % faster.
 LARGEST_BLOCK = 4000
+#: Attributes of code for one run with sines of several angles at once: such code has too few operations on vectors for
+#: registers of 512 bits, with which it takes up to 1.7 times as long. All functions of a module have them, as callers
+#: and callees have to agree on registers.
+_NARROW = ' "prefer-vector-width"="256" "min-legal-vector-width"="256"'
 #: Lock by which one thread at a time makes or loads machine code.
 lock = threading.RLock()
 
@@ -92,6 +99,8 @@ def compiled(text: str, symbol: str, once: bool = False) -> bytes:
 
 def _parsed(text: str) -> Any:
     """Return a module for this processor, before all passes."""
+    if sines.sine_name(sines.MOST) in text:
+        text = re.sub(r"(?m)^(define .*)\{$", rf"\1{_NARROW} {{", text)
     module = llvm.parse_assembly(text)
     module.triple, module.data_layout = _host()[0], str(_best_machine().target_data)
     return module

@@ -72,7 +72,7 @@ def opened(sizes: Any, state: Any) -> Any:
 
 
 def settle(sizes: Any, span: Any, run: Any) -> None:
-    """Set the factors of speeds, and raise their scales to speeds of motions that cross the mechanism during the run."""
+    """Set the factors of speeds; raise their scales to speeds of motions that cross the mechanism during the run."""
     for i in range(sizes.nv):
         for lane in range(_L):
             gauge = run.w[(sizes.gauge + i) * _L + lane]

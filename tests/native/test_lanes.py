@@ -18,7 +18,7 @@ from symgen.store.emitted import EmittedFunction
 from symgen.store.modules import load_module
 
 from .test_read import A, F, Source
-from .twofold import ARRAY, NUMBER, apart, own_functions
+from .twofold import ARRAY, NUMBER, apart, for_avx512, own_functions
 
 LAWS = ("lagrange_lanes", "baumgarte_lanes", "direct_correction_lanes")
 
@@ -94,6 +94,13 @@ def test_loops_over_lanes_become_vectors(emitted):
     found = re.findall(r"= f(?:add|sub|mul|div)\b[^<\n]*?(<\d+ x double>|double)", text)
     assert sum(x != "double" for x in found) >= len(found) / 2 > 50
     assert not re.search(r'call i32 @"?(sine|cosine|turned)', text)
+
+
+def test_functions_over_lanes_have_the_widest_registers(emitted):
+    f = load_module(emitted / "lagrange_lanes.py").rhs.read((NUMBER, ARRAY))
+    with for_avx512() as target:
+        text = target.emit_assembly(optimised(llvm_module(f, lambda x: x.name, lambda x: False)))
+    assert len(re.findall(r"v(?:mul|add|sub|fm)\w+pd\b.*zmm", text)) > 50
 
 
 #: A function that returns two numbers, and is no call.

@@ -2,27 +2,26 @@
 
 import ctypes
 import math
+import re
 
 import mpmath
 import numpy as np
 import pytest
 
 from symgen.api import load
-from symgen.native import sines
+from symgen.native import machine, sines
 from symgen.native.machine import compiled
 from symgen.native.machine import load as load_code
 from symgen.store.modules import load_module
 
-from .twofold import arguments_of, by, written
+from .twofold import arguments_of, by, for_avx512, written
 
 WIDTHS = (4, 8)
 
 
-@pytest.fixture(scope="module", params=WIDTHS)
-def both(request):
-    """The function for vectors of one length: takes angles, returns their sines and cosines."""
-    n = request.param
-    text = f"""
+def caller_of(n: int) -> str:
+    """Return a module with a function that takes sines and cosines of `n` angles from memory to memory."""
+    return f"""
 define void @try_sines{n}(ptr %x, ptr %s, ptr %c) {{
   %v = load <{n} x double>, ptr %x, align 8
   %r = call {sines.kind(n)} {sines.sine_name(n)}(<{n} x double> %v)
@@ -36,8 +35,14 @@ declare double @llvm.sin.f64(double)
 declare double @llvm.cos.f64(double)
 {sines.definition(n)}
 """
+
+
+@pytest.fixture(scope="module", params=WIDTHS)
+def both(request):
+    """The function for vectors of one length: takes angles, returns their sines and cosines."""
+    n = request.param
     symbol = f"try_sines{n}"
-    address = load_code(compiled(text, symbol), symbol)
+    address = load_code(compiled(caller_of(n), symbol), symbol)
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(address)
 
     def call(angles):
@@ -47,6 +52,13 @@ declare double @llvm.cos.f64(double)
         return given, *found
 
     return call
+
+
+def test_registers_of_512_bits_are_not_for_code_of_one_run():
+    """It uses a few vectors now and then, for which they take longer."""
+    with for_avx512() as target:
+        text = target.emit_assembly(machine.optimised(caller_of(8)))
+    assert set(re.findall("[yz]mm", text)) == {"ymm"}
 
 
 def units(found: float, exact: mpmath.mpf) -> float:

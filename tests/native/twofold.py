@@ -11,6 +11,7 @@ from types import ModuleType
 from typing import Any
 from unittest import mock
 
+import llvmlite.binding as llvm
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
@@ -47,6 +48,20 @@ def written(folder: Path, *functions: str, head: str = HEAD, name: str = "model"
 def by(compiler: str) -> Any:
     """Return a context in which a way of `symgen.native.compiler` is used."""
     return mock.patch.dict(os.environ, {COMPILER: compiler})
+
+
+@contextmanager
+def for_avx512() -> Iterator[Any]:
+    """See to it that texts are optimised inside for a processor with vectors of eight numbers; yield its compiler."""
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    triple, processor = "x86_64-unknown-linux-gnu", "icelake-server"
+    target = llvm.Target.from_triple(triple).create_target_machine(cpu=processor, opt=3)
+    with (
+        mock.patch.object(machine, "_host", lambda: (triple, processor, "")),
+        mock.patch.object(machine, "_best_machine", lambda: target),
+    ):
+        yield target
 
 
 @contextmanager
