@@ -182,16 +182,15 @@ def sum_up(
 ) -> None:
     """Write `symgen.loopcode.nodes.sum_up`."""
     h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
-    way, further = builder.fmul(h_all, load(builder, x, I64(0))), builder.icmp_signed(">", terms, I64(POINTS))
+    way = builder.fmul(h_all, load(builder, x, I64(0)))
     tables = [[load(builder, table, I64(k * NODES)) for k in range(POINTS)] for table in (once, twice)]
 
     def series(which: int, first: Any) -> Any:
         total = variable(builder, _sum(builder, _numbers(builder, coefficients, first, 0, POINTS), tables[which]))
-        with builder.if_then(further):
-            more = builder.load(total)
-            for k, number in enumerate(_numbers(builder, coefficients, first, POINTS, TERMS), POINTS):
-                more = added(builder, load(builder, (once, twice)[which], I64(k * NODES)), number, more)
-            builder.store(more, total)
+        with each_of(builder, I64(POINTS), terms, 1) as k:
+            number = spread(builder, _at(builder, coefficients, builder.add(first, k)))
+            vector = load(builder, (once, twice)[which], _eight(builder, k))
+            builder.store(added(builder, vector, number, builder.load(total)), total)
         return builder.load(total)
 
     with _each_row(builder, rows) as c:

@@ -151,6 +151,15 @@ def test_a_stiff_motion_is_noted_and_left_by_an_automatic_choice(monkeypatch):
     assert symgen.load("four-bar").simulate(integrator="auto", until=1.0).integrator == "picard"
 
 
+def test_outputs_inside_a_step_across_a_singular_position_belong_to_its_motion():
+    """Velocities are differences of angles; such a step has no polynomial of its nodes."""
+    keys = {"integrator": "picard", "rtol": 1e-9, "atol": 1e-9, "until": 4.0}
+    result = symgen.load("n-four-bar:1").simulate(**keys, times=np.linspace(0.0, 4.0, 40001))
+    assert result.status == "ok" and result.outcome.rank_event_count
+    differences = np.gradient(result["vertical0.theta"], result.t) - result["vertical0.omega"]
+    assert np.abs(differences[1:-1]).max() < 1e-4
+
+
 def test_velocities_at_outputs_have_the_digits_of_the_tolerance():
     mechanism, times = symgen.load("andrews").mechanism, [float(t) for t in np.linspace(0.0, 0.03, 41)]
     more = {"method": "lagrange", "coordinates": "joint", "until": 0.03, "times": times}

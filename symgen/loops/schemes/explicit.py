@@ -129,34 +129,20 @@ def interpolate(
 ) -> None:
     """Write the outputs inside a step, each projected; the status at the end of the step is restored."""
     scheme, run, outputs = bare(scheme), bare(run), bare(outputs)
-    width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
-    stages, last, every, count = run.memory, scheme.stages, scheme.nodes.shape[0], scheme.count
-    degree, lanes = scheme.degree, scheme.dense.shape[0] // scheme.degree
+    width, stages, lanes = system.sizes.width, run.memory, scheme.dense.shape[0] // scheme.degree
     new, measured = part(run.room, 0, width), part(run.room, width, width)
-    powers, weights = part(run.room, 3 * width, lanes), part(run.room, 3 * width + lanes, lanes)
+    tables = part(run.room, 3 * width, 2 * lanes)
     windings = outputs.status.shape[1] - abi.N_STATUS
     angles = part(run.room, 3 * width + 2 * lanes, windings)
     for i in range(abi.N_STATUS):
         measured[i] = run.w[i]
     for i in range(windings):
         angles[i] = run.w[abi.WINDING + i]
-    if run.control[abi.KNOWN] == 0:
-        evaluate(system, run, following, new, part(stages, last * width, width))
-        run.control[abi.EVALUATIONS] += 1
-        run.control[abi.KNOWN] = 1
-    for s in range(last + 1, every):
-        follow(width, h, start[s], start[s + 1], column, value, stages, run.y, new)
-        evaluate(system, run, t + scheme.nodes[s] * h, new, part(stages, s * width, width))
-        run.control[abi.EVALUATIONS] += 1
+    complete_stages(system, scheme, run, stages, new, t, following, h)
     out = run.control[abi.OUTPUTS]
     while out < outputs.times.shape[0] and outputs.times[out] < following:
         x = (outputs.times[out] - t) / h
-        power = 1.0
-        for j in range(degree):
-            power *= x
-            powers[j] = power
-        total(lanes, 1.0, 0, degree, count, powers, scheme.dense, weights)
-        combine(width, h, 0, every, count, weights, stages, run.y, new)
+        read_stages(width, scheme, x, h, run.y, stages, tables, new)
         correct(system, run, outputs.times[out], new, True)
         keep_maxima(system.sizes, run, new)
         store(system.sizes, run.w, outputs, out, new)
@@ -166,6 +152,31 @@ def interpolate(
         run.w[i] = measured[i]
     for i in range(windings):
         run.w[abi.WINDING + i] = angles[i]
+
+
+@called
+def complete_stages(
+    system: Any, scheme: Any, run: Any, stages: Any, new: Any, t: float, following: float, h: float
+) -> None:
+    """Evaluate the stages that outputs need besides those of the step; `new` has the unprojected end, and changes."""
+    width, start, last = system.sizes.width, scheme.start, scheme.stages
+    for s in range(last + run.control[abi.KNOWN], scheme.nodes.shape[0]):
+        if s > last:
+            follow(width, h, start[s], start[s + 1], scheme.column, scheme.value, stages, run.y, new)
+        evaluate(system, run, t + scheme.nodes[s] * h if s > last else following, new, part(stages, s * width, width))
+        run.control[abi.EVALUATIONS] += 1
+    run.control[abi.KNOWN] = 1
+
+
+def read_stages(width: int, scheme: Any, x: float, h: float, y: Any, stages: Any, tables: Any, new: Any) -> None:
+    """Set `new` to the state at the part `x` of a step, from all its stages; `tables` has room for their weights."""
+    lanes = scheme.dense.shape[0] // scheme.degree
+    powers, weights, power = part(tables, 0, lanes), part(tables, lanes, lanes), 1.0
+    for j in range(scheme.degree):
+        power *= x
+        powers[j] = power
+    total(lanes, 1.0, 0, scheme.degree, scheme.count, powers, scheme.dense, weights)
+    combine(width, h, 0, scheme.nodes.shape[0], scheme.count, weights, stages, y, new)
 
 
 def room(width: int, scheme: Any, windings: int) -> int:

@@ -20,7 +20,7 @@ from symgen.layout.records import Run
 from symgen.layout.scales import weights_of
 from symgen.layout.scheme_records import NODES as SCHEME
 from symgen.loopcode.bare import part
-from symgen.loopcode.loop_instances import called
+from symgen.loopcode.loop_instances import called, viewing
 from symgen.loopcode.nodes import (
     PLACES,
     POINTS,
@@ -37,6 +37,7 @@ from symgen.loopcode.vectors import copied
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import DIVERGED, correct, evaluate, store
 from symgen.loops.schemes.explicit import attempt as one_step
+from symgen.loops.schemes.explicit import complete_stages, read_stages
 from symgen.loops.watch import keep_maxima
 from symgen.native.types import NODES
 
@@ -63,8 +64,9 @@ _LEFT_OUT = 12.0
 STEP, SINGLE, STALE = range(3)
 #: In working memory: the next step over this one; the buffer with the rates of the step; 1 where outputs need more of
 #: them; 1 where nodes were evaluated one by one; 1 where the iteration has not converged; 1 where convergence bounds
-#: the step, not the motion.
+#: the step, not the motion. A step across a singular position has `ACROSS` for the last but one.
 RATIO, BUFFER, COARSE, ALONE, ADRIFT, SLOW = range(6)
+ACROSS = 2.0
 #: First indices of its parts: times of nodes, squares of coefficients, places of eight outputs, integrals and second
 #: integrals of polynomials up to them, and arrays of the width of a state.
 _TIMES, _SQUARES, _PARTS_OF_STEP, _ONCE = NODES, 2 * NODES, 4 * NODES, 5 * NODES
@@ -252,15 +254,22 @@ def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, followi
     """Try a step across a singular position, where iterations diverge, by `dop853`; return its error."""
     width, tableau = system.sizes.width, scheme.tableau
     begin(system, run, t)
-    stages = part(run.room, _WIDE + _STATES * width, tableau.nodes.shape[0] * width)
-    copied(width, part(run.memory, NODES, width), stages)
-    room = part(run.room, _WIDE + _WEIGHED * width, 3 * width)
-    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.passages, stages
-    one = Run(*fields, run.share, run.metric, run.scales, room)
+    one = as_one_step(system, tableau, run)
+    copied(width, part(run.memory, NODES, width), one.memory)
     error = one_step(system, tableau, span, one, t, following, h, False)
     run.control[abi.ORDER] = NODES
-    run.room[ADRIFT] = 1.0
+    run.room[ADRIFT] = ACROSS
     return max(2.0, error)
+
+
+@viewing
+def as_one_step(system: Any, tableau: Any, run: Any) -> Any:
+    """Return the run with the stages of a step across a singular position for its memory."""
+    width = system.sizes.width
+    stages = part(run.room, _WIDE + _STATES * width, tableau.nodes.shape[0] * width)
+    room = part(run.room, _WIDE + _WEIGHED * width, _STATES * width)
+    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.passages, stages
+    return Run(*fields, run.share, run.metric, run.scales, room)
 
 
 def refuse(run: Any) -> None:
@@ -340,10 +349,14 @@ def interpolate(
         before[i] = run.w[i]
     for i in range(windings):
         angles[i] = run.w[abi.WINDING + i]
-    if run.room[COARSE] != 0.0:
+    one, across = as_one_step(system, scheme.tableau, run), run.room[ADRIFT] == ACROSS
+    if across:
+        complete_stages(system, scheme.tableau, run, one.memory, one.room, t, following, h)
+    elif run.room[COARSE] != 0.0:
         refine_rates(system, scheme, run, t, h)
         terms, coefficients = TERMS, _WIDE + _REFINED * width
     series = part(run.room, coefficients, TERMS * width)
+    spare = part(run.room, _WIDE + _COEFFICIENTS * width, TERMS * width)
     out = last = run.control[abi.OUTPUTS]
     while last < outputs.times.shape[0] and outputs.times[last] < following:
         last += 1
@@ -352,11 +365,15 @@ def interpolate(
         count = min(NODES, last - out)
         for k in range(NODES):
             places[k] = (outputs.times[out + min(k, count - 1)] - t) / h
-        integrate_legendre(terms, places, once, twice)
-        sum_up(h, terms, places, rows, run.y, series, once, twice, states)
+        if not across:
+            integrate_legendre(terms, places, once, twice)
+            sum_up(h, terms, places, rows, run.y, series, once, twice, states)
         for k in range(count):
-            for i in range(n):
-                new[i] = states[i * NODES + k]
+            if across:
+                read_stages(width, scheme.tableau, places[k], h, run.y, one.memory, spare, new)
+            else:
+                for i in range(n):
+                    new[i] = states[i * NODES + k]
             correct(system, run, outputs.times[out], new, True)
             keep_maxima(system.sizes, run, new)
             store(system.sizes, run.w, outputs, out, new)
