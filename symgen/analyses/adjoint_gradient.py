@@ -6,6 +6,7 @@ start, the parameters and the scratch. These times the directions of the start a
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -146,6 +147,8 @@ class AdjointGradient:
         Derivatives, in the order of the names.
     memory : int
         Bytes of the stages of all steps.
+    seconds : float
+        Time of the run that keeps its stages, and of the way back [s].
     directions : tuple of Direction
         What it is differentiated by.
     run, result : Prepared, Result
@@ -156,6 +159,7 @@ class AdjointGradient:
     unit: str
     slopes: Array
     memory: int
+    seconds: float
     directions: tuple[Direction, ...]
     run: Prepared
     result: Result
@@ -208,7 +212,9 @@ def adjoint_gradient(
     ends = EndDirections(start, run.compiled)
     own = Sensitivities(Evaluated(run, ends, ends.course(adjoint)), result.outcome)
     by, n = own.table(table)[-1, place], start.count
+    began = time.perf_counter()
     y_bar, p_bar, w_bar = adjoint.back(by[n:])
+    seconds = adjoint.outcome.run_seconds + time.perf_counter() - began
     seeds, slopes = start.seeds(), by[:n].copy()
     model = DirectedModel(run.compiled, lanes_of(n))
     for first in range(0, n, model.lanes):
@@ -224,4 +230,4 @@ def adjoint_gradient(
     if result.status == "ok" and doubt:
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])
-    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_of_steps, start.directions, run, result)
+    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_of_steps, seconds, start.directions, run, result)

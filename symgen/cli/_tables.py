@@ -182,7 +182,7 @@ def show_study(study: Study) -> None:
     if any(row.law for row in study.rows):
         contacts = [(*cell[:3], *_contact(row)) for cell, row in zip(cells, study.rows, strict=True)]
         show_rows(out, (*_HEADINGS[:3], *_CONTACT), contacts, _HEADINGS[:3], first=3)
-    if any(row.gradient_seconds is not None for row in study.rows):
+    if any(row.differences_seconds is not None for row in study.rows):
         slopes = [(*cell[:3], *_gradient(row)) for cell, row in zip(cells, study.rows, strict=True)]
         show_rows(out, (*_HEADINGS[:3], *_GRADIENT), slopes, _HEADINGS[:3], first=3)
     if len(study.rows) > 1:
@@ -249,13 +249,20 @@ _CONTACT = "creep [m/s]", "transitions", "impacts", "energy lost [J]"
 
 
 #: Columns of derivatives.
-_GRADIENT = "error of derivatives", "run [ms]", "with them [ms]"
+_GRADIENT = (
+    *("run [ms]", "forward, error of derivatives", "forward [ms]", "adjoint, error", "adjoint [ms]"),
+    *("differences, least error", "differences [ms]"),
+)
 
 
 def _gradient(row: Row) -> tuple[str, ...]:
-    error = "" if row.gradient_error is None else f"{row.gradient_error:.2e}"
-    seconds = "" if row.gradient_seconds is None else f"{1e3 * row.gradient_seconds:.3f}"
-    return error, f"{1e3 * row.run_seconds:.3f}", seconds
+    ways = (
+        (row.gradient_error, row.gradient_seconds),
+        (row.adjoint_error, row.adjoint_seconds),
+        (row.differences_error, row.differences_seconds),
+    )
+    shown = ("" if x is None else f"{1e3 * x:.3f}" if k else f"{x:.2e}" for way in ways for k, x in enumerate(way))
+    return f"{1e3 * row.run_seconds:.3f}", *shown
 
 
 def _contact(row: Row) -> tuple[str, ...]:

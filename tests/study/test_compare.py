@@ -28,6 +28,7 @@ ROW_KEYS = {
     *("evaluations", "position_violation_max", "velocity_violation_max", "energy_drift_max", "below_reference"),
     *("coordinates", "variant", "beyond_limits", "relative_error", "velocity_error", "reaction_error"),
     *("law", "transitions", "impacts", "dissipated", "creep", "gradient_error", "gradient_seconds"),
+    *("adjoint_error", "adjoint_seconds", "differences_error", "differences_seconds"),
     *("warnings", "iterations", "cost_ratio", "cost_ratio_spread", "run_seconds_median"),
     *(f"{level}_violation_{kind}" for level in ("position", "velocity") for kind in ("rms", "final")),
     *(f"acceleration_violation_{kind}" for kind in ("max", "rms", "final")),

@@ -45,6 +45,19 @@ def test_schemes_without_derivatives_have_rows_without_them(study):
     implicit = [row for row in study.rows if row.integrator == "radau5"]
     assert implicit
     assert all(row.error is not None and row.gradient_error is None is row.gradient_seconds for row in implicit)
+    assert all(row.adjoint_error is None is row.adjoint_seconds for row in implicit)
+
+
+def test_adjoint_and_differences_beside(study):
+    explicit = [row for row in study.rows if row.gradient_error is not None]
+    for row in explicit:
+        # with constant steps all three have the error of the scheme, which the best differences cancel in part
+        assert 0.0 < row.adjoint_error <= 1.001 * row.gradient_error
+        assert 1e-12 < row.differences_error < 1.05 * row.gradient_error + 1e-9
+        assert row.adjoint_seconds > 0.0
+        assert row.differences_seconds > 0.0
+    # an implicit scheme has differences alone
+    assert all(1e-12 < row.differences_error < 1e-2 for row in study.rows if row.integrator == "radau5" and row.error)
 
 
 def test_journals_tables_and_reports(study, journal):
@@ -52,7 +65,7 @@ def test_journals_tables_and_reports(study, journal):
         again = symgen.compare("four-bar", journal=records, **RUNS)
     assert again.rows == study.rows
     tables = [table for section in comparison([study], "", [], {}).sections for table in section.tables]
-    table = next(table for table in tables if table.caption.startswith("Derivatives of coordinates"))
+    table = next(table for table in tables if table.caption.startswith("Derivatives by parameters"))
     assert len(table.rows) == len(study.rows)
 
 
@@ -60,6 +73,7 @@ def test_the_command_shows_them():
     options = ["--methods", "lagrange", "--integrators", "rk4", "--steps", "8e-3", "--until", "0.4", "--repeat", "1"]
     shown = CliRunner().invoke(command, ["four-bar", *options, "--gradient", "crank_mass"], standalone_mode=False)
     assert "error of derivatives" in shown.output
+    assert "differences, least error" in shown.output
     shown = CliRunner().invoke(command, ["four-bar", *options], standalone_mode=False)
     assert "error of derivatives" not in shown.output
 

@@ -20,7 +20,8 @@ YARDSTICK = "lagrange"
 
 #: Units of columns.
 UNITS = {
-    **dict.fromkeys(("step", "gradient_seconds", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
+    **dict.fromkeys(("gradient_seconds", "adjoint_seconds", "differences_seconds"), "s"),
+    **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
     **{"error": "m", "velocity_error": "m/s", "reaction_error": "N", "energy_drift_max": "J"},
     **{"dissipated": "J", "creep": "m/s"},
     **{
@@ -100,6 +101,12 @@ class Row:
         mechanism's length. None without `gradient`, and for schemes without derivatives.
     gradient_seconds : float or None
         Run time with these derivatives [s].
+    adjoint_error, adjoint_seconds : float or None
+        The same by the adjoint, of the coordinate at the end that parameters change most: a run that keeps its stages
+        and the way back. None where there is none.
+    differences_error, differences_seconds : float or None
+        The same by differences of two runs a parameter, each with the step of least error; the time is that of the two
+        runs, without those of the search.
     """
 
     method: str
@@ -141,6 +148,10 @@ class Row:
     creep: float | None = None
     gradient_error: float | None = None
     gradient_seconds: float | None = None
+    adjoint_error: float | None = None
+    adjoint_seconds: float | None = None
+    differences_error: float | None = None
+    differences_seconds: float | None = None
 
     @property
     def label(self) -> str:

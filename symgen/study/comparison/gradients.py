@@ -1,23 +1,31 @@
-"""Derivatives of motions in a comparison: their errors against differences of references, and what they cost."""
+"""Derivatives of motions in a comparison: their errors against differences of references, and what they cost.
+
+Three ways: directions beside a run, the adjoint of one coordinate at its end, and differences of two runs a parameter,
+each with the step that makes their error smallest.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.base.errors import InputError, nearest, quoted
+from symgen.analyses.adjoint_gradient import adjoint_gradient
+from symgen.base.errors import InputError, SymgenError, nearest, quoted
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.stops import refuse_bounds
 from symgen.layout import abi
 from symgen.result.sensitivities import SCHEMES, Differentiated
+from symgen.running.prepare import prepare
 from symgen.runs.timing import timed
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
+    from symgen.running.prepare import Prepared
     from symgen.study.comparison.distances import Distances
 
 Array = NDArray[np.float64]
@@ -25,6 +33,8 @@ Array = NDArray[np.float64]
 #: Part of a parameter between references, and factors of these in differences of fourth order.
 WIDTH = 1e-3
 FACTORS = {-2: 1.0, -1: -8.0, 1: 8.0, 2: -1.0}
+#: Parts of a parameter among which the best step of differences of two runs is sought.
+STEPS = tuple(10.0**-k for k in range(1, 10))
 
 
 def check_parameters(mechanism: Mechanism, names: Sequence[str]) -> None:
@@ -68,27 +78,83 @@ class Gradients:
     slopes: dict[str, Array]
     distances: Distances
 
-    def measured(self, mechanism: Mechanism, settings: Settings) -> tuple[float | None, float | None]:
-        """Return the largest part by which derivatives of a run differ from the reference's, and its run time [s].
+    def measured(self, mechanism: Mechanism, settings: Settings) -> dict[str, float]:
+        """Return errors of derivatives of a run and what they cost [s], by columns of rows.
 
-        Both are None for a scheme without sensitivities, and where a run does not reach its end.
+        A way that a scheme or a method does not have is left out, and all where a run does not reach its end.
         """
+        found, settings = dict[str, float](), replace(settings, verify=False)
+        ways: dict[str, Callable[[Mechanism, Settings], tuple[float, float] | None]] = {
+            "gradient": self._forward,
+            "adjoint": self._adjoint,
+            "differences": self._differences,
+        }
+        for name, way in ways.items():
+            try:
+                pair = way(mechanism, settings)
+            except SymgenError:
+                pair = None
+            if pair is not None:
+                found[f"{name}_error"], found[f"{name}_seconds"] = pair
+        return found
+
+    def _scales(self, units: Sequence[str]) -> Array:
+        """Return factors that make lengths of coordinates."""
+        return np.array([1.0 if unit == "m" else self.distances.size for unit in units])
+
+    def _error(self, name: str, own: Array, scales: Array) -> float:
+        """Return the largest error of derivatives by a parameter, over the largest one."""
+        exact = self.slopes[name]
+        size = float(np.abs(exact * scales).max(initial=0.0))
+        return float(np.abs((own - exact) * scales).max(initial=0.0)) / (size or 1.0)
+
+    def _forward(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
         if settings.integrator not in SCHEMES:
-            return None, None
-        try:
-            run = Differentiated(mechanism, replace(settings, verify=False), {name: name for name in self.slopes})
-            run.integrate()  # compiles
-            outcome = timed(run.integrate, settings.repeat).outcome
-        except InputError:
-            return None, None
+            return None
+        run = Differentiated(mechanism, settings, {name: name for name in self.slopes})
+        run.integrate()  # compiles
+        outcome = timed(run.integrate, settings.repeat).outcome
         if outcome.interrupted:
             raise KeyboardInterrupt
         if outcome.code != abi.DONE:
-            return None, None
-        own, units = run.sensitivities(outcome).table("q"), [q.unit for q in run.bodies.info.coordinates]
-        scales = np.array([1.0 if unit == "m" else self.distances.size for unit in units])
-        errors = list[float]()
-        for k, exact in enumerate(self.slopes.values()):
-            size = float(np.abs(exact * scales).max(initial=0.0))
-            errors.append(float(np.abs((own[:, :, k] - exact) * scales).max(initial=0.0)) / (size or 1.0))
-        return max(errors), run.seconds
+            return None
+        own, scales = run.sensitivities(outcome).table("q"), self._scales([q.unit for q in run.bodies.info.coordinates])
+        return max(self._error(name, own[:, :, k], scales) for k, name in enumerate(self.slopes)), run.seconds
+
+    def _adjoint(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
+        """Return error and cost for the coordinate at the end that parameters change most."""
+        coordinates = prepare(mechanism, settings).assembled.of_bodies[0].info.coordinates
+        scales = self._scales([q.unit for q in coordinates])
+        sizes = {name: float(np.abs(x * scales).max(initial=0.0)) or 1.0 for name, x in self.slopes.items()}
+        ends = {name: x[-1] * scales / sizes[name] for name, x in self.slopes.items()}
+        place = int(np.abs(np.array([*ends.values()])).max(axis=0).argmax())
+        ending, pages = replace(settings, times=[float(settings.times[-1])]), list[Array]()  # type: ignore[index]
+        arguments = "compare", mechanism, ending, coordinates[place].name, {name: name for name in self.slopes}
+        made = [adjoint_gradient(*arguments, False, pages, False) for _ in range(1 + settings.repeat)]
+        found = zip(ends.items(), made[-1].slopes.tolist(), strict=True)
+        errors = [abs(slope * scales[place] / sizes[name] - end[place]) for (name, end), slope in found]
+        return max(errors), min(x.seconds for x in made[1:])
+
+    def _differences(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
+        values, errors, cost = parameter_values(mechanism, settings.parameters), list[float](), 0.0
+        for name in self.slopes:
+            best, chosen = np.inf, list["Prepared"]()
+            for part in STEPS:
+                width = part * (abs(values[name]) or 1.0)
+                own = ({**settings.parameters, name: values[name] + way * width} for way in (-1.0, 1.0))
+                runs = [prepare(mechanism, replace(settings, parameters=parameters)) for parameters in own]
+                outcomes = [run.integrate() for run in runs]
+                if any(outcome.interrupted for outcome in outcomes):
+                    raise KeyboardInterrupt
+                if any(outcome.code != abi.DONE for outcome in outcomes):
+                    continue
+                low, high = (run.positions(outcome) for run, outcome in zip(runs, outcomes, strict=True))
+                scales = self._scales([q.unit for q in runs[0].assembled.of_bodies[0].info.coordinates])
+                error = self._error(name, (high - low) / (2.0 * width), scales)
+                if error < best:
+                    best, chosen = error, runs
+            if not chosen:
+                return None
+            errors.append(best)
+            cost += sum(timed(run.integrate, settings.repeat).outcome.run_seconds for run in chosen)
+        return max(errors), cost

@@ -245,8 +245,7 @@ class ModelComparison:
             variant = words_of_variant(settings, self.common)
             entry, trace = measured(run, runs, distances, variant, stopped, self.laws[i])
             if gradients is not None:
-                error, seconds = gradients.measured(self.model.mechanism, settings)
-                entry = replace(entry, gradient_error=error, gradient_seconds=seconds)
+                entry = replace(entry, **gradients.measured(self.model.mechanism, settings))
             return to_entry(entry, trace)
 
         def in_turn(indices: list[int]) -> Outcome:
