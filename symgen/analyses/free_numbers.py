@@ -47,6 +47,20 @@ def with_tight_tolerances(where: str, settings: Settings) -> Settings:
     return replace(settings, verify=False)
 
 
+def with_numbers(mechanism: Mechanism, settings: Settings, numbers: Mapping[str, float]) -> Settings:
+    """Return settings with values of numbers: parameters, values of the start, ``method.NAME``."""
+    parameters, start, options = dict(settings.parameters), dict(settings.start), dict(settings.options)
+    own = {p.name for p in mechanism.parameters}
+    for name, value in numbers.items():
+        if name in own:
+            parameters[name] = value
+        elif name.startswith("method."):
+            options[name] = value
+        else:
+            start[name] = value
+    return replace(settings, parameters=parameters, start=start, options=options)
+
+
 class FreeNumbers:
     """Numbers of a model that a search varies.
 
@@ -73,17 +87,8 @@ class FreeNumbers:
 
     def settings_at(self, x: Array) -> Settings:
         """Return the settings of a run with values of the numbers."""
-        parameters, start = dict(self.settings.parameters), dict(self.settings.start)
-        options = dict(self.settings.options)
-        own = {p.name for p in self.mechanism.parameters}
-        for name, value in zip(self.keys.values(), x.tolist(), strict=False):
-            if name in own:
-                parameters[name] = value
-            elif name.startswith("method."):
-                options[name] = value
-            else:
-                start[name] = value
-        return replace(self.settings, parameters=parameters, start=start, options=options)
+        numbers = dict(zip(self.keys.values(), x.tolist(), strict=False))
+        return with_numbers(self.mechanism, self.settings, numbers)
 
     def run(self, times: Sequence[float], x: Array | None = None) -> tuple[Differentiated, Result]:
         """Make a run to the last of some times; with the values of the settings where there is no `x`."""

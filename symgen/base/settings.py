@@ -260,5 +260,7 @@ def changed(settings: Settings | None, changes: Mapping[str, object]) -> Setting
 
 
 #: Arguments of single runs that are not among their settings, and what to do.
-_ELSEWHERE = {"sensitivities": "single runs have them: simulate(settings, sensitivities=...) for each row"}
+_ELSEWHERE = {
+    "sensitivities": "single runs have them: simulate(settings, sensitivities=...), rows by Sweep.sensitivities(...)",
+}
 _ABOUT: dict[str, About] = {f.name: f.metadata["about"] for f in fields(Settings)}

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.ensemble.row_sensitivities import RowSensitivities
     from symgen.ensemble.sweep_plan import Ensemble
 
 Array = NDArray[np.float64]
@@ -278,6 +279,15 @@ class Sweep:
         if file.suffix.lower() == ".csv":
             return write_csv(file, *table_lines(self))
         return write_whole(file, netcdf(self.to_xarray()))
+
+    def sensitivities(self, by: Sequence[str]) -> RowSensitivities:
+        """Return the derivatives of the quantities of all rows by chosen numbers; see `Model.simulate`.
+
+        Each row is made again, as a single run with directions; ``dop853`` takes the place of ``picard``.
+        """
+        from symgen.ensemble.row_sensitivities import row_sensitivities
+
+        return row_sensitivities(self, by)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for every run and output time, with what varied, quantities, events and status.
