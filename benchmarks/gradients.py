@@ -158,8 +158,8 @@ def beside(interpreter: Path) -> None:
     model, rows = load(Path(__file__).with_name("idas-slider-crank.toml")), list[dict[str, Any]]()
     for coordinates in ("joint", "absolute"):
         for tolerance in TOLERANCES:
-            settings = {"rtol": tolerance, "atol": tolerance, "times": [DURATION], "coordinates": coordinates}
-            settings |= {"integrator": "dop853", "verify": False}
+            settings: dict[str, Any] = {"rtol": tolerance, "atol": tolerance, "coordinates": coordinates}
+            settings |= {"integrator": "dop853", "verify": False, "times": [DURATION]}
             runs = [model.simulate(sensitivities=("k", "c"), **settings) for _ in range(REPEATS + 1)][1:]
             error = error_of([runs[0].outputs.row()["G"], *runs[0].gradient("G").row().values()])
             taken = statistics.median(run.seconds.run for run in runs)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,12 +78,12 @@ class Gradients:
     slopes: dict[str, Array]
     distances: Distances
 
-    def measured(self, mechanism: Mechanism, settings: Settings) -> dict[str, float]:
+    def measured(self, mechanism: Mechanism, settings: Settings) -> dict[str, Any]:
         """Return errors of derivatives of a run and what they cost [s], by columns of rows.
 
         A way that a scheme or a method does not have is left out, and all where a run does not reach its end.
         """
-        found, settings = dict[str, float](), replace(settings, verify=False)
+        found, settings = dict[str, Any](), replace(settings, verify=False)
         ways: dict[str, Callable[[Mechanism, Settings], tuple[float, float] | None]] = {
             "gradient": self._forward,
             "adjoint": self._adjoint,
