@@ -105,8 +105,8 @@ class Row:
         The same by the adjoint, of the coordinate at the end that parameters change most: a run that keeps its stages
         and the way back. None where there is none.
     differences_error, differences_seconds : float or None
-        The same by differences of two runs a parameter, each with the step of least error; the time is that of the two
-        runs, without those of the search.
+        The same by differences of two runs a parameter, each with the step of least error; the time of the search for
+        it is left out.
     """
 
     method: str
