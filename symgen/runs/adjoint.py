@@ -56,7 +56,6 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
         With what has one.
     """
     from symgen.loops.schemes import explicit
-    from symgen.loops.schemes.adjoint import ANGLES, CORRECTION, HEAD, RATES
 
     if integrator.loop(spec.adaptive) not in (explicit.constant, explicit.adaptive):
         raise _refusal("an explicit Runge-Kutta scheme", f"'{integrator.name}'", "take dop853")
@@ -65,25 +64,43 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
     law = compiled.law_module
     if not isinstance(law.rhs, EmittedFunction):
         raise _refusal("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
-    method = f"the method {compiled.law.method}"
-    rhs = rhs_for_derivatives(law)
-    own, other = _accesses(rhs, abi.RHS), _accesses(law.accept, abi.ACCEPT)
+    _check_functions(rhs_for_derivatives(law), law.accept, compiled.law.method, compiled.info.windings)
+
+
+@functools.lru_cache(maxsize=256)
+def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, windings: int) -> None:
+    """Refuse functions without an adjoint, and those that keep numbers from step to step; compile the adjoints.
+
+    Parameters
+    ----------
+    rhs, accept : EmittedFunction
+        Of the law.
+    law : str
+        Its method.
+    windings : int
+        Number of angles that count turns.
+    """
+    from symgen.loops.schemes.adjoint import ANGLES, CORRECTION, HEAD, RATES
+
+    method = f"the method {law}"
+    own, other = _accesses(rhs, abi.RHS), _accesses(accept, abi.ACCEPT)
     _compile(_adjoint(rhs), RATES, f"accelerations of {method}")
-    angles = {("w", abi.WINDING + i) for i in range(min(compiled.info.windings, HEAD - ANGLES))}
+    angles = {("w", abi.WINDING + i) for i in range(min(windings, HEAD - ANGLES))}
     passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
     read = own.read
-    if corrects(compiled):
-        _compile(_adjoint(law.accept, 0), CORRECTION, f"corrections of {method}")
-        read |= _correction_accesses(law.accept).read
-    if read & passing and compiled.info.windings > HEAD - ANGLES:
-        raise _refusal(f"at most {HEAD - ANGLES} angles that count turns", f"{compiled.info.windings}")
+    if _corrects(accept):
+        _compile(_adjoint(accept, 0), CORRECTION, f"corrections of {method}")
+        read |= _correction_accesses(accept).read
+    if read & passing and windings > HEAD - ANGLES:
+        raise _refusal(f"at most {HEAD - ANGLES} angles that count turns", f"{windings}")
     if read & passing or ("w", -1) in own.read | own.stored:
         raise _refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
 
 
-def corrects(compiled: CompiledModel) -> bool:
-    """Whether a law changes accepted states."""
-    return any(array == "y" for array, _ in _accesses(compiled.law_module.accept, abi.ACCEPT).stored)
+@functools.lru_cache(maxsize=256)
+def _corrects(accept: EmittedFunction) -> bool:
+    """Whether a function that accepts states changes them."""
+    return any(array == "y" for array, _ in _accesses(accept, abi.ACCEPT).stored)
 
 
 @functools.lru_cache(maxsize=256)
@@ -155,6 +172,8 @@ class KeptRun(Simulation):
     pieces : list of Array
         Records of `symgen.loops.schemes.adjoint`: the start alone, then parts of the run, each behind the last record
         before it.
+    bytes_of_steps : int
+        Their bytes.
     """
 
     def __init__(
@@ -166,7 +185,7 @@ class KeptRun(Simulation):
         self._first = self.setup.memory - HEAD - _PIECE
         self.size = record_size(self.sizes.width, int(self.scheme.stages))
         self._capacity = _PIECE // self.size
-        self.pieces, self._pages = list[Array](), pages
+        self.pieces, self._pages, self.bytes_of_steps = list[Array](), pages, 0
         if self._capacity < 1:
             raise _refusal("a smaller mechanism", f"one with {self.sizes.ny} numbers in its state")
 
@@ -186,6 +205,7 @@ class KeptRun(Simulation):
                 own = self.state.w[abi.WINDING :][: HEAD - ANGLES]
                 first[ANGLES : ANGLES + len(own)] = own
                 self.pieces.append(first)
+                self.bytes_of_steps += first.nbytes
             if count := int(self.state.memory[self._first]):
                 if len(self._pages) < len(self.pieces):
                     self._pages.append(np.empty((1 + self._capacity) * self.size))
@@ -193,16 +213,12 @@ class KeptRun(Simulation):
                 piece[: self.size] = self.pieces[-1][-self.size :]
                 piece[self.size :] = self.state.memory[self._first + HEAD :][: count * self.size]
                 self.pieces.append(piece)
+                self.bytes_of_steps += piece.nbytes
                 self.state.memory[self._first] = 0.0
             if self.bytes_of_steps > MOST_KEPT:
                 raise _refusal(f"stages of at most {MOST_KEPT >> 30} GiB", "more", "take larger tolerances or steps")
             if code != abi.PAUSED or self.state.control[abi.STEPS] >= pause:
                 return code
-
-    @property
-    def bytes_of_steps(self) -> int:
-        """Bytes of the stages of all steps."""
-        return sum(piece.nbytes for piece in self.pieces)
 
 
 @dataclass(frozen=True)
@@ -245,7 +261,7 @@ class Adjoint:
         bars[: len(end)] = end
         parts = bars[:width], bars[width : width + sizes[0]], bars[width + sizes[0] :]
         p, w, iw = state.p.copy(), state.w.copy(), state.iw.copy()
-        most, own, functions = len(Corrections._fields), corrects(run.compiled), None
+        most, own, functions = len(Corrections._fields), _corrects(law.accept), None
         if own:
             counts = sorted({int(k) for piece in run.pieces for k in np.unique(piece[CORRECTIONS :: run.size])})
             if counts[-1] >= most:

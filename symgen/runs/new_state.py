@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -135,8 +136,8 @@ class Snapshot:
     ----------
     state : State
         The same numbers in one piece of memory.
-    front, copy : Array
-        The part of this memory that is always copied, and its copy.
+    front : Array
+        The part of this memory that is always copied.
     rows : int
         Count of numbers of the table of passages in the copy.
     """
@@ -152,9 +153,14 @@ class Snapshot:
             views[name][:] = arrays[name]
         self.state = type(state)(**views)
         self.front = block[: ends[-len(_BEHIND) - 1]]
-        self.copy, self._passages = self.front.copy(), self.state.passages.copy()
+        self._passages = self.state.passages.copy()
         self.rows, self._memory = 0, dict[str, NDArray[Any]]()
         self._names: tuple[str, ...] | None = None
+
+    @cached_property
+    def copy(self) -> Array:
+        """The copy; runs that nobody steps from Python need none."""
+        return self.front.copy()
 
     def take(self, scheme: Any) -> None:
         """Copy the state, and the memory in a scheme's record."""

@@ -61,13 +61,13 @@ class Transposed(NamedTuple):
 def transposed(scheme: Any) -> Transposed:
     """Return the coefficients of a tableau by columns."""
     stages, start, column, value = int(scheme.stages), [0], list[int](), list[float]()
+    first, columns, values = (x.tolist() for x in (scheme.start, scheme.column, scheme.value))
     for s in range(stages):
         for row in range(s + 1, stages + 1):
-            own = slice(int(scheme.start[row]), int(scheme.start[row + 1]))
-            for at, factor in zip(scheme.column[own], scheme.value[own], strict=True):
-                if at == s:
+            for k in range(first[row], first[row + 1]):
+                if columns[k] == s:
                     column.append(row)
-                    value.append(float(factor))
+                    value.append(values[k])
         start.append(len(column))
     column += range(stages)
     value += [1.0] * stages
