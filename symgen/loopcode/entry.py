@@ -15,8 +15,8 @@ from symgen.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, sl
 from symgen.store.jit import MachineFunction, object_file
 
 Array = NDArray[np.float64]
-#: Positions of scheme and span in a loop's arguments: model, scheme, span, state and outputs.
-_SCHEME, _SPAN = -4, -3
+#: Positions in a loop's arguments: model, scheme, span, state and outputs.
+_SCHEME, _SPAN, _STATE = -4, -3, -2
 
 
 class ArgumentBlock:
@@ -98,6 +98,12 @@ class LoopEntry(ArgumentBlock):
             self._fill(self._which_scheme)
         self._span = self._arguments[self._which_span] = span
         self._fill(self._which_span)
+
+    def take_state(self, state: Any) -> None:
+        """Put another state into the block."""
+        which = len(self._arguments) + _STATE
+        self._arguments[which] = state
+        self._fill(which)
 
     def __call__(self, until: float, pause: float, most: float) -> int:
         """Enter the loop; return the code of its end."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.layout import abi
+from symgen.loopcode.padding import aligned
 from symgen.native.adjoints import Accesses, accesses, correction
 from symgen.native.read_values import Foreign
 from symgen.runs.directed_model import rhs_for_derivatives
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Numbers of a part of a run that is kept in one piece, and bytes of all parts together.
-_PIECE, MOST_KEPT = 1 << 16, 4 << 30
+_PIECE, MOST_KEPT = 1 << 20, 4 << 30
 
 
 _HINT = "lagrange and direct-correction have one; forward directions take all methods"
@@ -146,14 +147,14 @@ class Recorder:
         return getattr(self.integrator, name)
 
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
-        """Return the arguments of the loop, with room for kept steps."""
+        """Return the arguments of the loop, which keeps steps behind the memory of the scheme."""
         from symgen.loops.schemes import adjoint
 
         plain = self.integrator.setup(compiled, spec, w)
         return replace(
             plain,
             loop=adjoint.adaptive if spec.adaptive else adjoint.constant,
-            memory=plain.memory + adjoint.HEAD + _PIECE,
+            memory=plain.memory + adjoint.HEAD,
         )
 
 
@@ -182,7 +183,7 @@ class KeptRun(Simulation):
         from symgen.loops.schemes.adjoint import HEAD, record_size
 
         super().__init__(compiled, Recorder(integrator), start, spec)
-        self._first = self.setup.memory - HEAD - _PIECE
+        self._first = self.setup.memory - HEAD
         self.size = record_size(self.sizes.width, int(self.scheme.stages))
         self._capacity = _PIECE // self.size
         self.pieces, self._pages, self.bytes_of_steps = list[Array](), pages, 0
@@ -196,6 +197,8 @@ class KeptRun(Simulation):
         from symgen.loops.schemes.adjoint import ANGLES, CORRECTIONS, HEAD, TIME
 
         while True:
+            if self.pieces:
+                self._turn_page()
             here = self.state.control[abi.STEPS]
             code = super().enter(outputs, until, min(pause, here + self._capacity * bool(self.pieces)), most)
             if not self.pieces:  # the start was corrected
@@ -204,21 +207,32 @@ class KeptRun(Simulation):
                 first[HEAD : HEAD + self.sizes.width] = self.state.y
                 own = self.state.w[abi.WINDING :][: HEAD - ANGLES]
                 first[ANGLES : ANGLES + len(own)] = own
-                self.pieces.append(first)
-                self.bytes_of_steps += first.nbytes
-            if count := int(self.state.memory[self._first]):
-                if len(self._pages) < len(self.pieces):
-                    self._pages.append(np.empty((1 + self._capacity) * self.size))
-                piece = self._pages[len(self.pieces) - 1][: (1 + count) * self.size]
-                piece[: self.size] = self.pieces[-1][-self.size :]
-                piece[self.size :] = self.state.memory[self._first + HEAD :][: count * self.size]
-                self.pieces.append(piece)
-                self.bytes_of_steps += piece.nbytes
-                self.state.memory[self._first] = 0.0
+                self._append(first)
+            elif (count := int(self.state.memory[self._first])) > 1:
+                self._append(self.state.memory[self._first + HEAD :][: count * self.size])
             if self.bytes_of_steps > MOST_KEPT:
                 raise _refusal(f"stages of at most {MOST_KEPT >> 30} GiB", "more", "take larger tolerances or steps")
             if code != abi.PAUSED or self.state.control[abi.STEPS] >= pause:
                 return code
+
+    def _append(self, piece: Array) -> None:
+        self.pieces.append(piece)
+        self.bytes_of_steps += piece.nbytes
+
+    def _turn_page(self) -> None:
+        """Let the loop write its next steps to another page, behind a copy of the last one."""
+        from symgen.loops.schemes.adjoint import HEAD
+
+        first, place = self._first, len(self.pieces) - 1
+        if len(self._pages) <= place:
+            self._pages.append(aligned(first + HEAD + (1 + self._capacity) * self.size))
+        page = self._pages[place]
+        page[: first + HEAD] = self.state.memory[: first + HEAD]
+        page[first] = 1.0
+        page[first + HEAD :][: self.size] = self.pieces[-1][-self.size :]
+        self.state = self.state._replace(memory=page)
+        if self._prepared is not None:
+            self._prepared[1].take_state(self.state)
 
 
 @dataclass(frozen=True)
