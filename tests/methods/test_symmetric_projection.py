@@ -99,7 +99,6 @@ def test_the_way_back_ends_at_the_start_where_the_projection_is_symmetric(name, 
         back = end(there)
         back[nq:] *= -1.0
         missed[share] = np.abs(back - start[:first]).max()
-    print(name, missed)
     assert missed[1.0] < 1e-11 and missed[0.0] > 1e3 * missed[1.0]
 
 
@@ -115,14 +114,12 @@ def energies(share, swings, step):
 def test_the_error_of_energy_is_bounded_over_500_swings():
     """A projection after the step loses it, with the same scheme."""
     (first, last), (once, often) = energies(1.0, 500, 2e-2), energies(0.0, 500, 2e-2)
-    print(first, last, once, often)
     assert last < 1.05 * first and often > 8.0 * once
 
 
 @pytest.mark.slow
 def test_the_error_of_energy_is_bounded_over_ten_thousand_swings():
     (first, last), (once, often) = energies(1.0, 10_000, 2e-2), energies(0.0, 10_000, 2e-2)
-    print(first, last, once, often)
     assert last < 1.05 * first and often > 9.0 * once > 9.0 * last
 
 

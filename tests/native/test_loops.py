@@ -102,7 +102,6 @@ CASES = {
     "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
     "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
     "mean": ("four-bar", "discrete-gradient", "discrete-gradient"),
-    "symmetric": ("spatial-slider-crank", "symmetric-projection", "gauss"),
     "partitioned": ("spatial-slider-crank", "half-explicit", "phem56"),
 }
 #: Integrators whose steps depend on rounding, as errors are estimated.
