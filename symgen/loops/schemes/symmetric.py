@@ -26,7 +26,7 @@ from symgen.loopcode.vectors import copied
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import DIVERGED, evaluate
 
-_MOST_ITERATIONS = 50
+_MOST_ITERATIONS = 100
 #: Changes below this part of the state are rounding; below the second, they are where they did not fall twice: moves
 #: follow rates one iteration later, and velocities positions.
 _ROUNDING, _NEARLY, _STALLS = 1e-16, 1e-10, 2
