@@ -25,6 +25,7 @@ from symgen.layout import abi
 from symgen.loopcode.bare import bare
 from symgen.loopcode.padding import aligned
 from symgen.native import types
+from symgen.native.machine import vector_width
 from symgen.rows.lanes import LANE_FUNCTION
 from symgen.store.jit import jit
 
@@ -95,7 +96,8 @@ def measure(name: str, table: Table) -> None:
 
 def main(names: list[str]) -> None:
     """Measure and print."""
-    table = Table(title=f"{METHOD}, one function of one run, in ns; {LANES} lanes")
+    title = f"{METHOD}, one function of one run, in ns; {LANES} lanes, vectors of {vector_width()} numbers"
+    table = Table(title=title)
     for heading in ("mechanism", "function", "alone", "median", "in lanes", "median", "times as fast"):
         table.add_column(heading, justify="left" if heading in ("mechanism", "function") else "right")
     for name in names or ["four-bar", "slider-crank", "andrews", "bricard"]:
