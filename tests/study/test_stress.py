@@ -174,6 +174,16 @@ def test_baumgarte_s_gains_are_stable_up_to_the_limit_of_rk4():
     assert {good for _, good in real} == {True, False}
 
 
+def test_errors_of_long_links_count_in_lengths_of_the_crank():
+    """In lengths of links of 1e6 m a crank that stands still would be right."""
+    level = levels_of("length-ratio", Base.of("four-bar"), False)[-1]
+    known = compute_cell(CellReference(level))
+    assert level.values == (1e6,) and known["length"] == 1.0
+    still = np.array(known["q"])[:1].repeat(len(known["q"]), axis=0)
+    found = compute_cell(RunTask(level, "lagrange", "dop853", {**known, "q": still.tolist()}))
+    assert found["outcome"] == "inaccurate" and found["relative_error"] == found["error"] > 0.1
+
+
 def test_the_error_of_a_penalty_falls_with_its_factor():
     study = stress(["four-bar"], ["penalty-factor"], ["penalty"])
     error = {row.values[0]: row.error for row in study.rows if row.integrator == "dop853"}
