@@ -1,8 +1,8 @@
-"""A right-hand side for derivatives: what M v' + D^T lambda = f, D v' = gamma makes of accelerations and multipliers.
+"""A right-hand side for derivatives, without derivatives of the factorisation.
 
-The values are those of the elimination. Their derivatives are dx = K^-1 (db - dK x): those of the residual b - K x with
-x held, solved with the factor that elimination has left, which is held as well. So the derivatives of the factorisation
-are never taken, in either direction of differentiation.
+Accelerations and multipliers x solve K x = b. The elimination gives their values; the residual b - K x with x held,
+solved with the factor that is there, gives their derivatives: dx = K^-1 (db - dK x). Both directions of differentiation
+take them.
 """
 
 from __future__ import annotations
