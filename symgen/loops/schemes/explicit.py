@@ -158,7 +158,7 @@ def interpolate(
 def complete_stages(
     system: Any, scheme: Any, run: Any, stages: Any, new: Any, t: float, following: float, h: float
 ) -> None:
-    """Evaluate the stages that outputs need besides those of the step; `new` has the unprojected end, and changes."""
+    """Evaluate the further stages that outputs need; `new` has the unprojected end, and changes."""
     width, start, last = system.sizes.width, scheme.start, scheme.stages
     for s in range(last + run.control[abi.KNOWN], scheme.nodes.shape[0]):
         if s > last:

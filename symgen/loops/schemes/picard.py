@@ -387,7 +387,7 @@ def interpolate(
 
 @called
 def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None:
-    """Evaluate rates between the nodes; set more Legendre coefficients than those of the iteration."""
+    """Evaluate rates between the nodes; set Legendre coefficients that they correct."""
     rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
     states, more = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _MORE * width, size)
     rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
