@@ -13,6 +13,7 @@ are left out. `methods` has the cells of four families on the four-bar by method
 from __future__ import annotations
 
 import random
+import re
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -276,7 +277,9 @@ def picture(path: Path) -> None:
             share[i, j], wrong[i, j] = 100.0 * cells[key][GOOD] / judged(cells[key]), false[key]
     lines = [(method, integrator) for method, integrator in map(str.split, pairs)]
     drawn = overview_of(lines, whole(), share, wrong)
-    path.write_text(slim(drawn.data.decode()), encoding="utf-8")
+    # letters stand in hundredths of their height, of which whole ones are enough
+    text = re.sub(r"translate\((\d+)[.\d]* 0\)", r"translate(\1)", slim(drawn.data.decode()))
+    path.write_text(text, encoding="utf-8")
 
 
 RECORD = Record("stress_cells", jobs, examine, again, PATIENCE)
