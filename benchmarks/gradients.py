@@ -82,7 +82,7 @@ def numbers(model: Model, keys: Sequence[str], most: int) -> tuple[str, ...]:
     """Return paths of numbers of bodies."""
     origin = origin_of(model.mechanism)
     assert origin is not None, "the model was loaded"
-    found = list[str]()
+    paths = list[str]()
 
     def walk(path: str, value: object) -> None:
         if isinstance(value, Mapping):
@@ -92,11 +92,11 @@ def numbers(model: Model, keys: Sequence[str], most: int) -> tuple[str, ...]:
             for i, item in enumerate(value):
                 walk(f"{path}[{i}]", item)
         elif isinstance(value, int | float):
-            found.append(path)
+            paths.append(path)
 
     for name, body in origin.raw["bodies"].items():
         walk(f"bodies.{name}", {key: body[key] for key in keys if key in body})
-    return tuple(found[:most])
+    return tuple(paths[:most])
 
 
 def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:

@@ -196,8 +196,8 @@ def measured(answer: Callable[[str, int], tuple[Any, str] | None], problem: str,
     for _ in range(1 if answer is sympy else 3):
         try:
             result = answer(problem, n)
-        except Exception as error:  # whatever a tool raises is its answer
-            return best | {"way": f"failed: {str(error).splitlines()[0][:60]}", "error": None}
+        except Exception as failure:  # whatever a tool raises is its answer
+            return best | {"way": f"failed: {str(failure).splitlines()[0][:60]}", "error": None}
         if result is None:
             return best | {"way": "not asked", "error": None}
         (squares, seconds), way = result

@@ -17,6 +17,7 @@ import shutil
 import statistics
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +74,7 @@ def rows() -> list[dict[str, Any]]:
     """Return errors and times of CVODES by tolerance."""
     import casadi as ca
 
-    problem, found = equations(ca), list[dict[str, Any]]()
+    problem, measured = equations(ca), list[dict[str, Any]]()
     start, numbers = [0.5 * np.pi, 0.0], [STIFFNESS, DAMPING]
     compiler = shutil.which("gcc")
     jit = {"jit": True, "compiler": "shell", "jit_options": {"flags": ["-O3", "-march=native"], "compiler": compiler}}
@@ -87,13 +88,13 @@ def rows() -> list[dict[str, Any]]:
             whole = ca.Function("whole", [x, p], [total, ca.jacobian(total, p)])
             way = f"CVODES {label} {tolerance:.0e}"
             try:
-                (value, slopes), seconds = timed(lambda whole=whole: whole(start, numbers))
+                (value, slopes), seconds = timed(partial(whole, start, numbers))
             except RuntimeError as problem_of_run:
-                found.append({"way": way, "error": None, "seconds": None, "status": str(problem_of_run)[-80:]})
+                measured.append({"way": way, "error": None, "seconds": None, "status": str(problem_of_run)[-80:]})
                 continue
             error = error_of([float(value), *np.array(slopes).ravel()])
-            found.append({"way": way, "error": error, "seconds": seconds, "status": "ok"})
-    return [{"peer": "CasADi", "version": str(ca.CasadiMeta.version()), **row} for row in found]
+            measured.append({"way": way, "error": error, "seconds": seconds, "status": "ok"})
+    return [{"peer": "CasADi", "version": str(ca.CasadiMeta.version()), **row} for row in measured]
 
 
 def main() -> None:
@@ -101,11 +102,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
-    found = rows()
-    for row in found:
+    measured = rows()
+    for row in measured:
         print(row["way"], row["error"], row["seconds"], row["status"])
     if options.json is not None:
-        options.json.write_text(json.dumps(found))
+        options.json.write_text(json.dumps(measured))
 
 
 if __name__ == "__main__":

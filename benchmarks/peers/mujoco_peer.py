@@ -9,6 +9,7 @@ ratio are part of the setting. ``refsafe`` is off so that it is used as given.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -64,7 +65,7 @@ def rows(model: Model) -> Iterator[Row]:
                 VERSION,
                 f"RK4 {step:.3g} s, constraints {constant:g} steps, ratio {ratio:g}",
                 model.name,
-                lambda steps=steps, spring=(constant, ratio): _run(model, steps, spring, truth),
+                partial(_run, model, steps, (constant, ratio), truth),
             )
             yield out
             if (out["seconds"] or 0.0) > LIMIT:

@@ -112,7 +112,8 @@ def pinocchio_row(model: Model, step: float) -> StepRow:
     state = [pin.neutral(robot), np.zeros(robot.nv)]
 
     def rates(q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        return pin.constraintDynamics(robot, data, q, v, torque, closures, memory, proximal).copy()
+        a: np.ndarray = pin.constraintDynamics(robot, data, q, v, torque, closures, memory, proximal).copy()
+        return a
 
     def advance() -> None:
         q, v = state
