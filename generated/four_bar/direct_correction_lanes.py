@@ -256,7 +256,7 @@ def measure(t, z, lanes):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, z):
-    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 157 operations a lane."""
+    """q', v', power and multipliers; 1 where a loop or a pivot of S is suspicious: 155 operations a lane."""
     lanes = len(z) // NUMBERS
     for lane in range(lanes):
         p0 = z[320 + lane]
@@ -308,43 +308,40 @@ def rhs(t, z):
         s19 = 8.0*s6
         s20 = p18*(s1*s6 + s0*s5)
         s21 = 8.0*s5
-        s22 = 2.0*s2
-        s23 = 5.0*s14
-        s24 = s10*p24
-        s25 = 8.0*s9
-        s26 = s10*s23 - s5*s25 - s0*s22
-        s27 = s0*s6 - s1*s5
-        s28 = s2*p18*s27 + s5*p26
-        s29 = s11*s23 - s6*s25 - s1*s22
-        s30 = s18*s19 - s17*s21
-        s31 = 1.0/s30
-        s32 = s18*s31
-        s33 = s17*s31
-        s34 = s21*s31
-        s35 = s19*s31
-        s36 = s15*s32 - s16*s33
-        s37 = s15*s34 - s16*s35
-        s38 = p28*s37
-        s39 = p19*s36 - s20
-        s40 = s26*s32 + s29*s33
-        s41 = s26*s34 + s29*s35
-        s42 = 1.0/(p29 + s36*s39 + s37*s38 - s20*s36)*(s9*p18*s27 - s0*p25 + s28*s36 + s24*s37 + s39*s40 + s38*s41)
-        s43 = s40 - s36*s42
-        s44 = s41 - s37*s42
-        s45 = s28 + p19*s43 + s20*s42
-        s46 = s24 + p28*s44
-        s47 = s32*s45 + s34*s46
-        s48 = s33*s45 + s35*s46
-        s49 = s1*s42
-        s50 = s3 + s49
-        s51 = s0*s42
-        s52 = s51 - s4
-        s53 = s12*s14 + s13*s44
-        s54 = s12*s44 - s13*s14
-        s55 = s3 + s7*s9 + s49 + s50 + s8*s43
-        s56 = s4 + s8*s9 + s4 - s51 - s51 - s7*s43
-        s57 = p1*s55
-        s58 = p16 + s48 - p1*s56
+        s22 = s10*p24
+        s23 = s14*s18 - s9*s21 - s2*(2.0*s0)
+        s24 = p18*(s0*s6 - s1*s5)
+        s25 = s2*s24 + s5*p26
+        s26 = s14*s17 - s9*s19 - s2*(2.0*s1)
+        s27 = s18*s19 - s17*s21
+        s28 = 1.0/s27
+        s29 = s18*s28
+        s30 = s17*s28
+        s31 = s21*s28
+        s32 = s19*s28
+        s33 = s15*s29 - s16*s30
+        s34 = s15*s31 - s16*s32
+        s35 = p28*s34
+        s36 = p19*s33 - s20
+        s37 = s23*s29 + s26*s30
+        s38 = s23*s31 + s26*s32
+        s39 = 1.0/(p29 + s33*s36 + s34*s35 - s20*s33)*(s9*s24 - s0*p25 + s25*s33 + s22*s34 + s36*s37 + s35*s38)
+        s40 = s37 - s33*s39
+        s41 = s38 - s34*s39
+        s42 = s25 + p19*s40 + s20*s39
+        s43 = s22 + p28*s41
+        s44 = s29*s42 + s31*s43
+        s45 = s30*s42 + s32*s43
+        s46 = s1*s39
+        s47 = s3 + s46
+        s48 = s0*s39
+        s49 = s48 - s4
+        s50 = s12*s14 + s13*s41
+        s51 = s12*s41 - s13*s14
+        s52 = s3 + s7*s9 + s46 + s47 + s8*s40
+        s53 = s4 + s8*s9 + s4 - s48 - s48 - s7*s40
+        s54 = p1*s52
+        s55 = p16 + s45 - p1*s53
         z[160 + lane] = v0
         z[168 + lane] = v1
         z[176 + lane] = v2
@@ -354,25 +351,25 @@ def rhs(t, z):
         z[208 + lane] = v6
         z[216 + lane] = v7
         z[224 + lane] = v8
-        z[232 + lane] = -s50
-        z[240 + lane] = s52
-        z[248 + lane] = s42
-        z[256 + lane] = -s55
-        z[264 + lane] = -s56
-        z[272 + lane] = s43
-        z[280 + lane] = -s53
-        z[288 + lane] = s54
-        z[296 + lane] = s44
+        z[232 + lane] = -s47
+        z[240 + lane] = s49
+        z[248 + lane] = s39
+        z[256 + lane] = -s52
+        z[264 + lane] = -s53
+        z[272 + lane] = s40
+        z[280 + lane] = -s50
+        z[288 + lane] = s51
+        z[296 + lane] = s41
         z[304 + lane] = 0.0
-        z[712 + lane] = p0*s50 - (s47 - s57)
-        z[720 + lane] = -(p15 + s58 + p0*s52)
-        z[728 + lane] = s57 - s47
-        z[736 + lane] = -s58
-        z[744 + lane] = -s47
-        z[752 + lane] = -s48
-        z[760 + lane] = s47 + p2*s53
-        z[768 + lane] = -(p17 + p2*s54 - s48)
-        z[SUSPECTS + lane] += 1.0*(s30*s30 <= 0.16 + mask_4 + mask_5)
+        z[712 + lane] = p0*s47 - (s44 - s54)
+        z[720 + lane] = -(p15 + s55 + p0*s49)
+        z[728 + lane] = s54 - s44
+        z[736 + lane] = -s55
+        z[744 + lane] = -s44
+        z[752 + lane] = -s45
+        z[760 + lane] = s44 + p2*s50
+        z[768 + lane] = -(p17 + p2*s51 - s45)
+        z[SUSPECTS + lane] += 1.0*(s27*s27 <= 0.16 + mask_4 + mask_5)
     return 0
 
 

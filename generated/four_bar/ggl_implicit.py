@@ -109,7 +109,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 176 operations, 87807 before sharing."""
+    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 174 operations, 87807 before sharing."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -160,46 +160,45 @@ def rhs(t, y, p, w, iw, ydot):
     s16 = s0 + s0
     s17 = 5.0*s11
     s18 = 5.0*s10
-    s19 = p18*(s1*s6 + s0*s5)
-    s20 = s17*p20
-    s21 = s18*p20
-    s22 = s19*p21
-    s23 = s15*p21
-    s24 = s16*p21
-    s25 = 8.0*s6 - s15*s22
-    s26 = s16*s22 - 8.0*s5
-    s27 = 1.0/(p19 - s19*s22)
-    s28 = s25*s27
-    s29 = s26*s27
-    s30 = s18*s20 + s16*s23 - s26*s28
-    s31 = s18*s21 + s16*s24 + s26*s29
-    s32 = mask_4 + s17*s20 + s15*s23 + s25*s28
-    s33 = 1.0/s32
-    s34 = s30*s33
-    s35 = mask_5 + s31 - s30*s34
-    s36 = 2.0*s2
-    s37 = 5.0*s14
+    s19 = 8.0*s6
+    s20 = p18*(s1*s6 + s0*s5)
+    s21 = 8.0*s5
+    s22 = s17*p20
+    s23 = s18*p20
+    s24 = s20*p21
+    s25 = s15*p21
+    s26 = s16*p21
+    s27 = s19 - s15*s24
+    s28 = s16*s24 - s21
+    s29 = 1.0/(p19 - s20*s24)
+    s30 = s27*s29
+    s31 = s28*s29
+    s32 = s18*s22 + s16*s25 - s28*s30
+    s33 = s18*s23 + s16*s26 + s28*s31
+    s34 = mask_4 + s17*s22 + s15*s25 + s27*s30
+    s35 = 1.0/s34
+    s36 = s32*s35
+    s37 = mask_5 + s33 - s32*s36
     s38 = s10*p24
-    s39 = 8.0*s9
-    s40 = s0*s6 - s1*s5
-    s41 = s9*p18*s40 - s0*p25
-    s42 = s2*p18*s40 + s5*p26 + s22*s41
-    s43 = s10*s37 - s5*s39 - s0*s36 - s20*s38 - s23*s41 + s28*s42
-    s44 = 1.0/s35*(s11*s37 - s6*s39 - s1*s36 + s21*s38 + s24*s41 + s29*s42 + s34*s43)
-    s45 = s33*s43 + s34*s44
-    s46 = s28*s45 - s27*s42 + s29*s44
-    s47 = p21*s41 - s22*s46 + s23*s45 - s24*s44
-    s48 = s21*s44 - (p20*s38 + s20*s45)
-    s49 = s1*s47
-    s50 = s3 + s49
-    s51 = s0*s47
-    s52 = s51 - s4
-    s53 = s12*s14 + s13*s48
-    s54 = s12*s48 - s13*s14
-    s55 = s3 + s7*s9 + s49 + s50 + s8*s46
-    s56 = s4 + s8*s9 + s4 - s51 - s51 - s7*s46
-    s57 = p1*s55
-    s58 = p16 + s44 - p1*s56
+    s39 = p18*(s0*s6 - s1*s5)
+    s40 = s9*s39 - s0*p25
+    s41 = s2*s39 + s5*p26 + s24*s40
+    s42 = s14*s18 - s9*s21 - s2*(2.0*s0) - s22*s38 - s25*s40 + s30*s41
+    s43 = 1.0/s37*(s14*s17 - s9*s19 - s2*(2.0*s1) + s23*s38 + s26*s40 + s31*s41 + s36*s42)
+    s44 = s35*s42 + s36*s43
+    s45 = s30*s44 - s29*s41 + s31*s43
+    s46 = p21*s40 - s24*s45 + s25*s44 - s26*s43
+    s47 = s23*s43 - (p20*s38 + s22*s44)
+    s48 = s1*s46
+    s49 = s3 + s48
+    s50 = s0*s46
+    s51 = s50 - s4
+    s52 = s12*s14 + s13*s47
+    s53 = s12*s47 - s13*s14
+    s54 = s3 + s7*s9 + s48 + s49 + s8*s45
+    s55 = s4 + s8*s9 + s4 - s50 - s50 - s7*s45
+    s56 = p1*s54
+    s57 = p16 + s43 - p1*s55
     # outputs
     ydot[0] = v0  # rate of crank.x
     ydot[1] = v1  # rate of crank.y
@@ -210,25 +209,25 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[6] = v6  # rate of rocker.x
     ydot[7] = v7  # rate of rocker.y
     ydot[8] = v8  # rate of rocker.theta
-    ydot[9] = -s50  # rate of crank.vx
-    ydot[10] = s52  # rate of crank.vy
-    ydot[11] = s47  # rate of crank.omega
-    ydot[12] = -s55  # rate of coupler.vx
-    ydot[13] = -s56  # rate of coupler.vy
-    ydot[14] = s46  # rate of coupler.omega
-    ydot[15] = -s53  # rate of rocker.vx
-    ydot[16] = s54  # rate of rocker.vy
-    ydot[17] = s48  # rate of rocker.omega
+    ydot[9] = -s49  # rate of crank.vx
+    ydot[10] = s51  # rate of crank.vy
+    ydot[11] = s46  # rate of crank.omega
+    ydot[12] = -s54  # rate of coupler.vx
+    ydot[13] = -s55  # rate of coupler.vy
+    ydot[14] = s45  # rate of coupler.omega
+    ydot[15] = -s52  # rate of rocker.vx
+    ydot[16] = s53  # rate of rocker.vy
+    ydot[17] = s47  # rate of rocker.omega
     ydot[18] = 0.0  # rate of work
-    w[MULTIPLIERS] = p0*s50 - (s45 - s57)  # A.x
-    w[MULTIPLIERS + 1] = -(p15 + s58 + p0*s52)  # A.y
-    w[MULTIPLIERS + 2] = s57 - s45  # B.x
-    w[MULTIPLIERS + 3] = -s58  # B.y
-    w[MULTIPLIERS + 4] = -s45  # C.x
-    w[MULTIPLIERS + 5] = -s44  # C.y
-    w[MULTIPLIERS + 6] = s45 + p2*s53  # D.x
-    w[MULTIPLIERS + 7] = -(p17 + p2*s54 - s44)  # D.y
-    return int(((s32 < p23) | (s35 < 1e-06*max(s31, p22))))
+    w[MULTIPLIERS] = p0*s49 - (s44 - s56)  # A.x
+    w[MULTIPLIERS + 1] = -(p15 + s57 + p0*s51)  # A.y
+    w[MULTIPLIERS + 2] = s56 - s44  # B.x
+    w[MULTIPLIERS + 3] = -s57  # B.y
+    w[MULTIPLIERS + 4] = -s44  # C.x
+    w[MULTIPLIERS + 5] = -s43  # C.y
+    w[MULTIPLIERS + 6] = s44 + p2*s52  # D.x
+    w[MULTIPLIERS + 7] = -(p17 + p2*s53 - s43)  # D.y
+    return int(((s34 < p23) | (s37 < 1e-06*max(s33, p22))))
 
 
 @njit(error_model="numpy", fastmath={"contract"})
