@@ -10,7 +10,7 @@ the collocation is. In space bodies are moved by the exponential; the collocatio
 With ``share`` below 1 the step begins with that part of the moves; with 0 it is the usual projection after the step.
 
 One iteration finds rates of the nodes, r and s together, and ends where changes no longer fall: rounding, which has no
-sign, is then what is left. The memory of a run holds the last step and what it solved for, with which the next one begins.
+sign, is then what is left. The memory of a run holds the last step and its solution, with which the next one begins.
 """
 
 from __future__ import annotations
@@ -66,18 +66,18 @@ def attempt(
     """Solve for the rates at both nodes and the moves at both ends."""
     sizes, kept, w = system.sizes, run.memory.shape[0], run.w
     nq, nv, m, width, first = sizes.nq, sizes.nv, sizes.m, sizes.width, sizes.nq + sizes.nv
-    solution, share = part(run.room, 0, kept), run.p[scheme.share]
+    unknown, share = part(run.room, 0, kept), run.p[scheme.share]
     rates, gaps, slips = (
-        part(solution, 1, 2 * width),
-        part(solution, 1 + 2 * width, m),
-        part(solution, 1 + 2 * width + m, m),
+        part(unknown, 1, 2 * width),
+        part(unknown, 1 + 2 * width, m),
+        part(unknown, 1 + 2 * width + m, m),
     )
-    shift, thrust = part(solution, kept - 2 * nv, nv), part(solution, kept - nv, nv)
+    shift, thrust = part(unknown, kept - 2 * nv, nv), part(unknown, kept - nv, nv)
     begun, inside = part(run.room, kept, width), part(run.room, kept + width, width)
     rate, last_step = part(run.room, kept + 2 * width, width), run.memory[0]
-    solution[0] = h
+    unknown[0] = h
     for i in range(1, kept):
-        solution[i] = run.memory[i]
+        unknown[i] = run.memory[i]
     if last_step == 0.0:
         evaluate(system, run, t, run.y, part(rates, 0, width))
         run.control[abi.EVALUATIONS] += 1
@@ -145,7 +145,7 @@ def attempt(
 
 @called
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
-    """Store what the step solution."""
+    """Store the solution of the step."""
     for i in range(run.memory.shape[0]):
         run.memory[i] = run.room[i]
 
