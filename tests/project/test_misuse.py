@@ -381,6 +381,8 @@ def rows():
         yield f"sweep {changes}", lambda x, c=changes: symgen.sweep(x.model, vy, **c), sentence
     wrong = "sweep: expected a quantity that was kept, or a number"
     yield from each("sweep column", (3, None, "bob.z"), lambda x, v: x.sweep[v], wrong)
+    wrong = "sensitivities: expected a list of names, got 3"
+    yield from each("sweep sensitivities", {"3": 3, "a list of 3": [3]}, lambda x, v: x.sweep.sensitivities(v), wrong)
     yield "sweep reasons", lambda x: x.sweep.reasons("all"), "most: expected a whole number"
     # builders
     names = {"3": 3, "None": None, "a list of 0": []}
@@ -496,7 +498,8 @@ def test_no_function_with_arguments_is_left_out():
         *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
         *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
-        *"Labelled.row Labelled.unit Study.save Study.plot Sweep.save Sweep.plot Sweep.reasons".split(),
+        *"Labelled.row Labelled.unit Study.save Study.plot".split(),
+        *(f"Sweep.{n}" for n in "save plot reasons sensitivities".split()),
         *(f"SteppedRun.{n}" for n in "step run every set meter restore reset".split()),
         *(
             f"MechanismBuilder.{n}"

@@ -75,7 +75,7 @@ def test_a_prediction_is_below_what_a_run_takes():
 
 def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     level = levels_of("damping", Base.of("four-bar"), False)[4]
-    known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
+    known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "length": 1.0, "parameters": {}}
     monkeypatch.setattr("symgen.running.prepare.code_and_start", None)
     found = compute_cell(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
@@ -86,7 +86,7 @@ def test_cells_without_a_reference_are_not_run(monkeypatch):
     level = levels_of("gravity", Base.of("pendulum"), True)[0]
     for known, why in (
         ({"unusable": "none at hand"}, "none at hand"),
-        ({"unusable": None, "estimated_error": 0.02}, "the two reference runs differ by 0.02 m"),
+        ({"unusable": None, "estimated_error": 0.02, "length": 1.0}, "the two reference runs differ by 0.02 m"),
     ):
         found = compute_cell(RunTask(level, "lagrange", "rk4", known))
         assert (found["outcome"], found["status"], found["reason"]) == ("unjudged", "not run", why)

@@ -285,14 +285,14 @@ def test_a_row_of_a_comparison_that_is_none_is_refused(change):
 
 NOT_OF_A_REFERENCE = (
     *({"how": 3}, {"q": [[0.0], [0.0, 1.0]]}, {"q": "much"}),
-    *({"size": "large"}, {"unusable": 3}, {"decay": None}),
+    *({"length": "large"}, {"unusable": 3}, {"decay": None}),
 )
 
 
 @pytest.mark.parametrize("change", NOT_OF_A_REFERENCE)
 def test_a_reference_of_a_stress_study_that_is_none_is_refused(change):
     motion = {"unusable": None, "how": "closed form", "estimated_error": 0.0, "q": [[0.0, 1.0], [1.0, 2.0]]}
-    motion |= {"decay": 0.0, "sines": [1.0, 1.0], "size": 1.0, "parameters": {"k": 2}}
+    motion |= {"decay": 0.0, "sines": [1.0, 1.0], "length": 1.0, "parameters": {"k": 2}}
     check_motion(json.loads(json.dumps(motion)))
     check_motion({"unusable": "a singular position"})
     with pytest.raises(ValueError):
