@@ -20,7 +20,7 @@ from symgen.emit.printer import ElementAccess, Names, Printer, of_hoisted, of_mo
 from symgen.emit.whole import Places, model_name
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import BY_RESIDUAL, DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
+from symgen.ir.program import DERIVATIVES, FORMAT, SLOPES, SUFFIXES, Block, LawProgram, ModelLayout, ModelProgram
 from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
@@ -288,9 +288,10 @@ def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[Mod
 
 #: Functions that a law with integrals replaces: arguments, and the call after the law's own.
 _FOLLOWED = {
-    "rhs": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
-    "confirm": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
-    BY_RESIDUAL: ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    **dict.fromkeys(
+        (name + end for name in ("rhs", "confirm") for end in ("", SLOPES)),
+        ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    ),
     "residual": ("t, y, k, p, w, r", "accumulate(t, y, k, p, w)"),
 }
 

@@ -18,6 +18,7 @@ from symgen.ir.program import (
     FREE_RHS,
     HELD_RHS,
     MODE_NUMBERS,
+    SLOPES,
     STATUS,
     Correction,
     LawCode,
@@ -78,7 +79,7 @@ class Parts:
     """Prints templates of ``templates/parts``; each of their functions lists its calls."""
 
     def __init__(self, layout: PartsLayout, correction: Correction) -> None:
-        self.layout = layout
+        self.layout, self.end = layout, ""  # the end of names of functions
         self.pieces: list[tuple[str, ModulePiece]] = []
         self.values: dict[str, Any] = {
             "function": self._function,
@@ -122,7 +123,7 @@ class Parts:
         lines = [*before, *body]
         decorator = self.layout.decorator
         self.pieces.append(
-            ("", function_source(name, arguments, purpose, lines, decorator, calls=called, sections=named))
+            ("", function_source(name + self.end, arguments, purpose, lines, decorator, calls=called, sections=named))
         )
         return ""
 
@@ -147,7 +148,7 @@ ROLES = {
     "derivation": ("slopes", "Right-hand side for derivatives"),
 }
 #: Functions that a law's module exports.
-_EXPORTS = "prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent", BY_RESIDUAL
+_EXPORTS = "prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent"
 
 
 def law_modules(
@@ -213,7 +214,8 @@ def law_modules(
             origins["accelerate"] = (name, "rhs")
         origins |= {each: (name, each) for code in codes for each in code.names}
         exported |= {each for code in codes for each in code.names}
-    modules[stem + suffix] = module_source(title, header, [], origins, {}, exports=exported.intersection(_EXPORTS))
+    own = (name + end for name in _EXPORTS for end in ("", SLOPES))
+    modules[stem + suffix] = module_source(title, header, [], origins, {}, exports=exported.intersection(own))
     return modules
 
 
@@ -240,8 +242,13 @@ def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: b
     if law.closed:
         parts.add("closed", "closed")
     if flagged:
-        parts.values["evaluation"] = next((name for name in (BY_PIVOTS, HELD_RHS) if name in names), "rhs")
+        evaluation = next((name for name in (BY_PIVOTS, HELD_RHS) if name in names), "rhs")
+        parts.values["evaluation"] = evaluation
         parts.add("confirm", "confirmation")
+        if evaluation + SLOPES in names:
+            parts.values["evaluation"], parts.end = evaluation + SLOPES, SLOPES
+            parts.add("confirm", "derivation")
+            parts.end = ""
     by_metric = "partition" if partitioned else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")
     return parts.pieces

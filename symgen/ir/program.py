@@ -23,8 +23,9 @@ BY_PIVOTS = "rhs_by_pivots"
 #: The right-hand sides of motions with rows with bounds in force and without: ``rhs`` enters one of them.
 HELD_RHS, FREE_RHS = "rhs_held", "rhs_free"
 
-#: The right-hand side whose derivatives are those of the residual.
-BY_RESIDUAL = "rhs_by_residual"
+#: End of the names of functions for derivatives, which are those of the residual; the right-hand side among them.
+SLOPES = "_by_residual"
+BY_RESIDUAL = f"rhs{SLOPES}"
 
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3

@@ -9,13 +9,14 @@ belong to the branch taken.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from symgen.ir.graph import CARRIED
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm import FunctionPrinter, declarations, head, reached, taken
+from symgen.native.llvm import FunctionPrinter, declarations, head, taken
 from symgen.native.llvm_values import TYPES, literal, slot
 from symgen.native.read_values import Foreign
 from symgen.vocabulary.functions import ELEMENTARY, steepest
@@ -24,13 +25,20 @@ from symgen.vocabulary.functions import ELEMENTARY, steepest
 Dual = tuple[str, str | None]
 
 
-def module(function: lang.Function, name: str, lanes: int, places: Mapping[str, int], together: bool = True) -> str:
+def module(
+    function: lang.Function,
+    name: str,
+    lanes: int,
+    places: Mapping[str, int],
+    together: bool = True,
+    apart: Callable[[lang.Function], str] = lambda _: "",
+) -> str:
     """Return the text of a module that defines a function with directions.
 
     Parameters
     ----------
     function : Function
-        The function; all functions that it calls are defined in the module too.
+        The function; functions that it calls are defined in the module too.
     name : str
         Its name in machine code. It takes the arguments of `function`.
     lanes : int
@@ -39,19 +47,30 @@ def module(function: lang.Function, name: str, lanes: int, places: Mapping[str, 
         First element of the directions behind each array of floats.
     together : bool
         Whether sines and cosines of several angles are taken together.
+    apart : Callable, optional
+        Returns the name in machine code of a callee with directions that has code of its own, empty for others. A call
+        with the caller's own arrays and numbers takes it.
 
     Raises
     ------
     Foreign
         If the function has a float without a rule for its directions.
     """
-    functions, _ = reached(function, lambda _: True)
-    names = {f.key: f"{name}.{i}.{f.name}" if i else name for i, f in enumerate(functions)}
-    texts = [TangentPrinter(function, lambda f: names[f.key], lanes, places, together).text()]
-    texts += [TangentPrinter(f, lambda f: names[f.key], lanes, None, together).text() for f in functions[1:]]
+    names, functions = {function.key: name}, [function]
+
+    def symbol(f: lang.Function) -> str:
+        if f.key not in names:
+            names[f.key] = f"{name}.{len(names)}.{f.name}"
+            functions.append(f)
+        return names[f.key]
+
+    own = TangentPrinter(function, symbol, lanes, places, together, apart)
+    texts = [own.text()]
+    texts += [TangentPrinter(f, symbol, lanes, None, together).text() for f in itertools.islice(functions, 1, None)]
     texts += [
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.sine_name(n) in text for text in texts)
     ]
+    texts += [f"declare {head(f, each, named=False)}" for each, f in own.declared.items()]
     return "\n".join([*texts, *declarations(texts), ""])
 
 
@@ -66,6 +85,8 @@ class TangentPrinter(FunctionPrinter):
         Number of directions.
     places : mapping of str to int or None
         First element of the directions behind each array; None where a caller hands over their addresses.
+    apart : Callable, optional
+        As for `module`.
     """
 
     def __init__(
@@ -75,8 +96,10 @@ class TangentPrinter(FunctionPrinter):
         lanes: int,
         places: Mapping[str, int] | None,
         together: bool,
+        apart: Callable[[lang.Function], str] = lambda _: "",
     ) -> None:
         super().__init__(function, symbol, "" if places is not None else "internal ", together)
+        self.apart, self.declared = apart, dict[str, lang.Function]()
         self.lanes, self.places, self.kind = lanes, places, f"<{lanes} x double>"
         self.shadows: dict[str, str] = {}  # addresses of the directions of arrays
         self.tangents: dict[str, str | None] = {}  # directions of variables that need no memory
@@ -233,6 +256,21 @@ class TangentPrinter(FunctionPrinter):
         """Print a number with the directions of another one, or with none."""
         (value, _), *others = [self.dual(a) for a in e.arguments if not isinstance(a, str)]
         return value, others[0][1] if others else None
+
+    def call(self, e: lang.FunctionCall) -> str:
+        """Print a call of another function, by its own code where this knows the places of all directions."""
+        symbol = self.apart(e.function) if self.hands_on(e) else ""
+        if not symbol:
+            return super().call(e)
+        self.declared[symbol] = e.function
+        return FunctionPrinter.called(self, f'@"{symbol}"', e.function.returned, e.arguments)
+
+    def hands_on(self, e: lang.FunctionCall) -> bool:
+        """Whether a callee without a float as its result takes arguments of this function, under the same names."""
+        own = {p.name: p for p in self.function.parameters if p.name not in self.function.variables}
+        names = (a if isinstance(a, str) else a.name if isinstance(a, lang.Variable) else "" for a in e.arguments)
+        same = [*map(own.get, names)] == [*e.function.parameters]
+        return same and e.function.returned != "float" and self.places is not None
 
     def called(self, function: str, returned: lang.Scalar, arguments: tuple[lang.Expression | str, ...]) -> str:
         """Print a call with directions behind each float."""

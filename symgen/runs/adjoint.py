@@ -18,7 +18,7 @@ from symgen.layout import abi
 from symgen.loopcode.padding import aligned
 from symgen.native.adjoints import Accesses, accesses, correction
 from symgen.native.read_values import Foreign
-from symgen.runs.directed_model import rhs_for_derivatives
+from symgen.runs.directed_model import for_derivatives
 from symgen.runs.run import Progress, completed
 from symgen.runs.simulation import Simulation
 from symgen.store.emitted import AdjointFunction, EmittedFunction
@@ -65,7 +65,7 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
     law = compiled.law_module
     if not isinstance(law.rhs, EmittedFunction):
         raise _refusal("compiled functions", "NUMBA_DISABLE_JIT, where plain Python runs")
-    _check_functions(rhs_for_derivatives(law), law.accept, compiled.law.method, compiled.info.windings)
+    _check_functions(for_derivatives(law, "rhs"), law.accept, compiled.law.method, compiled.info.windings)
 
 
 @functools.lru_cache(maxsize=256)
@@ -285,7 +285,7 @@ class Adjoint:
             functions = Corrections(*(made.get(k, made[counts[0]]) for k in range(most)))
         back, rates, table = (
             corrected if own else back_through,
-            _adjoint(rhs_for_derivatives(law)),
+            _adjoint(for_derivatives(law, "rhs")),
             transposed(run.scheme),
         )
         angles = min(run.compiled.info.windings, HEAD - ANGLES)

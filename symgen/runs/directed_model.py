@@ -6,7 +6,6 @@ The state is longer: behind y lie L directions of each element, and those of par
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -16,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.ir.program import BY_RESIDUAL
+from symgen.ir.program import SLOPES
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.store.emitted import EmittedFunction, TangentFunction
+from symgen.store.emitted import EmittedFunction, TangentFunction, directed
 
 if TYPE_CHECKING:
     from symgen.layout.compiled import CompiledModel
@@ -93,9 +92,7 @@ class DirectedModel:
         self.whole: CompiledModel = plain.longer(own * lanes, hoisted, longer["w"], *modules)
 
     def _module(self, module: Any, names: dict[str, Any]) -> Any:
-        functions = {name: self.function(getattr(module, name)) for name in names if hasattr(module, name)}
-        if hasattr(module, BY_RESIDUAL):
-            functions["rhs"] = self.function(rhs_for_derivatives(module))
+        functions = {name: self.function(for_derivatives(module, name)) for name in names if hasattr(module, name)}
         return SimpleNamespace(**{**vars(module), **functions})
 
     def function(self, function: Any, length: int = 0, timed: bool = False) -> TangentFunction:
@@ -120,7 +117,7 @@ class DirectedModel:
         places = self.sizes | {"out": length}
         if timed:
             places["t"] = self.sizes["w"] * (1 + self.lanes)
-        return _directed(function, self.lanes, tuple(sorted(places.items())))
+        return directed(function, self.lanes, tuple(sorted(places.items())))
 
     def longer(self, array: Array, name: str, directions: Array | None = None) -> Array:
         """Return an array with room for its directions, zeros if not given, shape (n, L)."""
@@ -154,15 +151,9 @@ class DirectedModel:
         return function.caller((_MODEL | _LAW)[name].signature.arguments)
 
 
-def rhs_for_derivatives(law: Any) -> Any:
-    """Return the right-hand side of a law whose derivatives take the fewest operations."""
-    return getattr(law, BY_RESIDUAL, law.rhs)
-
-
-@functools.lru_cache(maxsize=256)
-def _directed(function: EmittedFunction, lanes: int, places: tuple[tuple[str, int], ...]) -> TangentFunction:
-    """Return the form of a function with directions, the same one for all runs."""
-    return TangentFunction(function, lanes, dict(places))
+def for_derivatives(module: Any, name: str) -> Any:
+    """Return the function of a module under a name, or its form whose derivatives take the fewest operations."""
+    return getattr(module, name + SLOPES, getattr(module, name))
 
 
 def lanes_of(count: int) -> int:

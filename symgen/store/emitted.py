@@ -116,7 +116,9 @@ class TangentFunction(EmittedFunction):
 
     def __init__(self, function: EmittedFunction, lanes: int, places: Mapping[str, int]) -> None:
         super().__init__(function.py_func)
-        self.origin, self.lanes, self.places = function.origin, lanes, dict(places)
+        names = function.py_func.__code__.co_varnames[: function.py_func.__code__.co_argcount]
+        self.origin, self.lanes = function.origin, lanes
+        self.places = {name: place for name, place in places.items() if name in names}
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
@@ -127,13 +129,33 @@ class TangentFunction(EmittedFunction):
         raise TypeError("machine code does not travel")
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
-        """Return machine code, made from the source; callees are in it."""
+        """Return machine code, made from the source; short callees are in it."""
+        from symgen.native.llvm import is_copied, reached
         from symgen.native.machine import compiled
         from symgen.native.tangents import module
 
-        function = self.read(arguments)
-        text = module(function, symbol, self.lanes, self.places, _together())
-        return CacheEntry(function.returned, (), compiled(text, symbol))
+        function, called = self.read(arguments), dict[str, Any]()
+        names = {id(value): name for name, value in self.py_func.__globals__.items()}
+
+        def apart(f: Function) -> str:
+            if is_copied(f) or all(map(_is_short, reached(f, lambda _: True)[0])):
+                return ""
+            name = names[id(f.source)]
+            called[name] = _kinds(f)
+            return self.callee(name).symbol(arguments_of(called[name]))
+
+        text = module(function, symbol, self.lanes, self.places, _together(), apart)
+        return CacheEntry(function.returned, tuple(called.items()), compiled(text, symbol))
+
+    def callee(self, name: str) -> TangentFunction:
+        """Return a callee with directions."""
+        return directed(self.py_func.__globals__[name], self.lanes, tuple(sorted(self.places.items())))
+
+
+@functools.lru_cache(maxsize=256)
+def directed(function: EmittedFunction, lanes: int, places: tuple[tuple[str, int], ...]) -> TangentFunction:
+    """Return the form of a function with directions, the same one for all callers; see `TangentFunction`."""
+    return TangentFunction(function, lanes, dict(places))
 
 
 class AdjointFunction(EmittedFunction):

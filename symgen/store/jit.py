@@ -146,6 +146,11 @@ class MachineFunction(ABC):
         name = f"{self.__name__}_{combined_digest(key)[:32]}"
         return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
+    def callee(self, name: str) -> MachineFunction:
+        """Return the function in memory behind the name of a callee."""
+        function: MachineFunction = self.py_func.__globals__[name]
+        return function
+
     def _loaded(self, arguments: Arguments) -> MachineCode:
         """Put machine code into memory, from the cache or made anew, after its callees."""
         key = self.key(arguments)
@@ -160,7 +165,7 @@ class MachineFunction(ABC):
             place = f"{NATIVE}/{plain_name(self.__module__, 100)}"
             entry = CacheEntry(*marshal.loads(cached(place, self.__qualname__, key, make)))
             for name, kinds in entry.called:
-                self.py_func.__globals__[name].code(arguments_of(kinds))
+                self.callee(name).code(arguments_of(kinds))
             address = load(entry.code, symbol)
         if not clock.loaded and compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)

@@ -5,7 +5,7 @@ import pytest
 
 from symgen import Settings, load
 from symgen.ir.graph import Graph
-from symgen.ir.program import BY_RESIDUAL
+from symgen.ir.program import BY_RESIDUAL, COUNTERS, SLOPES
 from symgen.layout import abi
 from symgen.lower.residual import slopes
 from symgen.native import types
@@ -15,6 +15,36 @@ from symgen.runs.directed_model import DirectedModel
 from symgen.store.emitted import AdjointFunction
 
 LANES = 2
+
+
+def differentiated(name, coordinates, method, disturbance=0.01):
+    """Return a run, its model with directions, a generator, and the state and parameters with random directions."""
+    settings = Settings(method=method, integrator="dop853", coordinates=coordinates, until=0.1)
+    run, _ = prepared(load(name).mechanism, settings)
+    model, start, rng = DirectedModel(run.compiled, LANES), run.start, np.random.default_rng(3)
+    y = start.y + disturbance * rng.standard_normal(len(start.y))
+    y = model.longer(y, "y", rng.standard_normal((model.sizes["y"], LANES)))
+    seeds = np.zeros((model.sizes["p"], LANES))
+    own = len(run.compiled.info.parameters)
+    seeds[:own] = rng.standard_normal((own, LANES)) * np.abs(start.p[:own, np.newaxis])
+    return run, model, rng, y, model.parameters(start.p, seeds)
+
+
+def values_and_directions(run, model, function, y, p, w):
+    """Return rates, their directions and those of the multipliers, and the counters."""
+    w, rates, counters = model.longer(w, "w"), model.longer(run.start.y * 0.0, "y"), np.zeros(40, dtype=np.int64)
+    model.function(function).caller(abi.RHS.signature.arguments)(0.3, y, p, w, counters, rates)
+    first, size = run.compiled.info.sections["multipliers"]
+    shown = model.shadow(rates, "y"), model.shadow(w, "w")[first : first + size]
+    return rates[: model.sizes["y"]], *shown, counters
+
+
+def compare(found):
+    """Compare values and directions of two functions."""
+    (values, by_state, by_rows, _), (others, through, of_rows, _) = found
+    assert others == pytest.approx(values, rel=1e-13, abs=1e-13 * np.abs(values).max())
+    assert through == pytest.approx(by_state, rel=1e-10, abs=1e-12 * np.abs(by_state).max())
+    assert of_rows == pytest.approx(by_rows, rel=1e-10, abs=1e-12 * np.abs(by_rows).max())
 
 
 @pytest.mark.parametrize(
@@ -29,38 +59,39 @@ LANES = 2
     ],
 )
 def test_both_ways_have_the_same_derivatives(name, coordinates, method):
-    settings = Settings(method=method, integrator="dop853", coordinates=coordinates, until=0.1)
-    run, _ = prepared(load(name).mechanism, settings)
-    model, law, start, rng = (
-        DirectedModel(run.compiled, LANES),
-        run.compiled.law_module,
-        run.start,
-        np.random.default_rng(3),
-    )
-    sizes, kind = model.sizes, abi.RHS.signature.arguments
-    y = model.longer(start.y + 0.01 * rng.standard_normal(len(start.y)), "y", rng.standard_normal((sizes["y"], LANES)))
-    seeds = np.zeros((sizes["p"], LANES))
-    own = len(run.compiled.info.parameters)
-    seeds[:own] = rng.standard_normal((own, LANES)) * np.abs(start.p[:own, np.newaxis])
-    p = model.parameters(start.p, seeds)
-    found = {}
-    for function in (law.rhs, getattr(law, BY_RESIDUAL)):
-        w, rates, counters = model.longer(start.w, "w"), model.longer(start.y * 0.0, "y"), np.zeros(40, dtype=np.int64)
-        model.function(function).caller(kind)(0.3, y, p, w, counters, rates)
-        first, size = run.compiled.info.sections["multipliers"]
-        found[function] = rates[: sizes["y"]], model.shadow(rates, "y"), model.shadow(w, "w")[first : first + size]
-    (values, by_state, by_rows), (others, through, of_rows) = found.values()
-    assert others == pytest.approx(values, rel=1e-13, abs=1e-13 * np.abs(values).max())
-    assert through == pytest.approx(by_state, rel=1e-10, abs=1e-12 * np.abs(by_state).max())
-    assert of_rows == pytest.approx(by_rows, rel=1e-10, abs=1e-12 * np.abs(by_rows).max())
+    run, model, rng, y, p = differentiated(name, coordinates, method)
+    law, start, sizes = run.compiled.law_module, run.start, model.sizes
+    found = [values_and_directions(run, model, f, y, p, start.w) for f in (law.rhs, getattr(law, BY_RESIDUAL))]
+    compare(found)
 
     ends = rng.standard_normal(sizes["y"])
     bars = [np.zeros(sizes[array]) for array in ("y", "p", "w")]
     plain = y[: sizes["y"]].copy(), p[: sizes["p"]].copy(), start.w.copy()
-    adjoint = AdjointFunction(getattr(law, BY_RESIDUAL)).caller((*kind, *[types.float64[::1]] * 4))
+    arguments = *abi.RHS.signature.arguments, *[types.float64[::1]] * 4
+    adjoint, counters = AdjointFunction(getattr(law, BY_RESIDUAL)).caller(arguments), np.zeros(40, dtype=np.int64)
     adjoint(0.3, *plain, counters, np.zeros(sizes["y"]), *bars, ends.copy())
     inner = bars[0] @ model.shadow(y, "y") + bars[1] @ model.shadow(p, "p")
-    assert inner == pytest.approx(ends @ by_state, rel=1e-10)
+    assert inner == pytest.approx(ends @ found[0][1], rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("name", "coordinates", "left_out"),
+    [
+        ("bricard", "absolute", 1),
+        ("bricard", "joint", 1),
+        ("slider-crank", "absolute", 0),
+        ("rolling-disc", "joint", 0),
+    ],
+)
+def test_confirmed_rates_have_the_same_derivatives_without_the_rows_left_out(name, coordinates, left_out):
+    run, model, _, y, p = differentiated(name, coordinates, "lagrange", disturbance=0.0)
+    law, w = run.compiled.law_module, run.start.w.copy()
+    first, size = run.compiled.info.sections["mask"]
+    w[first : first + size] = 0.0
+    found = [values_and_directions(run, model, f, y, p, w) for f in (law.confirm, getattr(law, f"confirm{SLOPES}"))]
+    compare(found)
+    for *_, counters in found:
+        assert counters[COUNTERS.index("suspects")] - counters[COUNTERS.index("light")] == left_out
 
 
 def test_only_runs_with_derivatives_have_it():

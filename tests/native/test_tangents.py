@@ -149,6 +149,24 @@ def test_loops_choices_and_calls(tmp_path):
             np.testing.assert_allclose(shown[1][:, lane], expected, rtol=1e-13)
 
 
+STEPS = "".join(f"    x{i + 1} = math.sin(x{i}) + y[{i % 6}]\n" for i in range(70))
+LONG = f"def long(y, out):\n    x0 = out[1]\n{STEPS}    out[0] = x70 * out[0]\n    return 0\n"
+BOTH = "def f(y, out):\n    long(y, out)\n    long(out, y)\n    long(y, out)\n    return 0\n"
+
+
+def test_a_long_callee_has_code_of_its_own_for_calls_with_the_same_arrays(tmp_path):
+    function = load_module(written(tmp_path, LONG, BOTH)).f
+    rng = np.random.default_rng(4)
+    values = rng.uniform(0.1, 0.9, 6), rng.uniform(0.1, 0.9, 6)
+    rates = {0: rng.standard_normal((6, LANES)), 1: rng.standard_normal((6, LANES))}
+    _, shown = directed(function, values, rates)
+    expected = derivative(function, values, {i: rate[:, 1] for i, rate in rates.items()})
+    for i in rates:
+        np.testing.assert_allclose(shown[i][:, 1], expected[i], rtol=1e-12, atol=1e-12)
+    entry = TangentFunction(function, LANES, {"y": 6, "out": 6}).compiled_entry(arguments_of(function), "f")
+    assert [name for name, _ in entry.called] == ["long"]
+
+
 def test_an_array_without_directions_is_refused(tmp_path):
     function = load_module(written(tmp_path, POWER, LOOP)).f
     with pytest.raises(Foreign, match="the array 'out' without directions"):
