@@ -1,6 +1,7 @@
 """Functions with directions: their derivatives are those of the same statements in 50 digits."""
 
 import inspect
+import re
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import HealthCheck, given, settings
 
 import symgen
 from symgen.compiling.pipeline import choose_method, compile_model
+from symgen.native.machine import optimised
 from symgen.native.read_values import Foreign
 from symgen.native.tangents import module
 from symgen.store.emitted import EmittedFunction, TangentFunction
@@ -27,14 +29,15 @@ def directed(function, values, rates) -> tuple[list, list]:
     ----------
     values : tuple
         Numbers and arrays.
-    rates : dict of int to array, shape (n, LANES)
+    rates : dict of int to array, shape (n, L)
         Directions before the call, by position among the arguments.
     """
     names = list(inspect.signature(function.py_func).parameters)
     places = {names[i]: len(values[i]) for i in rates}
     longer = [np.concatenate([v, rates[i].ravel()]) if i in rates else v for i, v in enumerate(values)]
-    TangentFunction(function, LANES, places).caller(arguments_of(function))(*longer)
-    shown = {i: longer[i][len(values[i]) :].reshape(-1, LANES) for i in rates}
+    lanes = next(iter(rates.values())).shape[1]
+    TangentFunction(function, lanes, places).caller(arguments_of(function))(*longer)
+    shown = {i: longer[i][len(values[i]) :].reshape(-1, lanes) for i in rates}
     return [longer[i][: len(values[i])] if i in rates else longer[i] for i in range(len(values))], shown
 
 
@@ -165,6 +168,35 @@ def test_a_long_callee_has_code_of_its_own_for_calls_with_the_same_arrays(tmp_pa
         np.testing.assert_allclose(shown[i][:, 1], expected[i], rtol=1e-12, atol=1e-12)
     entry = TangentFunction(function, LANES, {"y": 6, "out": 6}).compiled_entry(arguments_of(function), "f")
     assert [name for name, _ in entry.called] == ["long"]
+
+
+INNER = """
+def inner(y, out):
+    out[5] = y[0] * out[5]
+    return 0
+"""
+ANGLES = "".join(f"    a{i} = y[{i}] * y[0]\n" for i in range(6))
+SINES = " + ".join(f"math.sin(a{i})" for i in range(6))
+TURNED = f"""
+def f(y, out):
+{ANGLES}    out[0] = {SINES}
+    for i in range(3):
+        inner(y, out)
+    return 0
+"""
+
+
+def test_functions_of_a_module_agree_on_registers_for_directions(tmp_path):
+    function = load_module(written(tmp_path, INNER, TURNED)).f
+    rng = np.random.default_rng(6)
+    values = rng.uniform(0.1, 0.9, 6), rng.uniform(0.1, 0.9, 6)
+    rates = {0: rng.standard_normal((6, 8)), 1: rng.standard_normal((6, 8))}
+    _, shown = directed(function, values, rates)
+    expected = derivative(function, values, {i: rate[:, 1] for i, rate in rates.items()})
+    for i in rates:
+        np.testing.assert_allclose(shown[i][:, 1], expected[i], rtol=1e-12, atol=1e-12)
+    text = module(function.read(arguments_of(function)), "f", 8, {"y": 6, "out": 6})
+    assert len(set(re.findall(r'"min-legal-vector-width"="\d+"', str(optimised(text))))) == 1
 
 
 def test_an_array_without_directions_is_refused(tmp_path):
