@@ -70,7 +70,7 @@ def rhs(names: Sequence[str] = ("bricard", "spatial-slider-crank")) -> Table:
 
 
 def methods(times: bool = False) -> PageTable:
-    """Return what methods cost over `lagrange`, RK4 at the mechanisms' own step, in turns; the source's in brackets."""
+    """Return costs of methods over `lagrange`, RK4 at the mechanisms' own step, in turns; the source's in brackets."""
 
     def cells(name: str) -> Iterator[str]:
         model, source = symgen.load(name), dict(zip(TIMED, RATIOS[name][1], strict=True))

@@ -86,10 +86,10 @@ class RowSensitivities:
         need("to_xarray", "xarray")
         grid = self.sweep.ensemble.grid
         dimensions, shape = tuple(map(of_dimension, grid.axes)), grid.shape
-        kept = {q.name: (label, q.unit) for label, q in _labelled(self.sweep)}
+        labels = {q.name: (label, q.unit) for label, q in _labelled(self.sweep)}
         variables: dict[str, Any] = {}
         for name in self.quantities:
-            label, unit = kept[name]
+            label, unit = labels[name]
             units = "; ".join(derivative_unit(unit, own) for own in self.units)
             variables[f"sensitivity_{label}"] = ((*dimensions, "time", "direction"), self[name], {"units": units})
         for label, texts in (("status", self.status), ("reason", self.reason)):

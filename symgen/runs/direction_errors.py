@@ -61,11 +61,11 @@ def begin_estimates(simulation: Simulation, own: int) -> None:
     from symgen.loops.schemes.directed import LANES, OWN
 
     if isinstance(scheme := simulation.integrator, Estimating):
-        kept = _kept(simulation, scheme.lanes)
-        kept[OWN], kept[LANES] = own, scheme.lanes
+        memory = _memory_of_errors(simulation, scheme.lanes)
+        memory[OWN], memory[LANES] = own, scheme.lanes
 
 
-def _kept(simulation: Simulation, lanes: int) -> Array:
+def _memory_of_errors(simulation: Simulation, lanes: int) -> Array:
     """Return the memory of the errors of a run."""
     from symgen.loops.schemes.directed import HEAD, NUMBERS, PARTS
 
@@ -93,8 +93,9 @@ def step_errors(simulations: Sequence[Simulation], count: int) -> StepErrors | N
     """Return the errors of the first `count` directions of loops; None where steps have no estimate."""
     from symgen.loops.schemes.directed import ERROR, HEAD, MOMENT, NUMBERS, PARTS, SIZE
 
-    kept = [_kept(x, x.integrator.lanes)[HEAD:] for x in simulations if isinstance(x.integrator, Estimating)]
-    if not kept:
+    schemes = [(x, x.integrator) for x in simulations]
+    memories = [_memory_of_errors(x, own.lanes)[HEAD:] for x, own in schemes if isinstance(own, Estimating)]
+    if not memories:
         return None
-    numbers = np.concatenate(kept).reshape(-1, PARTS, NUMBERS)[:count]
+    numbers = np.concatenate(memories).reshape(-1, PARTS, NUMBERS)[:count]
     return StepErrors(numbers[:, :, SIZE], numbers[:, :, ERROR], numbers[:, :, MOMENT])

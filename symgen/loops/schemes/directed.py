@@ -45,10 +45,10 @@ def keep_errors(system: Any, run: Any, t: float, memory: int, error: Any, other:
                 second = max(second, abs(other[at]))
             if both == 1 and largest > 0.0:
                 largest = largest * largest / math.sqrt(largest * largest + 0.01 * second * second)
-            kept = part(run.memory, memory + HEAD + (direction * PARTS + k) * NUMBERS, NUMBERS)
-            kept[SIZE] = max(kept[SIZE], size)
-            if largest > kept[ERROR]:
-                kept[ERROR], kept[MOMENT] = largest, t
+            record = part(run.memory, memory + HEAD + (direction * PARTS + k) * NUMBERS, NUMBERS)
+            record[SIZE] = max(record[SIZE], size)
+            if largest > record[ERROR]:
+                record[ERROR], record[MOMENT] = largest, t
 
 
 def renew_explicit(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:

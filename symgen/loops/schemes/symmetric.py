@@ -64,19 +64,19 @@ def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Solve for the rates at both nodes and the moves at both ends."""
-    sizes, kept, w = system.sizes, run.memory.shape[0], run.w
+    sizes, length, w = system.sizes, run.memory.shape[0], run.w
     nq, nv, m, width, first = sizes.nq, sizes.nv, sizes.m, sizes.width, sizes.nq + sizes.nv
-    unknown, share = part(run.room, 0, kept), run.p[scheme.share]
+    unknown, share = part(run.room, 0, length), run.p[scheme.share]
     rates, gaps, slips = (
         part(unknown, 1, 2 * width),
         part(unknown, 1 + 2 * width, m),
         part(unknown, 1 + 2 * width + m, m),
     )
-    shift, thrust = part(unknown, kept - 2 * nv, nv), part(unknown, kept - nv, nv)
-    begun, inside = part(run.room, kept, width), part(run.room, kept + width, width)
-    rate, last_step = part(run.room, kept + 2 * width, width), run.memory[0]
+    shift, thrust = part(unknown, length - 2 * nv, nv), part(unknown, length - nv, nv)
+    begun, inside = part(run.room, length, width), part(run.room, length + width, width)
+    rate, last_step = part(run.room, length + 2 * width, width), run.memory[0]
     unknown[0] = h
-    for i in range(1, kept):
+    for i in range(1, length):
         unknown[i] = run.memory[i]
     if last_step == 0.0:
         evaluate(system, run, t, run.y, part(rates, 0, width))
@@ -152,8 +152,8 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 def memory(width: int, nv: int, m: int) -> tuple[int, int]:
     """Return the lengths of the memory of a run, and of the working memory of a step behind the trial state."""
-    kept = 1 + 2 * width + 2 * m + 2 * nv
-    return kept, kept + 3 * width
+    length = 1 + 2 * width + 2 * m + 2 * nv
+    return length, length + 3 * width
 
 
 constant = loop(__name__, "constant", SYMMETRIC, "turn", prepare=prepare, attempt=attempt, renew=renew)

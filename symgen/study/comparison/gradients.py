@@ -83,7 +83,7 @@ class Gradients:
 
         A way that a scheme or a method does not have is left out, and all where a run does not reach its end.
         """
-        found, settings = dict[str, Any](), replace(settings, verify=False)
+        columns, settings = dict[str, Any](), replace(settings, verify=False)
         ways: dict[str, Callable[[Mechanism, Settings], tuple[float, float] | None]] = {
             "gradient": self._forward,
             "adjoint": self._adjoint,
@@ -95,8 +95,8 @@ class Gradients:
             except SymgenError:
                 pair = None
             if pair is not None:
-                found[f"{name}_error"], found[f"{name}_seconds"] = pair
-        return found
+                columns[f"{name}_error"], columns[f"{name}_seconds"] = pair
+        return columns
 
     def _scales(self, units: Sequence[str]) -> Array:
         """Return factors that make lengths of coordinates."""
@@ -123,17 +123,18 @@ class Gradients:
 
     def _adjoint(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
         """Return error and cost for the coordinate at the end that parameters change most."""
-        coordinates = prepare(mechanism, settings).assembled.of_bodies[0].info.coordinates
+        run = prepare(mechanism, settings)
+        coordinates = run.assembled.of_bodies[0].info.coordinates
         scales = self._scales([q.unit for q in coordinates])
         sizes = {name: float(np.abs(x * scales).max(initial=0.0)) or 1.0 for name, x in self.slopes.items()}
         ends = {name: x[-1] * scales / sizes[name] for name, x in self.slopes.items()}
         place = int(np.abs(np.array([*ends.values()])).max(axis=0).argmax())
-        ending, pages = replace(settings, times=[float(settings.times[-1])]), list[Array]()  # type: ignore[index]
+        ending, pages = replace(settings, times=[float(run.spec.times[-1])]), list[Array]()
         arguments = "compare", mechanism, ending, coordinates[place].name, {name: name for name in self.slopes}
-        made = [adjoint_gradient(*arguments, False, pages, False) for _ in range(1 + settings.repeat)]
-        found = zip(ends.items(), made[-1].slopes.tolist(), strict=True)
-        errors = [abs(slope * scales[place] / sizes[name] - end[place]) for (name, end), slope in found]
-        return max(errors), min(x.seconds for x in made[1:])
+        adjoints = [adjoint_gradient(*arguments, False, pages, False) for _ in range(1 + settings.repeat)]
+        pairs = zip(ends.items(), adjoints[-1].slopes.tolist(), strict=True)
+        errors = [abs(slope * scales[place] / sizes[name] - end[place]) for (name, end), slope in pairs]
+        return max(errors), min(x.seconds for x in adjoints[1:])
 
     def _differences(self, mechanism: Mechanism, settings: Settings) -> tuple[float, float] | None:
         values, errors, cost = parameter_values(mechanism, settings.parameters), list[float](), 0.0
