@@ -40,6 +40,8 @@ REACTING_IN_SPACE = ("revolute", "translational", "cylindrical")
 MODE = "mode"
 #: Last words of their names: rest ends, a rate passes zero, rest begins.
 SLIP, REVERSE, STICK = "slip", "reverse", "stick"
+#: Last words of the names of the stops of a coordinate.
+LOWER, UPPER = "lower", "upper"
 #: Last word of the event at which friction by a reaction would bring about all of the reaction itself.
 JAM = "jam"
 
@@ -381,14 +383,29 @@ def with_friction_outputs(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism that reports modes and forces of its dry friction."""
     if not mechanism.frictions:
         return mechanism
-    return msgspec.structs.replace(mechanism, outputs=(*mechanism.outputs, *friction_outputs(mechanism.frictions)))
+    reports = friction_outputs(mechanism.frictions, mechanism.stops)
+    return msgspec.structs.replace(mechanism, outputs=(*mechanism.outputs, *reports))
 
 
-def friction_outputs(frictions: Sequence[Friction]) -> Iterator[Output]:
-    """Yield mode (0 at rest, else the sign of the rate) and force of each dry friction."""
+def friction_outputs(frictions: Sequence[Friction], stops: Sequence[EndStop]) -> Iterator[Output]:
+    """Yield mode (0 at rest, else the sign of the rate) and force of each dry friction.
+
+    A closed stop carries the friction of its own coordinate: where its effort pulls, that is friction.
+    """
     for friction in frictions:
+        total = total_effort(friction)
+        for stop in stops_along(friction, stops):
+            effort = effort_at_rest(stop)
+            pulls = call("mul", Number(0.5), call("sub", effort, call("abs", effort)))
+            total = call("sub" if stop.name == f"{friction.name}.{UPPER}" else "add", total, pulls)
         yield Output(f"{friction.name}.mode", sign_of_rate(friction), "")
-        yield Output(f"{friction.name}.force", total_effort(friction), unit_of_effort(friction))
+        yield Output(f"{friction.name}.force", total, unit_of_effort(friction))
+
+
+def stops_along(friction: Friction, stops: Sequence[EndStop]) -> tuple[EndStop, ...]:
+    """Return the stops of the coordinate of a dry friction."""
+    names = {f"{friction.name}.{end}" for end in (LOWER, UPPER)}
+    return tuple(stop for stop in stops if stop.owner == friction.joint and stop.name in names)
 
 
 def total_effort(friction: Friction) -> Expr:
@@ -410,7 +427,7 @@ def without_friction(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without its dry friction and what it reports of that."""
     if not mechanism.frictions:
         return mechanism
-    outputs = outputs_without(mechanism, friction_outputs(mechanism.frictions))
+    outputs = outputs_without(mechanism, friction_outputs(mechanism.frictions, mechanism.stops))
     return msgspec.structs.replace(mechanism, frictions=(), outputs=outputs)
 
 

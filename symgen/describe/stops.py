@@ -14,15 +14,18 @@ import msgspec
 from symgen.base.errors import InputError
 from symgen.describe.fields import Scalar, StateFunction, read_table
 from symgen.describe.friction import (
+    LOWER,
     MODE,
+    UPPER,
     by_coordinate,
     effort_at_rest,
     number_of,
     outputs_without,
     rate_of,
     refuse_friction,
+    stops_along,
 )
-from symgen.describe.mechanism import EndStop, Event, Joint, Mechanism, Output
+from symgen.describe.mechanism import EndStop, Event, Friction, Joint, Mechanism, Output
 from symgen.describe.readings import is_angle
 from symgen.describe.scope import Scope
 from symgen.vocabulary.expressions import ONE, ZERO, Expr, Number, call
@@ -114,7 +117,7 @@ def read_limits(scope: Scope, joint: Joint, raw: object) -> tuple[EndStop, ...]:
         restitution = _restitution(scope, f"{key}.restitution", section.restitution)
         limits = [
             (word, sign, scope.constant(f"{key}.{word}", value))
-            for word, sign, value in (("lower", 1.0, section.lower), ("upper", -1.0, section.upper))
+            for word, sign, value in ((LOWER, 1.0, section.lower), (UPPER, -1.0, section.upper))
             if value is not None
         ]
         if len(limits) == 2:
@@ -137,22 +140,18 @@ def _restitution(scope: Scope, key: str, value: float | str) -> Expr:
 
 
 def check_stops(mechanism: Mechanism, source: str) -> None:
-    """Refuse stops where a body has no mass, as impacts change velocities by masses, or beside friction by reactions.
+    """Refuse stops beside friction by reactions.
 
     Raises
     ------
     InputError
-        With the first such body or friction.
+        With the first such friction.
     """
     pressed = next((friction for friction in mechanism.frictions if friction.pressed), None)
     if mechanism.stops and pressed is not None:
         where = f"{source}: joints.{pressed.joint}.friction"
         expected = "friction of constant bound beside stops, as that has no impulse at an impact"
         raise InputError(where, expected, "friction by the reaction of the joint")
-    body = next((body.name for body in mechanism.bodies if body.massless), None)
-    if mechanism.stops and body is not None:
-        where = f"{source}: bodies.{body}"
-        raise InputError(where, "a mass and moments of inertia above 0, as stops have impacts", "one that is 0")
 
 
 # -- modes -------------------------------------------------------------------------------------------------------------
@@ -172,15 +171,17 @@ def probing_effort(stop: EndStop) -> Effort:
 def stop_events(mechanism: Mechanism) -> tuple[Event, ...]:
     """Return the events at which stops close or open.
 
-    A function of another mode is 1: it sleeps. The velocity that an impact sets is the rate of the gap: 0 where the
+    A function of another mode is 1: it sleeps. The number ``limit`` of a row in force is the bound of the dry friction
+    whose force it carries: before the stop opens, that holds it too. The velocity that an impact sets is the rate of the gap: 0 where the
     sign of the row is not 0, and where impacts do not come to rest, the rate that restitution leaves.
     """
     events = list[Event]()
     for stop in mechanism.stops:
         held, sign, limit = (number_of(stop, number) for number in ("held", "sign", "limit"))
+        pulling = call("add", effort_at_rest(stop), limit)
         closed, rate = call("add", held, call("mul", call("sub", ONE, held), limit)), rate_of(stop)
         open_gap = call("add", call("mul", call("sub", ONE, closed), gap_of(stop)), closed)
-        pushing = call("add", call("mul", held, effort_at_rest(stop)), call("sub", ONE, held))
+        pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))
         rebound = call("mul", call("mul", Number(0.5), stop.restitution), call("sub", call("abs", rate), rate))
         after = call("mul", call("sub", ONE, call("mul", sign, sign)), rebound)
         events.append(Event(f"{stop.name}.{HIT}", open_gap, "falling", MODE, ((rate, after),), "gap 0"))
@@ -188,27 +189,33 @@ def stop_events(mechanism: Mechanism) -> tuple[Event, ...]:
     return tuple(events)
 
 
-def stop_outputs(stops: Sequence[EndStop]) -> Iterator[Output]:
-    """Yield mode (1 closed, 0 open), force and gap of each stop."""
+def stop_outputs(stops: Sequence[EndStop], frictions: Sequence[Friction]) -> Iterator[Output]:
+    """Yield mode (1 closed, 0 open) and force of each stop, which pushes."""
+    shared = {stop.name for friction in frictions for stop in stops_along(friction, stops)}
     for stop in stops:
         held, limit = number_of(stop, "held"), number_of(stop, "limit")
         closed = call("add", held, call("mul", call("sub", ONE, held), limit))
+        force: Expr = effort_at_rest(stop)
+        if stop.name in shared:
+            force = call("mul", Number(0.5), call("add", force, call("abs", force)))
         yield Output(f"{stop.name}.mode", closed, "")
-        yield Output(f"{stop.name}.force", effort_at_rest(stop), "N m" if stop.unit == "rad" else "N")
+        yield Output(f"{stop.name}.force", force, "N m" if stop.unit == "rad" else "N")
 
 
 def with_stop_outputs(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism that reports modes and forces of its stops."""
     if not mechanism.stops:
         return mechanism
-    return msgspec.structs.replace(mechanism, outputs=(*mechanism.outputs, *stop_outputs(mechanism.stops)))
+    return msgspec.structs.replace(
+        mechanism, outputs=(*mechanism.outputs, *stop_outputs(mechanism.stops, mechanism.frictions))
+    )
 
 
 def without_stops(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without its stops and what it reports of them."""
     if not mechanism.stops:
         return mechanism
-    outputs = outputs_without(mechanism, stop_outputs(mechanism.stops))
+    outputs = outputs_without(mechanism, stop_outputs(mechanism.stops, mechanism.frictions))
     return msgspec.structs.replace(mechanism, stops=(), outputs=outputs)
 
 

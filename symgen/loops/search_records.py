@@ -30,9 +30,14 @@ SIDE, FIRED, GRAZING, LOCAL, SIZE, GRAIN = range(6, 12)
 #: where the argument comes to it from below or above, the argument and its rate at the last examined state and at the
 #: beginning of the step, and the second derivative there; ...
 PLACE, LEVEL, WAY, ARGUMENT, SLOPE, ARGUMENT_START, SLOPE_START, CURVE = range(12, 20)
-#: ... g and g' at the beginning and at the end of the step and of the bracket.
+#: ... g and g' at the beginning and at the end of the step and of the bracket; ...
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(20, 28)
-N_HEAD, N_COLUMNS, N_VALUES = LOW + 21, 28, 3
+#: ... what the margin of a bounded row is one of (`FORCE` and following), 0 for other functions; number of the row; size
+#: that the rounding of a margin is relative to; what is added to a margin that sleeps, 0 for one that is awake.
+MARGIN, ROW, MEASURE, ASLEEP = range(28, 32)
+#: Kinds of margins: of a force to its bound, of a gap, of a rate, of a part of a reaction.
+FORCE, GAP, RATE, PART = range(1, 5)
+N_HEAD, N_COLUMNS, N_VALUES = LOW + 21, 32, 3
 #: Actions: the passage is noted; it is noted and ends the loop; the step ends there and the scheme restarts; the same,
 #: noted, after the caller has examined the rows that change there.
 NOTE, LEAVE, ANEW, EXAMINE = range(4)

@@ -35,6 +35,7 @@ from symgen.loops.search_records import (
     ACTION,
     AIM,
     ANEW,
+    ASLEEP,
     BEGINNING,
     BLUR,
     D_END,
@@ -54,6 +55,8 @@ from symgen.loops.search_records import (
     KEEP,
     LEAVE,
     LOCAL,
+    MARGIN,
+    MEASURE,
     N_COLUMNS,
     N_HEAD,
     N_VALUES,
@@ -70,7 +73,7 @@ from symgen.loops.search_records import (
     SIZE,
     WHOLE,
 )
-from symgen.loops.switching import candidate, concealed, is_at_end, is_sought, passes, side_of
+from symgen.loops.switching import candidate, concealed, is_at_end, is_sought, passes, side_of, wake
 from symgen.loops.table_points import SHORT_OF, aim, arrive, bend, ends_near, is_before, switch_values
 from symgen.store.emitted import plain
 
@@ -81,6 +84,8 @@ _LOOKING, _WHOLE_STEP, _TO_EVENT, _BEFORE = range(4)
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 #: Changes of g by a reset below this fraction of its size in the step before are rounding.
 _SAME = 1e-6
+#: Margins below this part of their size are rounding; below the negative of this part they contradict their mode.
+_UNCERTAIN, _DEEP = 2.0**-42, 1e-4
 #: Number of switches within this fraction of the time that stall a motion.
 _CROWDED, _HEAP = 50.0, 1e-7
 #: Largest number of rounds in a bracket.
@@ -132,6 +137,7 @@ def settle(hunt: A, n: int, ends: int) -> int:
         hunt[at + D_START * n + k] = hunt[at + d * n + k]
         if hunt[at + POINTS * n + k] > 0.0:
             arrive(hunt, n, k, hunt[WHOLE] if ends == 1 else hunt[HIGH])
+        wake(hunt, n, k)
     hunt[ACCEPTED] = hunt[NOTED]
     return 0
 
@@ -151,8 +157,13 @@ def crossed(hunt: A, n: int, column: int, least: int) -> int:
 
 @plain
 def taken_for(hunt: A, n: int, k: int, h: float) -> float:
-    """Return g at the trial state, counted as on the side of the run until g has reached that side."""
+    """Return g at the trial state, counted as on the side of the run until g has reached that side.
+
+    A margin that sleeps counts with what lifts it above its rounding.
+    """
     at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
+    if hunt[at + MARGIN * n + k] != 0.0:
+        return float(g + hunt[at + ASLEEP * n + k])
     before = abs(hunt[at + G_START * n + k])
     near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
     return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)
@@ -198,6 +209,24 @@ def away(hunt: A, n: int, k: int, g: float) -> int:
 
 
 @plain
+def put_to_sleep(hunt: A, n: int, k: int) -> int:
+    """Begin with the margin of a bounded row: its mode makes it positive, whatever rounding makes of its value.
+
+    A value that is rounding, or what a method leaves of a closed row, decides nothing: the margin sleeps, lifted by as
+    much, until it has left rounding, so that its first derivative that is more decides.
+    """
+    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
+    g, size = hunt[out + k], hunt[at + MEASURE * n + k]
+    rounding = _UNCERTAIN * size
+    asleep = rounding if g <= rounding else 0.0
+    if g < -0.5 * rounding:
+        asleep = -2.0 * g if -g <= _DEEP * size else 0.0
+    hunt[at + SIDE * n + k], hunt[at + GRAZING * n + k], hunt[at + ASLEEP * n + k] = 1.0, 0.0, asleep
+    hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g + asleep, hunt[out + n + k]
+    return 0
+
+
+@plain
 def look(hunt: A, n: int) -> int:
     """Set the side of each event on which a run begins, or continues after a change of velocities or parameters."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
@@ -205,6 +234,9 @@ def look(hunt: A, n: int) -> int:
         g, rate, side = hunt[out + k], hunt[out + n + k], hunt[at + SIDE * n + k]
         if hunt[at + POINTS * n + k] > 0.0:
             arrive(hunt, n, k, 0.0)
+            continue
+        if hunt[at + MARGIN * n + k] != 0.0:
+            put_to_sleep(hunt, n, k)
             continue
         if side == 0.0:  # the run begins; an event at rest on zero is on no side until it leaves it
             at_rest = -1.0 if hunt[at + ACTION * n + k] == float(ANEW) else 0.0

@@ -10,6 +10,7 @@ from symgen.loops.search_records import (
     ACCEPTED,
     ACTION,
     ANEW,
+    ASLEEP,
     BLUR,
     D_HIGH,
     D_LOW,
@@ -229,6 +230,16 @@ def concealed(hunt: A, n: int) -> float:
 
 
 @plain
+def wake(hunt: A, n: int, k: int) -> int:
+    """Wake a sleeping margin that has left rounding by the end of a step."""
+    asleep = hunt[N_HEAD + ASLEEP * n + k]
+    if asleep > 0.0 and hunt[N_HEAD + G_START * n + k] > 2.0 * asleep:
+        hunt[N_HEAD + G_START * n + k] -= asleep
+        hunt[N_HEAD + ASLEEP * n + k] = 0.0
+    return 0
+
+
+@plain
 def is_quiet(hunt: A, n: int) -> int:
     """Return 1 where no event can lie in a whole step, and make its end the beginning of the next one; else 0.
 
@@ -240,11 +251,14 @@ def is_quiet(hunt: A, n: int) -> int:
         side, rate = hunt[at + SIDE * n + k], hunt[at + D_START * n + k]
         if hunt[at + ACTION * n + k] >= float(ANEW) or hunt[at + GRAZING * n + k] != 0.0:
             return 0
-        if not (side * hunt[out + k] > 0.0 and (side * rate >= 0.0 or side * hunt[out + n + k] <= 0.0)):
+        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
+        if not (side * value > 0.0 and (side * rate >= 0.0 or side * hunt[out + n + k] <= 0.0)):
             return 0
     for k in range(n):
+        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
         hunt[at + FIRED * n + k] = 0.0
-        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(hunt[out + k]))
-        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = hunt[out + k], hunt[out + n + k]
+        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(value))
+        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = value, hunt[out + n + k]
+        wake(hunt, n, k)
     hunt[ACCEPTED] = hunt[NOTED]
     return 1

@@ -5,9 +5,9 @@ These are the choice (`symgen.runs.choice`) and the impacts of single runs, so t
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from symgen.ir.program import MODE_NUMBERS
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.start_records import record_type
@@ -19,8 +19,8 @@ from symgen.loops.stopping import change, due, is_defined, same
 from symgen.loops.watch import remember_rank
 from symgen.native import types
 from symgen.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
-from symgen.runs.bounded_rows import CHOICE, OTHERS, SAME
-from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, read_rows
+from symgen.runs.bounded_rows import CHOICE, DEEP, OTHERS, SAME, TOUCHING, put_off
+from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, measure_margins, read_rows
 from symgen.runs.strikes import STRIKES, find_struck, strike
 
 #: Rows with bounds of all runs, and working memory.
@@ -81,10 +81,13 @@ def chosen(model: Any, state: Any) -> int:
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
     if code > OTHERS:
         return int(e.NO_MODES)
+    measure_margins(c, state.w, state.hunt)
     if code == OTHERS:
         follow_modes(t, c, state.y, state.p, state.w)
         remember_rank(observers[0], state)
         begin_afresh(state)
+    elif state.control[abi.BEGUN] == 1:  # margins sleep anew
+        state.control[abi.BEGUN] = abi.ONWARD
     return int(abi.DONE)
 
 
@@ -93,6 +96,8 @@ def begin_modes(model: Any, span: Any, state: Any) -> int:
     c = model[2].choice
     for i in range(c.count):
         c.broken[i] = c.stopped[i] = c.left[i] = 0
+        c.shut[i] = 0 if state.control[abi.BEGUN] == 0 else c.shut[i]
+    c.depth[0] = TOUCHING if state.control[abi.BEGUN] == 0 else DEEP
     return int(chosen(model, state))
 
 
@@ -137,8 +142,8 @@ def take_resets(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     for i in range(int(hunt[records.NOTED])):
         at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
         resets = resets or (code == abi.MET and at == t and k < effects.resets.shape[0] and effects.resets[k] != 0)
-    for i in range(MODE_NUMBERS * c.count if resets else 0):
-        state.w[c.first + i] = 0.0
+    if resets:
+        put_off(c, state.w)
     return int(take_effects(code, r, (system, observers, effects), chunk, state))
 
 
@@ -162,6 +167,7 @@ def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     first = notes_at(int(hunt[records.COUNT]), width, state.w.shape[0])
     for i in range(c.count):
         c.broken[i] = c.stopped[i] = c.left[i] = 0
+    c.depth[0] = math.inf
     for i in range(int(hunt[records.NOTED])):
         at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
         if code == abi.MET and at == t and k < modes.breaks.shape[0]:

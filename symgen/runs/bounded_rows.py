@@ -26,10 +26,15 @@ _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int
 STILL, NO_ACCELERATION = 1e-10, 1e-10
 #: Gaps below this part of the mechanism's length are closed.
 TOUCHING = 1e-9
+#: A gap that a change of parameters or inputs leaves is closed from this part of the mechanism's length behind it on.
+DEEP = 1e-6
 #: A force above this part of its bound is at its bound, where the row has broken loose.
 AT_BOUND = 1.0 - 1e-9
 #: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
 DEPENDENT, NO_FACTOR = 1e-11, 1e-9
+#: A body counts with at least this part of the mean mass of a velocity where mobilities are compared: one without
+#: inertia moves by what the joints connect it with.
+LEAST_MASS = 1e-4
 #: Assumed step until an adaptive run has chosen one, as a part of the run.
 FIRST = 1e-3
 #: Places of the numbers of a row.
@@ -55,12 +60,16 @@ NOT_APPLIED = 10
 #:   zero; for stops whose force has.
 #: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
 #: - passing (shape (k,)): 1 for coordinates whose rate only passes zero, as no force within bounds stops them.
+#: - shut (shape (k,)): 1 for stops that are closed, whatever is left of their gaps, as rows are off behind a reset or
+#:   an impact.
 #: - named (shape (k + 1,)): Rows whose forces are not determined, then -1; or the first row of another fault.
 #: - pressed (shape (k,)): 1 for coordinates whose bounds depend on reactions.
 #: - value ... restitution (shapes (k,)): Coordinates and gaps, rates, bounds, restitutions.
 #: - before, after (shape (MODE_NUMBERS k,)): Modes.
 #: - signs, trial, offset, alone, forces (shapes (k,)): Signs of rates; those of a probe; accelerations without forces
 #:   at rest; by a force if no joints held the bodies; forces at rest.
+#: - scale (shape (k,)): Sizes of forces that rounding of a force at rest is relative to.
+#: - depth (shape (1,)): Largest depth behind an open stop, over the mechanism's length.
 #: - matrix, rest_of (shapes (k k,)): G, and what is left of it.
 #: - jam (shape (1,)): Part of a reaction that its own friction brings about.
 #: - apart, parts (shapes (2 k,), (2 k, k)): Reactions without friction by reactions, and by its forces.
@@ -76,9 +85,9 @@ CHOICE = record_type(
     ("states accelerations reactions", abi.OBSERVE),
     ("box", BOX),
     ("first count dry changes", _N),
-    ("angular place_of pushed at_rest broken stopped left rest loose taken passing named pressed", _K),
-    ("step value speed static sliding restitution before after signs trial offset alone forces matrix rest_of", _A),
-    ("jam apart parts sizes bounds y w rate out room", _A),
+    ("angular place_of pushed at_rest broken stopped left rest loose taken passing shut named pressed", _K),
+    ("step value speed static sliding restitution before after signs trial offset alone forces scale matrix", _A),
+    ("rest_of depth jam apart parts sizes bounds y w rate out room", _A),
     ("iw", _K),
 )
 Choice: Any = CHOICE.constructor
@@ -104,8 +113,8 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
     places[list(info.bounded)] = np.arange(k)
     reactions = observe_nothing if rows.reactions is None else rows.reactions.function
     functions = (*rates, compiled.model.geometry, rows.state.function, rows.accelerations.function, reactions)
-    flags = (np.zeros(k, dtype=np.int64) for _ in range(7))
-    numbers = (np.zeros(size * k) for size in (1, 1, 1, 1, 1, MODE_NUMBERS, MODE_NUMBERS, 1, 1, 1, 1, 1, k, k))
+    flags = (np.zeros(k, dtype=np.int64) for _ in range(8))
+    numbers = (np.zeros(size * k) for size in (1, 1, 1, 1, 1, MODE_NUMBERS, MODE_NUMBERS, 1, 1, 1, 1, 1, 1, k, k))
     states = 2 * k + 2 * rows.dry + (k - rows.dry)
     return Choice._make(
         (
@@ -114,7 +123,12 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             *(np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64), places),
             *(np.full(1, -1), np.zeros(1, dtype=np.int64), *flags, np.zeros(k + 1, dtype=np.int64)),
             np.isin(np.arange(k), rows.pressed).astype(np.int64),
-            *(np.zeros(1), *numbers, *(np.zeros(size) for size in (1, 2 * k, 2 * k * k, k, 2 * k))),
+            *(
+                np.zeros(1),
+                *numbers,
+                np.full(1, TOUCHING),
+                *(np.zeros(size) for size in (1, 2 * k, 2 * k * k, k, 2 * k)),
+            ),
             *(np.zeros(size) for size in (width, nw, width, max(states, 1), room_of_choice(info.m, info.nv))),
             np.zeros(abi.N_COUNTERS, dtype=np.int64),
         )
@@ -136,6 +150,37 @@ def row_scale(c: Any, w: Any, i: int, place: int) -> float:
 def usual_of(c: Any, w: Any, i: int) -> float:
     """Return the mechanism's scale of accelerations in the unit of a row."""
     return float(row_scale(c, w, i, abi.SPEED) * (w[abi.SPEED] / w[abi.LENGTH]))
+
+
+@exact()
+def is_held(c: Any, w: Any, i: int) -> bool:
+    """Return whether a row is in force, or others carry its force: it is at rest or closed by its mode."""
+    at = c.first + MODE_NUMBERS * i
+    return bool(w[at + HELD] != 0.0 or (w[at + SIGN] == 0.0 and w[at + LIMIT] != 0.0))
+
+
+@exact()
+def stays_shut(c: Any, w: Any, i: int) -> bool:
+    """Return whether a stop is closed by its mode, or was before a reset or an impact, whatever its gap is."""
+    return bool(is_held(c, w, i) or c.shut[i] != 0)
+
+
+@exact(_N(CHOICE, _A))
+def put_off(c: Any, w: Any) -> int:
+    """Take all rows out of force before a reset or an impact, and keep which stops are closed; return their number."""
+    closed = 0
+    for i in range(c.count):
+        c.shut[i] = 1 if i >= c.dry and stays_shut(c, w, i) else 0
+        closed += c.shut[i]
+    for i in range(MODE_NUMBERS * c.count):
+        w[c.first + i] = 0.0
+    return int(closed)
+
+
+@exact()
+def is_shut(c: Any, w: Any, i: int) -> bool:
+    """Return whether a gap is closed: by its mode, or as it is 0 within the resolution of positions."""
+    return bool(stays_shut(c, w, i) or c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH))
 
 
 @exact()

@@ -15,6 +15,7 @@ from symgen.layout import abi
 from symgen.layout.redundancy import choose_rows, farthest, is_off
 from symgen.layout.scales import entry_of, larger
 from symgen.loopcode.exact import exact
+from symgen.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, RATE, ROW
 from symgen.native import types
 from symgen.runs.bounded_rows import (
     AT_BOUND,
@@ -22,19 +23,21 @@ from symgen.runs.bounded_rows import (
     CONSTANT,
     DEPENDENT,
     HELD,
+    LEAST_MASS,
     LIMIT,
     NO_ACCELERATION,
     NO_FORCES,
-    NOT_DETERMINED,
     NOT_FINITE,
     OTHERS,
     OUT_OF_RANGE,
     SAME,
     SIGN,
     STILL,
-    TOUCHING,
+    is_held,
+    is_shut,
     row_scale,
     sign_of,
+    stays_shut,
     usual_of,
 )
 from symgen.runs.box import INSIDE, solve_box
@@ -62,21 +65,26 @@ def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
             restitution = out[2 * k + dry + i]
             c.restitution[i] = restitution
             valid = valid and restitution >= 0.0 and restitution <= 1.0
-            valid = valid and out[i] >= -TOUCHING * row_scale(c, w, i, abi.LENGTH)
+            deep = out[i] < -c.depth[0] * row_scale(c, w, i, abi.LENGTH)
+            valid = valid and not (deep and not stays_shut(c, w, i))
     return SAME if valid else OUT_OF_RANGE
 
 
 @exact(_N(CHOICE))
 def find_mobility(c: Any) -> int:
-    """Set the acceleration of each coordinate by a force on it if no joints held the bodies."""
+    """Set the acceleration of each coordinate by a force on it if no joints held the bodies.
+
+    A body without inertia counts with a part of the mean one: its joints decide how far it moves.
+    """
     layout = c.layout
     for i in range(c.count):
         c.alone[i] = 0.0
     for e in range(layout.constants.shape[0]):
-        i, mass = c.place_of[layout.entries[3 * e]], c.w[layout.mass + layout.entries[3 * e + 1]]
-        if i >= 0 and mass > 0.0:
+        i, j = c.place_of[layout.entries[3 * e]], layout.entries[3 * e + 1]
+        if i >= 0:
             entry = entry_of(layout, c.w, e)
-            c.alone[i] += entry * entry / mass
+            least = LEAST_MASS * c.w[abi.MEAN_MASS] / c.w[layout.gauge + j]
+            c.alone[i] += entry * entry / larger(c.w[layout.mass + j], least)
     return int(c.count)
 
 
@@ -138,6 +146,10 @@ def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> in
             for i in range(k):
                 c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force
     symmetrise(c)
+    for r in range(n):
+        i = c.rest[r]
+        own = c.matrix[i * k + i]
+        c.scale[i] = (abs(c.offset[i]) + usual_of(c, w, i)) / own if own > 0.0 else 0.0
     return SAME
 
 
@@ -173,12 +185,13 @@ def find_rest(c: Any, w: Any) -> int:
     for i in range(c.count):
         at, stop = MODE_NUMBERS * i, i >= c.dry
         still = abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
-        still = still and not (stop and c.value[i] > TOUCHING * row_scale(c, w, i, abi.LENGTH))
+        still = (still or is_held(c, w, i)) and not (stop and not is_shut(c, w, i))
         loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
         loose = (loose and c.stopped[i] == 0) or c.left[i] != 0
         owner = int(c.before[at + CONSTANT])
         if c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0 and c.before[at + LIMIT] != 0.0 and owner >= 0:
-            loose = loose or (c.broken[owner] != 0 and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
+            moves = c.broken[owner] + c.left[owner] != 0
+            loose = loose or (moves and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
         c.loose[i] = 1 if loose else 0
         c.signs[i] = 0.0 if still or stop else sign_of(c.speed[i])
         if still:
@@ -262,9 +275,29 @@ def choose_modes(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any
             return NOT_FINITE
         if solve_rest(c, n, w) != SAME:
             return NO_FORCES
-    if hold_rows(c, w) != SAME:
-        return NOT_DETERMINED
-    return int(write_modes(c, w))
+    code = hold_rows(c, w)
+    for i in range(c.count):
+        c.shut[i] = 0
+        c.scale[i] += abs(c.forces[i]) + c.static[i]
+    return int(write_modes(c, w)) if code == SAME else int(code)
+
+
+@exact(_N(CHOICE, _A, _A))
+def measure_margins(c: Any, w: Any, hunt: Any) -> int:
+    """Set the sizes that the rounding of margins is relative to; return their number."""
+    n, at, found = int(hunt[COUNT]), N_HEAD, 0
+    for k in range(n):
+        kind, i = int(hunt[at + MARGIN * n + k]), int(hunt[at + ROW * n + k])
+        size = 1.0
+        if kind == FORCE:
+            size = c.scale[i]
+        elif kind == GAP:
+            size = row_scale(c, w, i, abi.LENGTH)
+        elif kind == RATE:
+            size = row_scale(c, w, i, abi.SPEED)
+        hunt[at + MEASURE * n + k] = size
+        found += 1 if kind != 0 else 0
+    return found
 
 
 @exact(_N(_F8, CHOICE, _A, _A, _A))
@@ -309,5 +342,6 @@ _STATE = (_A, _A, _A)
 #: Types of the functions on the arrays of a run.
 KINDS = {
     **dict.fromkeys(("read_rows", "follow_modes"), types.FunctionType(_N(_F8, CHOICE, *_STATE))),
+    "measure_margins": types.FunctionType(_N(CHOICE, _A, _A)),
     **dict.fromkeys(("accelerate", "probe", "choose_modes"), types.FunctionType(_N(_F8, CHOICE, *_STATE, _K, _K))),
 }

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.events import RECORD, RESET, STOP
+from symgen.describe.friction import JAM, REVERSE, SLIP
+from symgen.describe.stops import HIT, LEAVE
 from symgen.effects.accumulation import accumulation, add_resets, latest_events, new_past
 from symgen.effects.effects import Impact
 from symgen.layout import abi
@@ -47,12 +49,28 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     columns[searching.DIRECTION, :events] = watched.directions
     columns[searching.ACTION, :events] = [action != RECORD for action in watched.actions]
     columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in watched.switches]
+    columns[searching.MARGIN, :events], columns[searching.ROW, :events] = margins_of(watched)
     columns[searching.MISSED, events:] = [switch.missed for switch in watched.switches]
     columns[searching.PERIOD, events:] = [switch.period for switch in watched.switches]
     sizes_of_tables = [len(switch.points) for switch in watched.switches]
     columns[searching.POINTS, events:] = sizes_of_tables
     columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
     return event_loop.EventState(*state, hunt)
+
+
+#: Kinds of margins by the last words of their names.
+_MARGINS = {
+    **{SLIP: searching.FORCE, LEAVE: searching.FORCE},
+    **{HIT: searching.GAP, REVERSE: searching.RATE, JAM: searching.PART},
+}
+
+
+def margins_of(watched: Watched) -> tuple[list[int], list[int]]:
+    """Return of which kind of margin each event is, 0 for others, and the number of its bounded row."""
+    rows = () if watched.bounded is None else watched.bounded.names
+    found = {f"{name}.{word}": (kind, i) for i, name in enumerate(rows) for word, kind in _MARGINS.items()}
+    kinds = [found.get(name, (0, 0)) for name in watched.names]
+    return [kind for kind, _ in kinds], [row for _, row in kinds]
 
 
 def forget_steps(state: event_loop.EventState) -> None:

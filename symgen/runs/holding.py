@@ -25,6 +25,9 @@ from symgen.runs.box import independent_set, solve_independent
 
 _A, _N = types.float64[::1], types.int64
 
+#: Rows of which equal parts are independent, up to this part, hold one coordinate.
+_LEVEL = 1e-6
+
 
 @exact()
 def independence(c: Any, i: int) -> float:
@@ -37,15 +40,18 @@ def take_rows(c: Any, n: int, pushing: bool, w: Any) -> None:
     """Put the most independent rows at rest into force, one after the other; `pushing`: only stops that push."""
     k, left = c.count, c.rest_of
     while True:
-        best, most = -1, DEPENDENT
+        best, most = -1, 0.0
         for r in range(n):
             i = c.rest[r]
             free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (i >= c.dry and c.loose[i] != 0)
             if pushing:
                 least = NO_ACCELERATION * usual_of(c, w, i)
                 free = free and i >= c.dry and -c.forces[i] * c.matrix[i * k + i] > least
-            if free and independence(c, i) > most:
-                best, most = i, independence(c, i)
+            part = independence(c, i)
+            # of a stop and friction on one coordinate the stop carries both: one force with the bounds of both
+            first = best < 0 or part > (1.0 + _LEVEL) * most or (i >= c.dry and part > (1.0 - _LEVEL) * most)
+            if free and part > DEPENDENT and first:
+                best, most = i, part
         if best < 0:
             break
         c.taken[best] = 1
@@ -135,7 +141,7 @@ def share_force(c: Any, i: int, count: int) -> int:
                 c.named[owners] = j
             a += 1
     at = MODE_NUMBERS * i
-    if i >= c.dry or stops == owners:
+    if i >= c.dry or (stops == owners and owners != 1):
         after[at + CONSTANT], after[at + LIMIT] = -1.0, 1.0
         return SAME
     if owners != 1:

@@ -27,7 +27,9 @@ from symgen.runs.bounded_rows import (
     SAME,
     SIGN,
     STILL,
-    TOUCHING,
+    is_held,
+    is_shut,
+    put_off,
     row_scale,
 )
 from symgen.runs.box import solve_box
@@ -88,10 +90,11 @@ def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any)
     """Set the stops that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
     n, strikes = 0, False
     for i in range(c.dry, c.count):
-        if c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH):
+        if is_shut(c, w, i):
             c.rest[n] = i
             n += 1
-            strikes = strikes or c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED)
+            # the rate of a stop that its mode has closed is what a method leaves of it
+            strikes = strikes or (not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
     if not strikes:
         return SAME
     c.at_rest[0] = n
@@ -210,8 +213,9 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any)
     Returns `SAME`, `NO_FORCES` where impulses are not found, or `NOT_APPLIED` where joints do not allow the impact.
     """
     now, count = Instant(y, p, w), find_active(c, s)
-    for i in range(MODE_NUMBERS * c.count):
-        w[c.first + i] = 0.0
+    for r in range(c.at_rest[0]):
+        c.shut[c.rest[r]] = 1
+    put_off(c, w)
     for i in range(c.count):
         s.left[i] = math.nan
     if count < 0:

@@ -26,9 +26,10 @@ from symgen.describe.stops import HIT, LEAVE, REST
 from symgen.layout import abi
 from symgen.layout.probe import rate_functions
 from symgen.loopcode.entry import direct
-from symgen.loopcode.exact import compiled_form
+from symgen.loopcode.exact import compiled_form, plain_form
 from symgen.runs import choice, strikes
 from symgen.runs.bounded_rows import (
+    DEEP,
     HELD,
     LIMIT,
     NO_FORCES,
@@ -40,6 +41,8 @@ from symgen.runs.bounded_rows import (
     TOUCHING,
     first_step,
     new_choice,
+    put_off,
+    stays_shut,
 )
 from symgen.runs.events import Happening
 from symgen.runs.impacts import Impacts
@@ -85,6 +88,7 @@ class Transitions:
         if state.control[abi.BEGUN] == 1:
             return
         now, y, info = float(state.clock[abi.TIME]), state.y.copy(), self.simulation.compiled.info
+        self._choice.depth[0] = TOUCHING if state.control[abi.BEGUN] == 0 else DEEP
         changes = self.choose()
         starts = state.control[abi.BEGUN] == 0 and state.control[abi.STEPS] == 0
         self._note(changes, Happening(now, "", MODE, y[: info.work], y[info.own_states]), starts)
@@ -111,6 +115,7 @@ class Transitions:
             [i for i, name in enumerate(self.rows.names) if f"{name}.{word}" in names]
             for word in (SLIP, REVERSE, LEAVE)
         )
+        self._choice.depth[0] = np.inf  # positions inside a run are what its steps have made of them
         changes, here = self.choose(broken, stopped, left), replace(happened[0], action=MODE, impact=None, energy=0.0)
         events = self._happened
         events[:] = [event for event in events if event.t != here.t or event.action != MODE]
@@ -119,9 +124,9 @@ class Transitions:
     def release(self, happened: Sequence[Happening]) -> None:
         """Take all rows out of force before a reset: friction has no impulse, and stops strike behind it."""
         if any(event.action == RESET for event in happened):
-            modes = self.simulation.compiled.modes(self.simulation.state.w)
-            self._closed = self._is_stop & (self._modes(self.simulation.state.w)[:, [HELD, LIMIT]] != 0.0).any(axis=1)
-            modes[self._places] = 0.0
+            w = self.simulation.state.w
+            self._closed = self._is_stop & (self._modes(w)[:, [HELD, LIMIT]] != 0.0).any(axis=1)
+            compiled_form(put_off)(self._choice, w)
 
     def _note(self, changes: Sequence[tuple[int, str]], here: Happening, starts: bool = False) -> None:
         """Have the past events name impacts and changes of modes; a start has modes, and no change of them."""
@@ -163,8 +168,12 @@ class Transitions:
         for flags, rows in ((c.broken, broken), (c.stopped, stopped), (c.left, left)):
             flags[:] = 0
             flags[list(rows)] = 1
-        if self._chosen():
+        others, state = self._chosen(), self.simulation.state
+        compiled_form(choice.measure_margins)(c, w, state.hunt)
+        if others:
             begin_in_modes(self.simulation, self._entry("follow_modes"))
+        elif state.control[abi.BEGUN] == 1:  # margins sleep anew
+            state.control[abi.BEGUN] = abi.ONWARD
         return self._changes(before, self._modes(w), closed)
 
     def _chosen(self) -> bool:
@@ -250,10 +259,13 @@ class Transitions:
         if self._entry("read_rows")(self._now) == SAME:
             return
         c, names, dry, now = self._choice, self.rows.names, self.rows.dry, self._now
-        gaps, closed, restitution = c.value[dry:], TOUCHING * self._scales(abi.LENGTH)[dry:], c.restitution[dry:]
+        gaps, restitution = c.value[dry:], c.restitution[dry:]
         static, sliding = c.static[:dry], c.sliding[:dry]
-        if not (gaps >= -closed).all():
-            i = int(np.argmin(gaps >= -closed))
+        w = self.simulation.state.w
+        shut = np.array([bool(plain_form(stays_shut)(c, w, i)) for i in range(dry, len(names))])
+        within = (gaps >= -c.depth[0] * self._scales(abi.LENGTH)[dry:]) | shut
+        if not within.all():
+            i = int(np.argmin(within))
             got = f"{gaps[i]:.6g} at t = {now:.6g} s"
             raise InputError(f"stop {names[dry + i]}", "a gap of at least 0", got, "a start within all stops")
         if not ((restitution >= 0.0) & (restitution <= 1.0)).all():
