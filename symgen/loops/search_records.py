@@ -21,23 +21,24 @@ PROBES, ROUNDS, WIDTH, NOTED, ACCEPTED, PASSED, SINCE, REACH, TABLES, BLUR = ran
 #: no switches), how far the step has moved coordinates, and by how far its correction coordinates and velocities.
 BEGINNING, WENT, MOVED, SPED = range(LOW + 17, LOW + 21)
 #: Columns of each function: direction (0: any), action, number of points of its table (0: it is passed at zero), first
-#: index of these, period of the table, fraction of a step by which a passage may be missed; ...
-DIRECTION, ACTION, POINTS, FIRST, PERIOD, MISSED = range(6)
+#: index of these, period of the table, fraction of a step by which a passage may be missed, the kind of a margin of a
+#: bounded row (`FORCE` and following, 0 for other functions) and the number of that row; ...
+DIRECTION, ACTION, POINTS, FIRST, PERIOD, MISSED, MARGIN, ROW = range(8)
 #: ... side at the beginning of the step, 1 where it has just happened, 1 where g is on the other side by rounding, side
 #: at the lower end of the bracket, size of g in the step before, rounding of g; ...
-SIDE, FIRED, GRAZING, LOCAL, SIZE, GRAIN = range(6, 12)
+SIDE, FIRED, GRAZING, LOCAL, SIZE, GRAIN = range(8, 14)
 #: ... of a table the number of the point at which the interval of its argument begins, the examined point, 1 or -1
 #: where the argument comes to it from below or above, the argument and its rate at the last examined state and at the
 #: beginning of the step, and the second derivative there; ...
-PLACE, LEVEL, WAY, ARGUMENT, SLOPE, ARGUMENT_START, SLOPE_START, CURVE = range(12, 20)
+PLACE, LEVEL, WAY, ARGUMENT, SLOPE, ARGUMENT_START, SLOPE_START, CURVE = range(14, 22)
 #: ... g and g' at the beginning and at the end of the step and of the bracket; ...
-G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(20, 28)
-#: ... what the margin of a bounded row is one of (`FORCE` and following), 0 for other functions; number of the row; size
-#: that the rounding of a margin is relative to; what is added to a margin that sleeps, 0 for one that is awake.
-MARGIN, ROW, MEASURE, ASLEEP = range(28, 32)
+G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(22, 30)
+#: ... of margins the size that their rounding is relative to, the rate above which it is no rounding, and what is added
+#: to one that sleeps, 0 for one that is awake.
+MEASURE, PACE, ASLEEP = range(30, 33)
 #: Kinds of margins: of a force to its bound, of a gap, of a rate, of a part of a reaction.
 FORCE, GAP, RATE, PART = range(1, 5)
-N_HEAD, N_COLUMNS, N_VALUES = LOW + 21, 32, 3
+N_HEAD, N_COLUMNS, N_VALUES = LOW + 21, 33, 3
 #: Actions: the passage is noted; it is noted and ends the loop; the step ends there and the scheme restarts; the same,
 #: noted, after the caller has examined the rows that change there.
 NOTE, LEAVE, ANEW, EXAMINE = range(4)

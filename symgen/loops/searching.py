@@ -63,6 +63,7 @@ from symgen.loops.search_records import (
     NOTE,
     NOTED,
     NOTES,
+    PACE,
     PASSED,
     POINTS,
     PROBES,
@@ -162,7 +163,7 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
     A margin that sleeps counts with what lifts it above its rounding.
     """
     at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
-    if hunt[at + MARGIN * n + k] != 0.0:
+    if hunt[at + ASLEEP * n + k] > 0.0:
         return float(g + hunt[at + ASLEEP * n + k])
     before = abs(hunt[at + G_START * n + k])
     near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
@@ -218,10 +219,12 @@ def put_to_sleep(hunt: A, n: int, k: int) -> int:
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     g, size = hunt[out + k], hunt[at + MEASURE * n + k]
     rounding = _UNCERTAIN * size
-    asleep = rounding if g <= rounding else 0.0
+    asleep, grazing = rounding if g <= rounding else 0.0, 0.0
     if g < -0.5 * rounding:
         asleep = -2.0 * g if -g <= _DEEP * size else 0.0
-    hunt[at + SIDE * n + k], hunt[at + GRAZING * n + k], hunt[at + ASLEEP * n + k] = 1.0, 0.0, asleep
+    elif hunt[out + n + k] > hunt[at + PACE * n + k]:  # its rate decides
+        asleep, grazing = 0.0, 1.0 if g < 0.0 else 0.0
+    hunt[at + SIDE * n + k], hunt[at + GRAZING * n + k], hunt[at + ASLEEP * n + k] = 1.0, grazing, asleep
     hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g + asleep, hunt[out + n + k]
     return 0
 

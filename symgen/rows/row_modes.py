@@ -19,9 +19,9 @@ from symgen.loops.stopping import change, due, is_defined, same
 from symgen.loops.watch import remember_rank
 from symgen.native import types
 from symgen.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
-from symgen.runs.bounded_rows import CHOICE, DEEP, OTHERS, SAME, TOUCHING, put_off
+from symgen.runs.bounded_rows import CHOICE, DEEP, OTHERS, OUT_OF_RANGE, SAME, TOUCHING, put_off
 from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, measure_margins, read_rows
-from symgen.runs.strikes import STRIKES, find_struck, strike
+from symgen.runs.strikes import STRIKES, find_struck, gather, strike
 
 #: Rows with bounds of all runs, and working memory.
 #: - choice: See `symgen.runs.bounded_rows`.
@@ -53,7 +53,7 @@ def strike_stops(t: float, modes: Any, state: Any) -> int:
         return int(abi.DONE)
     if code != OTHERS:
         return int(e.NO_MODES)
-    if strike(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt) != SAME:
+    if strike(t, c, modes.strikes, state.y, state.p, state.w) != SAME:
         return int(e.NO_MODES)
     if control[abi.BEGUN] == 0:  # the balance of energies begins behind an impact at the start
         state.y[c.layout.nq + c.layout.nv] = 0.0
@@ -71,13 +71,41 @@ def forget_modes(model: Any, state: Any) -> None:
         modes.strikes.series[i] = 0.0
 
 
+def gather_stops(t: float, modes: Any, state: Any) -> int:
+    """Return `SAME`: a run without stops has no impacts that accumulate."""
+    return SAME
+
+
+def rest_stops(t: float, modes: Any, state: Any) -> int:
+    """Bring stops to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
+    c = modes.choice
+    code = gather(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
+    if code == OTHERS and read_rows(t, c, state.y, state.p, state.w) != SAME:
+        code = OUT_OF_RANGE
+    return int(code)
+
+
 @called
 def chosen(model: Any, state: Any) -> int:
     """Choose modes at the present state; return `DONE`, or `NO_MODES`."""
-    _, observers, modes = model
+    _, _, modes = model
     c, t = modes.choice, state.clock[abi.TIME]
     if read_rows(t, c, state.y, state.p, state.w) != SAME or meet_stops(t, modes, state) != abi.DONE:
         return int(e.NO_MODES)
+    if taken_modes(model, state) != abi.DONE:
+        return int(e.NO_MODES)
+    code = gather_stops(t, modes, state)
+    if code == OTHERS:
+        for i in range(c.count):
+            c.broken[i] = c.stopped[i] = c.left[i] = 0
+        return int(taken_modes(model, state))
+    return int(abi.DONE) if code == SAME else int(e.NO_MODES)
+
+
+def taken_modes(model: Any, state: Any) -> int:
+    """Choose modes at a state whose rows have been read, and have the run go on in them."""
+    _, observers, modes = model
+    c, t = modes.choice, state.clock[abi.TIME]
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
     if code > OTHERS:
         return int(e.NO_MODES)

@@ -36,6 +36,7 @@ from symgen.rows.row_modes import (
     begin_modes_between_stops,
     choose_after_change,
     forget_modes,
+    rest_stops,
     strike_stops,
     take_modes,
     take_resets,
@@ -368,7 +369,7 @@ _MODES = {
     **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
     **{"store_after": store_after_effects},
 }
-_STRIKING = {"meet_stops": strike_stops, "take_others": take_resets}
+_STRIKING = {"meet_stops": strike_stops, "gather_stops": rest_stops, "take_others": take_resets}
 _MODES_BETWEEN_STOPS = {"begin_choice": begin_modes_between_stops, "take_change": choose_after_change}
 _PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}

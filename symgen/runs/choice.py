@@ -15,7 +15,7 @@ from symgen.layout import abi
 from symgen.layout.redundancy import choose_rows, farthest, is_off
 from symgen.layout.scales import entry_of, larger
 from symgen.loopcode.exact import exact
-from symgen.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, RATE, ROW
+from symgen.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
 from symgen.native import types
 from symgen.runs.bounded_rows import (
     AT_BOUND,
@@ -288,14 +288,14 @@ def measure_margins(c: Any, w: Any, hunt: Any) -> int:
     n, at, found = int(hunt[COUNT]), N_HEAD, 0
     for k in range(n):
         kind, i = int(hunt[at + MARGIN * n + k]), int(hunt[at + ROW * n + k])
-        size = 1.0
+        size, pace = 1.0, math.inf
         if kind == FORCE:
             size = c.scale[i]
         elif kind == GAP:
-            size = row_scale(c, w, i, abi.LENGTH)
+            size, pace = row_scale(c, w, i, abi.LENGTH), STILL * row_scale(c, w, i, abi.SPEED)
         elif kind == RATE:
             size = row_scale(c, w, i, abi.SPEED)
-        hunt[at + MEASURE * n + k] = size
+        hunt[at + MEASURE * n + k], hunt[at + PACE * n + k] = size, pace
         found += 1 if kind != 0 else 0
     return found
 

@@ -18,8 +18,8 @@ from symgen.describe.stops import HIT
 from symgen.layout import abi
 from symgen.loopcode.entry import direct
 from symgen.loopcode.exact import compiled_form
-from symgen.runs.bounded_rows import NOT_APPLIED, SAME
-from symgen.runs.strikes import STRIKE, new_strikes, strike
+from symgen.runs.bounded_rows import NOT_APPLIED, OTHERS, SAME
+from symgen.runs.strikes import GATHER, STRIKE, gather, new_strikes, strike
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -53,6 +53,7 @@ class Impacts:
         self.latest = dict[int, "Impact"]()
         self.left = dict[int, float]()
         self._entry: Callable[..., int] | None = None
+        self._gathering: Callable[..., int] | None = None
 
     @property
     def _events(self) -> Events:
@@ -85,7 +86,7 @@ class Impacts:
         first = self.simulation.compiled.info.nq
         before = state.y[first : first + len(s.v)].copy()
         if self._entry is None:
-            arguments = choice, s, state.y, state.p, state.w, state.iw, state.hunt
+            arguments = choice, s, state.y, state.p, state.w
             self._entry = direct(compiled_form(strike), STRIKE, 0.0, *arguments)
         code = self._entry(now)
         active = np.flatnonzero(s.active).tolist()
@@ -97,11 +98,36 @@ class Impacts:
             raise InputError("stops", "impulses that can be found", f"none of {names} at t = {now:.6g} s")
         impact = effects.impact(numbers, s.v, s.impulses, float(s.energy[0]))
         self.latest = dict.fromkeys(active, impact)
-        self.left = {int(i): float(s.left[i]) for i in np.flatnonzero(~np.isnan(s.left))}
         if state.control[abi.BEGUN] != 0:
             self._events.begin_anew(state)
         else:  # the balance of energies begins behind an impact at the start
             state.y[self.simulation.compiled.info.work] = 0.0
+
+    def gather(self, choice: Any) -> bool:
+        """Bring stops to rest where impacts accumulate in the modes behind the latest one; return whether any are.
+
+        Parameters
+        ----------
+        choice : Choice
+            The rows with bounds.
+
+        Raises
+        ------
+        InputError
+            If joints do not allow the rest.
+        """
+        state: Any = self.simulation.state
+        s, now = self._strikes, float(state.clock[abi.TIME])
+        if self._gathering is None:
+            arguments = choice, s, state.y, state.p, state.w, state.iw, state.hunt
+            self._gathering = direct(compiled_form(gather), GATHER, 0.0, *arguments)
+        before = s.v.copy()
+        code = self._gathering(now)
+        if code == NOT_APPLIED:
+            numbers = [int(s.events[i]) for i in np.flatnonzero(s.active)]
+            raise self._events.watched.effects.no_velocities(numbers, s.work, before, now)
+        self.left = {int(i): float(s.left[i]) for i in np.flatnonzero(~np.isnan(s.left))}
+        return bool(code == OTHERS)
 
 
 def strikes_of(watched: Watched, rows: BoundedRows, effects: Any, work: Any, past: Any) -> Any:

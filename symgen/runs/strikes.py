@@ -49,6 +49,8 @@ OF_SERIES = 5
 #: - chosen (shape (events,)): 1 for events that happen.
 #: - events, losses, active (shapes (rows,)): Event of each stop, -1 for friction; place in the state of the energy that
 #:   it has taken, or -1; 1 for stops that strike.
+#: - pushing (shape (1,)): Number of stops that push at an impact whose accumulation has not been asked for.
+#: - before (shape (rows,)): Rates of gaps before the latest impact.
 #: - series (shape (OF_SERIES rows,)): See above.
 #: - left (shape (rows,)): Time until the impacts of a stop that comes to rest would have accumulated [s], else nan.
 #: - v, impulses, energy: Velocities behind the impact, its impulses and its energy, as in `symgen.effects.effects`.
@@ -59,8 +61,8 @@ STRIKES = record_type(
     ("happens", abi.OBSERVE),
     ("work", EFFECT_WORK),
     ("past", PAST),
-    ("chosen events losses active", _K),
-    ("series left v impulses energy", _A),
+    ("chosen events losses active pushing", _K),
+    ("before series left v impulses energy", _A),
 )
 Strikes: Any = STRIKES.constructor
 
@@ -80,8 +82,8 @@ def new_strikes(effects: Any, happens: Any, hits: list[int], losses: list[int], 
         Working memory of effects, and past resets.
     """
     k, layout, events = len(hits), effects.model[0], np.zeros(len(effects.names), dtype=np.int64)
-    integers = (np.array(x, dtype=np.int64) for x in (hits, losses, [0] * k))
-    sizes = OF_SERIES * k, k, layout.nv, len(work.impulse.impulses), 1
+    integers = (np.array(x, dtype=np.int64) for x in (hits, losses, [0] * k, [0]))
+    sizes = k, OF_SERIES * k, k, layout.nv, len(work.impulse.impulses), 1
     return Strikes._make((effects.model, happens, work, past, events, *integers, *map(np.zeros, sizes)))
 
 
@@ -134,14 +136,14 @@ def choose_events(c: Any, s: Any, only_struck: bool) -> None:
     for event in range(s.chosen.shape[0]):
         s.chosen[event] = 0
     for i in range(c.dry, c.count):
-        if s.active[i] != 0 and not (only_struck and c.speed[i] >= 0.0):
+        if s.active[i] != 0 and not (only_struck and s.before[i] >= 0.0):
             s.chosen[s.events[i]] = 1
 
 
 @exact()
-def rate_behind(c: Any, i: int) -> float:
+def rate_behind(c: Any, s: Any, i: int) -> float:
     """Return the rate of a gap that restitution leaves."""
-    return float(-c.restitution[i] * (c.speed[i] if c.speed[i] < 0.0 else 0.0))
+    return float(-c.restitution[i] * (s.before[i] if s.before[i] < 0.0 else 0.0))
 
 
 @exact()
@@ -150,8 +152,8 @@ def lose(c: Any, s: Any, first: bool, y: Any) -> None:
     place = c.layout.m
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
-            rate = rate_behind(c, i)
-            rates = c.speed[i] + rate if first else rate
+            rate = rate_behind(c, s, i)
+            rates = s.before[i] + rate if first else rate
             if s.losses[i] >= 0:
                 y[s.losses[i]] -= 0.5 * (s.work.impulse.impulses[place] * rates)
             place += 1
@@ -170,8 +172,8 @@ def follow_series(c: Any, s: Any, t: float, count: int) -> float:
         at, e = OF_SERIES * i, c.restitution[i]
         if s.active[i] == 0 or count != 1:
             s.series[at + _COUNT] = 0.0
-        elif c.offset[i] < 0.0 and e < 1.0:
-            now, part = t + 2.0 * e * (c.speed[i] / c.offset[i]) / (1.0 - e), e * e
+        elif c.out[i] < 0.0 and e < 1.0:
+            now, part = t + 2.0 * e * (s.before[i] / c.out[i]) / (1.0 - e), e * e
             before = s.series[at + _COUNT]
             if before > 0.0:
                 better = (now - part * s.series[at + _LAST]) / (1.0 - part)
@@ -199,15 +201,15 @@ def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
         if s.active[i] != 0:
             now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
             s.left[i] = larger(end - t, 0.0)
-            if c.speed[i] < 0.0:
+            if s.before[i] < 0.0:
                 s.past.counts[s.events[i]] = 0
         for number in range(OF_SERIES):
             s.series[OF_SERIES * i + number] = 0.0
     return SAME
 
 
-@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))
-def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any) -> int:
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
+def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     """Change the velocities by the impact of `find_struck`; all rows with bounds are off behind it.
 
     Returns `SAME`, `NO_FORCES` where impulses are not found, or `NOT_APPLIED` where joints do not allow the impact.
@@ -217,7 +219,7 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any)
         c.shut[c.rest[r]] = 1
     put_off(c, w)
     for i in range(c.count):
-        s.left[i] = math.nan
+        s.left[i], s.before[i] = math.nan, c.speed[i]
     if count < 0:
         return NO_FORCES
     choose_events(c, s, False)
@@ -231,13 +233,45 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any)
     lose(c, s, True, y)
     choose_events(c, s, True)
     add_resets(s.past, s.chosen, t)
-    end = accumulation((c.rates, c.confirm, s.happens), t, c.layout.nq, now, iw, hunt, s.chosen, s.past)
-    series = follow_series(c, s, t, count)
-    if end == end:
-        return int(come_to_rest(t, c, s, series if series == series else end, now))
+    s.pushing[0] = count
     return SAME
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))
+def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any) -> int:
+    """Bring the stops of the latest impact to rest where impacts accumulate in the modes chosen behind it.
+
+    Returns `OTHERS` where velocities have changed, with all rows with bounds off; else `SAME`, or `NOT_APPLIED`.
+    """
+    now, count = Instant(y, p, w), int(s.pushing[0])
+    s.pushing[0] = 0
+    if count == 0:
+        return SAME
+    choose_events(c, s, True)
+    end = accumulation((c.rates, c.confirm, s.happens), t, c.layout.nq, now, iw, hunt, s.chosen, s.past)
+    accelerate_in_force(t, c, now, iw)
+    series = follow_series(c, s, t, count)
+    if not end == end:
+        return SAME
+    put_off(c, w)
+    return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
+
+
+@exact()
+def accelerate_in_force(t: float, c: Any, now: Any, iw: Any) -> None:
+    """Write the accelerations of coordinates and gaps in the present modes to ``out``."""
+    for i in range(c.w.shape[0]):
+        c.w[i] = now.w[i]
+    for i in range(c.y.shape[0]):
+        c.y[i] = now.y[i]
+    for i in range(iw.shape[0]):
+        c.iw[i] = iw[i]
+    if c.rates(t, c.y, now.p, c.w, c.iw, c.rate) != 0:
+        c.confirm(t, c.y, now.p, c.w, c.iw, c.rate)
+    c.accelerations(t, c.y, now.p, c.w, c.rate, c.out)
 
 
 #: Types of the functions on the arrays of a run.
 KINDS = {"find_struck": types.FunctionType(_N(_F8, CHOICE, _A, _A, _A, _K, _K))}
-STRIKE = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))
+STRIKE = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
+GATHER = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))

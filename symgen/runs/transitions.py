@@ -168,13 +168,22 @@ class Transitions:
         for flags, rows in ((c.broken, broken), (c.stopped, stopped), (c.left, left)):
             flags[:] = 0
             flags[list(rows)] = 1
+        self._take_modes()
+        if self._impacts.latest and self._impacts.gather(c):
+            self._read()
+            for flags in (c.broken, c.stopped, c.left):
+                flags[:] = 0
+            self._take_modes()
+        return self._changes(before, self._modes(w), closed)
+
+    def _take_modes(self) -> None:
+        """Choose modes at a state whose rows have been read, and have the run go on in them."""
         others, state = self._chosen(), self.simulation.state
-        compiled_form(choice.measure_margins)(c, w, state.hunt)
+        compiled_form(choice.measure_margins)(self._choice, state.w, state.hunt)
         if others:
             begin_in_modes(self.simulation, self._entry("follow_modes"))
         elif state.control[abi.BEGUN] == 1:  # margins sleep anew
             state.control[abi.BEGUN] = abi.ONWARD
-        return self._changes(before, self._modes(w), closed)
 
     def _chosen(self) -> bool:
         """Choose modes at a state whose rows have been read; return whether they are others."""
@@ -262,7 +271,7 @@ class Transitions:
         gaps, restitution = c.value[dry:], c.restitution[dry:]
         static, sliding = c.static[:dry], c.sliding[:dry]
         w = self.simulation.state.w
-        shut = np.array([bool(plain_form(stays_shut)(c, w, i)) for i in range(dry, len(names))])
+        shut = np.array([bool(plain_form(stays_shut)(c, w, i)) for i in range(dry, len(names))], dtype=bool)
         within = (gaps >= -c.depth[0] * self._scales(abi.LENGTH)[dry:]) | shut
         if not within.all():
             i = int(np.argmin(within))

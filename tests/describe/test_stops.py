@@ -58,10 +58,6 @@ def test_a_file_without_stops_is_the_same_as_before() -> None:
         ({"gap": {"gap": "crank.omega"}}, "stops.rope.gap: expected"),
         ({"gap": {"gap": "crank.y", "restitution": 2.0}}, "stops.rope.restitution: expected a value from 0 to 1"),
         ({"gap": {}}, "stops.rope"),
-        (
-            {"gap": {"gap": "crank.y"}, "crank": {"mass": 0.0, "inertia": 0.0}},
-            "bodies.crank: expected a mass and moments of inertia above 0, as stops have impacts, got one that is 0",
-        ),
     ],
 )
 def test_wrong_stops(keys: dict[str, object], sentence: str) -> None:
