@@ -283,15 +283,28 @@ def weights_of(span: Any, run: Any) -> Any:
     return run.scales if span.relative != 0.0 else run.share
 
 
-def with_work(span: Any, run: Any, at: int, error: float, others: float) -> float:
-    """Return the larger of two errors over their tolerances: of the work, element `at` of a state, and of the others.
+def rests(sizes: Any, span: Any, run: Any) -> bool:
+    """Return whether no velocity is more than its tolerance at the beginning or at the end of a step.
+
+    What is left of the velocities of a mechanism that is held at rest is rounding, and so is the work of its forces.
+    """
+    weights, largest = weights_of(span, run), 0.0
+    for i in range(sizes.nq, sizes.nq + sizes.nv):
+        largest = max(largest, weights[i] * max(abs(run.y[i]), abs(run.trial[i])))
+    return bool(largest <= (max(span.atol, LEAST_SPEED) if span.relative != 0.0 else span.atol))
+
+
+def with_work(sizes: Any, span: Any, run: Any, error: float, others: float) -> float:
+    """Return the larger of two errors over their tolerances: of the work, and of all other elements of a state.
 
     The error of the work is relative to the energy in motion. The work enters no rate, but the balance of energy, and
     where drivers prescribe the whole motion nothing else is integrated.
     """
-    least = span.atol
+    at, least = sizes.nq + sizes.nv, span.atol
     if span.relative != 0.0:
         least *= run.w[abi.KINETIC] + abs(run.w[abi.POTENTIAL])
     allowed = least + span.rtol * max(run.gauges[abi.ENERGY_SCALE], abs(run.y[at]), abs(run.trial[at]))
     ratio = abs(error) / allowed if allowed > 0.0 else 0.0
+    if ratio > others and rests(sizes, span, run):
+        ratio = 0.0
     return ratio if ratio > others else others  # nan of the others stays nan

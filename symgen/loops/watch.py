@@ -7,6 +7,7 @@ from typing import Any
 
 from symgen.ir.numerics import SKIP
 from symgen.layout import abi
+from symgen.layout.scales import LEAST_SPEED
 from symgen.loopcode.vectors import finite, largest
 
 _N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
@@ -136,7 +137,8 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     work = y[behind]
     # the scale of corrections stays that of the start
     length = max(w[abi.LENGTH], largest(sizes.width, y, run.metric, 0, moving))
-    speed = w[abi.SPEED] = max(w[abi.SPEED], largest(sizes.width, y, run.metric, moving, behind))
+    fastest = largest(sizes.width, y, run.metric, moving, behind)
+    speed = w[abi.SPEED] = max(w[abi.SPEED], fastest)
     error = keep_maxima(sizes, run, y)
     scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))
     if scale > gauges[abi.ENERGY_SCALE]:
@@ -195,7 +197,8 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     # energies are no more exact than the rounding of their terms
     limit, rounding = gauges[abi.LIMIT_ENERGY], NEGLIGIBLE * (w[abi.KINETIC] + abs(w[abi.POTENTIAL]))
     excess, way = abs(error) - rounding, NO_WAY * length
-    if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
+    # where nothing moves the work is that of rounding
+    if fastest > LEAST_SPEED * speed and excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):
         # large works cancel where a body is at rest: the energy in motion is at least that over the least displacement
         gauges[abi.FORCE] = max(gauges[abi.FORCE], force(sizes, run, y, before))
         if excess > limit * max(gauges[abi.ENERGY_SCALE], way * gauges[abi.FORCE]):

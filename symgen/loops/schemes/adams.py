@@ -142,7 +142,7 @@ def attempt(
         predicted[i] -= run.trial[i]
     total = weigh(width, predicted, weights_of(span, run), run.y, run.trial, span.rtol, span.atol)
     work = system.sizes.nq + system.sizes.nv
-    return 0.1 * with_work(span, run, work, predicted[work], math.sqrt(total / system.sizes.controlled))
+    return 0.1 * with_work(system.sizes, span, run, predicted[work], math.sqrt(total / system.sizes.controlled))
 
 
 def refuse(run: Any) -> None:

@@ -96,13 +96,13 @@ def attempt(
         first, second = second, weigh(width, error, share, run.y, new, span.rtol, span.atol)
         before, done = done, abs(error[work])
     if scheme.estimates == 1:
-        return with_work(span, run, work, done, math.sqrt(second / count))
+        return with_work(system.sizes, span, run, done, math.sqrt(second / count))
     size = 0.0
     if first != 0.0:
         size = float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
     if before != 0.0:
         done = before * before / math.sqrt(before * before + 0.01 * done * done)
-        size = with_work(span, run, work, done, size)
+        size = with_work(system.sizes, span, run, done, size)
     allowed = run.clock[abi.ALLOWED]
     if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[abi.IN_ZONE] == 0:
         least = h / (_GROWTH * allowed * run.clock[abi.STEP])

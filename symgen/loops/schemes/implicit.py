@@ -272,7 +272,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
     error = math.sqrt(weigh(sizes.width, change, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
     # the work enters no rate, so it needs no filter; where every coordinate is driven nothing else is integrated, since
     # constraints in every stage make the other estimates 0
-    return with_work(span, run, first, change[first], error)
+    return with_work(system.sizes, span, run, change[first], error)
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:

@@ -139,7 +139,7 @@ def attempt(
         other[i] = 0.0
     share = weights_of(span, run)
     error = math.sqrt(weigh(width, other, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
-    return with_work(span, run, first, abs(other[first]), error)
+    return with_work(system.sizes, span, run, abs(other[first]), error)
 
 
 def memory(width: int, nv: int, m: int, unknowns: int, stages: int) -> tuple[int, int]:
