@@ -267,11 +267,11 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
         run.scales[i] = 1.0 / length if run.metric[i] != 0.0 else 1.0
     for j in range(sizes.nv):
         run.scales[nq + j] = run.metric[nq + j] / speed
-    open_speed = still(span, speed)
+    open_speed = open_to(span, speed)
     run.gauges[abi.ENERGY_SCALE] = w[abi.MEAN_MASS] * open_speed * open_speed
 
 
-def still(span: Any, speed: float) -> Any:
+def open_to(span: Any, speed: float) -> Any:
     """Return the speed within the tolerances [m/s], at a scale of speeds [m/s]."""
     tolerance = span.atol * speed if span.relative != 0.0 else span.atol
     return _ADDED_UP * max(tolerance, LEAST_SPEED * speed)
@@ -291,7 +291,12 @@ def rests(sizes: Any, span: Any, run: Any) -> bool:
     weights, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
         largest = max(largest, weights[i] * max(abs(run.y[i]), abs(run.trial[i])))
-    return bool(largest <= (max(span.atol, LEAST_SPEED) if span.relative != 0.0 else span.atol))
+    return bool(largest <= still(span))
+
+
+def still(span: Any) -> float:
+    """Return the tolerance of velocities at rest, over the factors of `weights_of`."""
+    return float(max(span.atol, LEAST_SPEED) if span.relative != 0.0 else span.atol)
 
 
 def with_work(sizes: Any, span: Any, run: Any, error: float, others: float) -> float:

@@ -20,7 +20,7 @@ from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
 from symgen.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, Outputs, Run, State
 from symgen.layout.redundancy import FALLEN, never
-from symgen.layout.scales import still
+from symgen.layout.scales import open_to
 from symgen.layout.scheme_records import TABLEAU
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import Instances, compiled_loop
@@ -81,7 +81,7 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
         speed = run.w[_LENGTH + lane] / span.duration
         speed = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
         run.w[_SPEED + lane] = speed
-        open_speed = still(span, speed)
+        open_speed = open_to(span, speed)
         run.gauges[_SCALE + lane] = run.w[_MEAN_MASS + lane] * open_speed * open_speed
 
 

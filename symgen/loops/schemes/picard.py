@@ -17,7 +17,7 @@ from typing import Any
 
 from symgen.layout import abi
 from symgen.layout.records import Run
-from symgen.layout.scales import LEAST_SPEED, weights_of
+from symgen.layout.scales import still, weights_of
 from symgen.layout.scheme_records import NODES as SCHEME
 from symgen.loopcode.bare import part
 from symgen.loopcode.loop_instances import called, viewing
@@ -116,7 +116,7 @@ def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: A
     """
     sizes, y, share = system.sizes, run.y, weights_of(span, run)
     work = sizes.nq + sizes.nv
-    mean, fastest = 1.0 / sizes.controlled, 0.0
+    mean = 1.0 / sizes.controlled
     for i in range(sizes.ny):
         place, end = share[sizes.width + i], ends[i * NODES + NODES - 1]
         allowed = span.atol + span.rtol * share[i] * max(abs(y[i] - place), abs(end - place))
@@ -125,20 +125,24 @@ def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: A
             scale = 1e-16 * max(1.0, run.scales[i] * max(abs(y[i]), abs(end)))
             error = h * run.scales[i] / scale
         weights[i] = mean * error * error
-        if i >= sizes.nq and i < work:
-            fastest = max(fastest, share[i] * max(abs(y[i]), abs(end)))
     if ADAPTIVE:
         least = span.atol
         if span.relative != 0.0:
             least *= run.w[abi.KINETIC] + abs(run.w[abi.POTENTIAL])
         allowed = least + span.rtol * max(run.gauges[abi.ENERGY_SCALE], abs(y[work]))
-        still = max(span.atol, LEAST_SPEED) if span.relative != 0.0 else span.atol
-        # where nothing moves, work is that of rounding
-        weights[work] = (h / allowed) * (h / allowed) if allowed > 0.0 and fastest > still else 0.0
+        weights[work] = (h / allowed) * (h / allowed) if allowed > 0.0 else 0.0
     rows, count = scheme.rows, scheme.rows[0]
     for c in range(1, count + 1):
         if rows[c + count] >= 0:
             weights[rows[c]] += 0.25 * h * h * weights[rows[c + count]]
+
+
+def rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
+    """Return whether no velocity is more than its tolerance at the beginning and at the end of a step."""
+    share, largest = weights_of(span, run), 0.0
+    for i in range(sizes.nq, sizes.nq + sizes.nv):
+        largest = max(largest, share[i] * max(abs(run.y[i]), abs(ends[i * NODES + NODES - 1])))
+    return bool(largest <= still(span))
 
 
 def attempt(
@@ -177,6 +181,8 @@ def attempt(
         place(h, rows, run.y, first, before, table, states)
         if iterations == 0:
             weigh_rates(system, scheme, span, run, h, states, weights)
+        elif iterations == 1 and ADAPTIVE and rests(sizes, span, run, states):
+            weights[sizes.nq + sizes.nv] = 0.0  # the work of what rests is rounding
         odd = 0
         if alone:
             one_by_one(system, run, times, states, after)
