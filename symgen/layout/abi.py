@@ -148,7 +148,8 @@ MAX_PASSAGES = 1000
     UNPREPARED,
     JUMPED,
     TURNED,
-) = range(16)
+    HALTED,
+) = range(17)
 #: The loop can be entered again: after a number of steps, once a matrix has more room, or once other independent rows
 #: are chosen; `LEFT`: a run in a lane is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
@@ -173,5 +174,6 @@ REASONS = {
     UNPREPARED: "inputs: expected values for which every formula is finite, got others",
     JUMPED: "a row jumps or has a kink, which would take an impulse; a run by itself names the row",
     TURNED: "a constant step turns a body too far for the angle of a place to count turns: take shorter ones",
+    HALTED: "what an event or a change asks for cannot be",
     VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

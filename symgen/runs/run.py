@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import InputError
 from symgen.ir.program import COUNTERS
 from symgen.layout import abi
 from symgen.layout.model_arrays import triplets_of
@@ -160,6 +161,8 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
     scale = float(state.gauges[abi.ENERGY_SCALE])
     if code in (abi.GATHERED, abi.UNDEFINED) and simulation.events is not None:
         return simulation.events.reason(code, state, end)
+    if code == abi.HALTED and simulation.halt is not None:
+        return str(simulation.halt)
     failed = code not in (abi.DONE, abi.STOPPED, abi.GATHERED)
     jump = simulation.events.jump(state) if failed and simulation.events is not None else ""
     if jump:  # whatever it has led to
@@ -190,6 +193,7 @@ def _in_thread(
     interrupted = False
     finished = threading.Event()
     clock, control = simulation.state.clock, simulation.state.control
+    begun = int(control[abi.STEPS])
 
     def work() -> None:
         began, compiled, cpu = time.perf_counter(), seconds_in_cache(), CPU_CLOCK()
@@ -197,6 +201,12 @@ def _in_thread(
             code = simulation.enter(outputs)
             seconds = time.perf_counter() - began - (seconds_in_cache() - compiled)
             result.append((code, max(seconds, 0.0), CPU_CLOCK() - cpu))
+        except InputError as error:
+            if control[abi.STEPS] == begun:  # nothing has run yet
+                result.append(error)
+            else:  # a run that has begun ends with its reason, and keeps what it has
+                simulation.halt = error
+                result.append((abi.HALTED, time.perf_counter() - began, CPU_CLOCK() - cpu))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)
         finally:

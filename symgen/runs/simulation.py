@@ -79,6 +79,8 @@ class Simulation:
         Events of the run, where they are looked for.
     changes : Changes
         Changes of parameters during the run.
+    halt : InputError or None
+        What has ended the run where an event or a change asked for what cannot be (`HALTED`).
 
     Notes
     -----
@@ -92,6 +94,7 @@ class Simulation:
         self.sizes = sizes_of(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
         self.direct = True
+        self.halt: InputError | None = None
         state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room, start.datum)
         self.events: Events | None = None
         self.transitions: Transitions | None = None
