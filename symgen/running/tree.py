@@ -123,7 +123,10 @@ class TreeRun:
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
         start = replace(self.body_start, notes=outcome.start.notes)
         values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": start}
-        values |= {"p": self._parameters(outcome.p), "w": w, "happened": self._happened(outcome)}
+        happened, halt = self._happened(outcome)
+        values |= {"p": self._parameters(outcome.p), "w": w, "happened": happened}
+        if halt is not None:
+            values |= {"code": abi.HALTED, "reason": str(halt)}
         values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
         last = outcome.simulation.state.y
         end = self._of_bodies(outcome.end, last, outcome.p)
@@ -136,8 +139,11 @@ class TreeRun:
         rank = np.array([self.start.rank])
         return dict(zip(_BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
 
-    def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
-        """Return the events with coordinates, velocities and row impulses of the bodies."""
+    def _happened(self, outcome: Outcome) -> tuple[tuple[Happening, ...], InputError | None]:
+        """Return the events with coordinates, velocities and row impulses of the bodies.
+
+        The second value is the error of the first reset that the joints of the bodies do not allow.
+        """
         result: list[Happening] = []
         impacts: dict[int, Impact] = {}
         numbers = {event.name: i for i, event in enumerate(self._watched)}
@@ -149,10 +155,13 @@ class TreeRun:
                 effects = effects or self._effects_on_bodies()
                 if id(impact) not in impacts:  # resets at the same time share what they do
                     together = [numbers[x.name] for x in outcome.happened if x.impact is impact]
-                    impacts[id(impact)] = self._impact(effects, together, event, impact.v, state, p)
+                    try:
+                        impacts[id(impact)] = self._impact(effects, together, event, impact.v, state, p)
+                    except InputError as error:
+                        return tuple(result), error
                 impact = impacts[id(impact)]
             result.append(replace(event, state=state, impact=impact))
-        return tuple(result)
+        return tuple(result), None
 
     @cached_property
     def _watched(self) -> tuple[Event, ...]:

@@ -613,9 +613,9 @@ def test_rows_that_are_rounding_take_no_impulse():
 def test_contradictory_velocities_are_refused_with_the_nearest_that_joints_allow(coordinates):
     """Those of a four-bar are on a line through 0: the foot of the perpendicular on it is nearest."""
     event = {"when": "t > 0.2", "reset": {"crank.omega": "2", "rocker.omega": "50"}}
-    with pytest.raises(InputError) as caught:
-        four_bar(blow=event).simulate(coordinates=coordinates)
-    said = str(caught.value)
+    result = four_bar(blow=event).simulate(coordinates=coordinates)
+    said = result.reason
+    assert result.status == "failed" and said is not None and abs(result.t[-1] - 0.2) < 1e-9
     assert said.startswith("event 'blow': reset: expected velocities that the joints and each other allow, got ")
     assert "crank.omega = 2, rocker.omega = 50 at t = 0.2 s; the nearest are crank.omega = " in said
     before = four_bar().simulate(until=0.2)
@@ -629,9 +629,10 @@ def test_contradictory_velocities_are_refused_with_the_nearest_that_joints_allow
 def test_what_joints_hold_at_rest_has_no_other_velocity_nearby(coordinates):
     built = MechanismBuilder("slide", gravity=(0.0, -9.81)).body("a", mass=1.0, inertia=0.1, velocity=[1.0, 0.0])
     built = built.joint("guide", "translational", between=["ground", "a"], at=[[0.0, 0.0], "centre"], axis=[1.0, 0.0])
-    with pytest.raises(InputError, match=r"got a.omega = 0.3 at t = 0.2 s; the nearest are a.omega = 0$"):
-        event = {"when": "t > 0.2", "reset": {"a.omega": 0.3}}
-        symgen.load(built.build()).simulate(until=0.5, events={"hit": event}, coordinates=coordinates)
+    event = {"when": "t > 0.2", "reset": {"a.omega": 0.3}}
+    result = symgen.load(built.build()).simulate(until=0.5, events={"hit": event}, coordinates=coordinates)
+    assert result.status == "failed"
+    assert result.reason.endswith("got a.omega = 0.3 at t = 0.2 s; the nearest are a.omega = 0")
 
 
 # -- runs with events --------------------------------------------------------------------------------------------------
