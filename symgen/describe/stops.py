@@ -172,8 +172,9 @@ def stop_events(mechanism: Mechanism) -> tuple[Event, ...]:
     """Return the events at which stops close or open.
 
     A function of another mode is 1: it sleeps. The number ``limit`` of a row in force is the bound of the dry friction
-    whose force it carries: before the stop opens, that holds it too. The velocity that an impact sets is the rate of the
-    gap: 0 where the sign of the row is not 0, and where impacts do not come to rest, the rate that restitution leaves.
+    whose force it carries: before the stop opens, that holds it too. The velocity that an impact sets is the rate of
+    the gap: 0 where the sign of the row is not 0, and where impacts do not come to rest, the rate that restitution
+    leaves.
     """
     events = list[Event]()
     for stop in mechanism.stops:

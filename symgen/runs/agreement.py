@@ -30,7 +30,16 @@ from symgen.runs.bounded_rows import (
     sign_of,
 )
 from symgen.runs.box import solve_box
-from symgen.runs.choice import accelerate, find_mobility, find_rest, moves_at, symmetrise, write_modes
+from symgen.runs.choice import (
+    accelerate,
+    add_forces,
+    find_mobility,
+    find_rest,
+    moves_at,
+    size_forces,
+    symmetrise,
+    write_modes,
+)
 from symgen.runs.holding import hold_rows
 
 _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
@@ -255,7 +264,9 @@ def choose_pressed(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: A
     code = probe_reactions(t, c, y, p, w, iw, control)
     if code == SAME and n > 0:
         symmetrise(c)
+        size_forces(c, n, w)
         code = agree_at_rest(c)
+        add_forces(c)
     if code == SAME:
         code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c, resting)
     for i in range(c.count):

@@ -146,11 +146,17 @@ def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> in
             for i in range(k):
                 c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force
     symmetrise(c)
+    size_forces(c, n, w)
+    return SAME
+
+
+@exact()
+def size_forces(c: Any, n: int, w: Any) -> None:
+    """Set the forces at rest that make accelerations as large as those without them, and as usual ones."""
     for r in range(n):
         i = c.rest[r]
-        own = c.matrix[i * k + i]
+        own = c.matrix[i * c.count + i]
         c.scale[i] = (abs(c.offset[i]) + usual_of(c, w, i)) / own if own > 0.0 else 0.0
-    return SAME
 
 
 @exact(_N(CHOICE))
@@ -278,8 +284,15 @@ def choose_modes(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any
     code = hold_rows(c, w)
     for i in range(c.count):
         c.shut[i] = 0
-        c.scale[i] += abs(c.forces[i]) + c.static[i]
+    add_forces(c)
     return int(write_modes(c, w)) if code == SAME else int(code)
+
+
+@exact()
+def add_forces(c: Any) -> None:
+    """Add the forces at rest and their bounds to the sizes of forces."""
+    for i in range(c.count):
+        c.scale[i] += abs(c.forces[i]) + c.static[i]
 
 
 @exact(_N(CHOICE, _A, _A))

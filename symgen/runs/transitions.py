@@ -178,7 +178,8 @@ class Transitions:
 
     def _take_modes(self) -> None:
         """Choose modes at a state whose rows have been read, and have the run go on in them."""
-        others, state = self._chosen(), self.simulation.state
+        state: Any = self.simulation.state  # an `EventState`: modes have events
+        others = self._chosen()
         compiled_form(choice.measure_margins)(self._choice, state.w, state.hunt)
         if others:
             begin_in_modes(self.simulation, self._entry("follow_modes"))
