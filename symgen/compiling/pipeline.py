@@ -22,7 +22,6 @@ import msgspec
 import numpy as np
 
 from symgen.base.errors import InputError, finite_numbers
-from symgen.base.files import templates_folder
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.program import FORMAT, SUFFIXES
@@ -30,8 +29,9 @@ from symgen.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 from symgen.methods import METHODS
 from symgen.methods._base import EXPLICIT_FORMS, Method
 from symgen.store.entries import Entries, Modules, folder_name
-from symgen.store.identity import SOURCES, TEMPLATES, combined_digest, sources_digest
+from symgen.store.identity import combined_digest
 from symgen.store.modules import load_module
+from symgen.store.sources import CODE, reached_digest
 from symgen.vocabulary.infos import LawInfo
 from symgen.vocabulary.quantities import Quantity
 
@@ -123,8 +123,7 @@ def folder_of(mechanism: Mechanism) -> str:
 @lru_cache(maxsize=1)
 def generator_digest() -> str:
     """Return the digest of everything that shapes emitted code: sources, templates and SymPy's version."""
-    templates = (str(templates_folder() / name) for name in TEMPLATES)
-    return combined_digest(_sympy_version(), sources_digest(*SOURCES["code"], *templates))
+    return combined_digest(_sympy_version(), reached_digest(*CODE))
 
 
 def _sympy_version() -> str:

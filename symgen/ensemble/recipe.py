@@ -31,7 +31,8 @@ from symgen.layout.ensemble_abi import SIDE
 from symgen.loops.run_spec import RunSpec
 from symgen.result.signals import Signal
 from symgen.starts.held import Held
-from symgen.store.identity import SOURCES, combined_digest, sources_digest
+from symgen.store.identity import combined_digest
+from symgen.store.sources import package_digest
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -271,5 +272,5 @@ class Recipe:
 
 
 def run_code_identity() -> str:
-    """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
-    return combined_digest(__version__, sources_digest(*SOURCES["rows"]), *stamps())
+    """Return a digest of all that computes runs: the version, the whole package and plugins."""
+    return combined_digest(__version__, package_digest(), *stamps())

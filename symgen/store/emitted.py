@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 from symgen.native import types
 from symgen.native.compiler import compiler, interpreted
 from symgen.native.read_tables import Written
-from symgen.store.identity import content, source_stamp, sources_digest
+from symgen.store.identity import combined_digest, content
 from symgen.store.jit import Arguments, CacheEntry, MachineFunction, argument_types, arguments_of, syntax_tree
+from symgen.store.sources import source_stamp
 
 if TYPE_CHECKING:
     from symgen.native.language import Function
@@ -32,10 +33,11 @@ _SHORT = 60
 class Origin(NamedTuple):
     """Origin of a function: digest of all sources it depends on, and the text of its file as it was loaded.
 
-    The loaded text counts, as the file may have been removed or changed.
+    The loaded text counts, as the file may have been removed or changed. A function of symgen has no digest here: it
+    follows from imports.
     """
 
-    stamp: str
+    stamp: str | None
     content: bytes
 
 
@@ -62,7 +64,10 @@ class EmittedFunction(MachineFunction):
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
-        return f"{self.__name__}\n{self.origin.stamp}\n{_together()}"
+        stamp, text = self.origin
+        if stamp is None:
+            stamp = combined_digest(text, source_stamp(self.py_func))
+        return f"{self.__name__}\n{stamp}\n{_together()}"
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
@@ -122,8 +127,7 @@ class TangentFunction(EmittedFunction):
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
-        slopes = sources_digest("vocabulary")
-        return f"directions {self.lanes} {sorted(self.places.items())} {slopes} {super().identity()}"
+        return f"directions {self.lanes} {sorted(self.places.items())} {super().identity()}"
 
     def __reduce__(self) -> Any:
         raise TypeError("machine code does not travel")
@@ -175,7 +179,7 @@ class AdjointFunction(EmittedFunction):
 
     def identity(self) -> str:
         """Return the sources and options that machine code depends on."""
-        return f"adjoint {self.rounds} {sources_digest('vocabulary')} {super().identity()}"
+        return f"adjoint {self.rounds} {super().identity()}"
 
     def __reduce__(self) -> Any:
         raise TypeError("machine code does not travel")
@@ -208,7 +212,7 @@ def plain(function: _Function) -> _Function:
     if interpreted():
         return function
     compiled: Any = EmittedFunction(function)
-    compiled.origin = Origin(source_stamp(function), content(function.__code__.co_filename))
+    compiled.origin = Origin(None, content(function.__code__.co_filename))  # an import makes no digests
     return cast("_Function", compiled)
 
 

@@ -25,7 +25,8 @@ from symgen.native.calls import caller, kind_of
 from symgen.native.compiler import compiler, interpreted
 from symgen.native.machine import load, lock, processor
 from symgen.store.entries import cached, plain_name
-from symgen.store.identity import SOURCES, combined_digest, content, file_digest, source_stamp, sources_digest
+from symgen.store.identity import combined_digest, content, file_digest
+from symgen.store.sources import COMPILER, reached_digest, source_stamp
 from symgen.store.stats import CompilationClock
 from symgen.store.upkeep import NATIVE
 
@@ -134,9 +135,7 @@ class MachineFunction(ABC):
 
     def key(self, arguments: Arguments) -> str:
         """Return the key of the machine code for arguments of some types, with all that it depends on."""
-        return "\n".join(
-            (self.identity(), repr(arguments), processor(), _environment(), sources_digest(*SOURCES["compiler"]))
-        )
+        return "\n".join((self.identity(), repr(arguments), processor(), _environment(), reached_digest(*COMPILER)))
 
     def symbol(self, arguments: Arguments) -> str:
         """Return the name in machine code, with a digest of all that the machine code depends on."""

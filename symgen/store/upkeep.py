@@ -25,7 +25,7 @@ from symgen.store.paths import private_folder
 if TYPE_CHECKING:
     from filelock import BaseFileLock
 
-MODELS, NATIVE, BYTECODE, LOCKS = "models", "native", "bytecode", "locks"
+MODELS, NATIVE, BYTECODE, TABLES, LOCKS = "models", "native", "bytecode", "tables", "locks"
 LIMIT = 10**9
 
 # `<name>_<digest16>_<format>`: the digest has a fixed length, so underscores in the name do no harm.
@@ -147,8 +147,8 @@ def _model_folders(root: Path) -> Iterator[Path]:
 
 
 def _compiled_folders(root: Path) -> Iterator[Path]:
-    """Yield the folders of machine code and byte code, subfolders before their parents."""
-    for name in (NATIVE, BYTECODE):
+    """Yield the folders of machine code, byte code and tables, subfolders before their parents."""
+    for name in (NATIVE, BYTECODE, TABLES):
         yield from (path for path in _listing(root / name) if path.is_dir() and not path.is_symlink())
         yield root / name
 

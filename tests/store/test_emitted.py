@@ -43,7 +43,7 @@ class TestKey:
     def test_an_edited_translator_makes_everything_anew(self, law, monkeypatch):
         function = load_module(law).rhs
         before = function.symbol(KINDS)
-        monkeypatch.setattr(jit, "sources_digest", lambda *folders: "another")
+        monkeypatch.setattr(jit, "reached_digest", lambda *roots: "another")
         assert function.symbol(KINDS) != before
 
     def test_another_processor_has_code_of_its_own(self, law, python):

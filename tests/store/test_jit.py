@@ -12,7 +12,7 @@ import pytest
 from symgen.base.errors import InputError
 from symgen.native.machine import load
 from symgen.native.types import FunctionType, float64, int64
-from symgen.store import identity, jit, private
+from symgen.store import jit, private
 from symgen.store.stats import cache_stats
 
 from .conftest import LAW, LOOPS, MODEL, RUN
@@ -235,19 +235,6 @@ class TestMade:
 
 
 class TestIdentity:
-    def test_the_stamp_covers_runtime_and_integrators(self, tmp_path, monkeypatch):
-        (tmp_path / "store").mkdir()
-        for folder in ("loops", "integrators"):
-            (tmp_path / folder).mkdir()
-            (tmp_path / folder / "a.py").write_text("a = 1")
-        monkeypatch.setattr(identity, "__file__", str(tmp_path / "store" / "identity.py"))
-        stamps = set()
-        for path in (None, "loops/a.py", "integrators/a.py", "integrators/new.py"):
-            if path is not None:
-                (tmp_path / path).write_text("a = 2")
-            stamps.add(identity.sources_digest.__wrapped__("loops", "integrators"))
-        assert len(stamps) == 4
-
     def test_what_a_name_means_is_part_of_the_key(self, monkeypatch):
         keys = set()
         for meaning in (half, at_the_top, 3.0, 3, -0.0, 0.0):

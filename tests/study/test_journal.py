@@ -225,22 +225,6 @@ def test_progress_counts_what_was_found_and_estimates_the_rest(tmp_path):
     assert sorted(traced(tmp_path)) == [0, 1, 2, 3, 4, 5]
 
 
-@pytest.mark.parametrize("edited", ["native/llvm.py", "store/emitted.py", "loops/frame.py", "base/settings.py"])
-def test_cells_are_those_of_the_code_that_made_them(edited, monkeypatch):
-    """Run times are kept as well, so that what makes machine code counts as much as what it computes."""
-    from symgen.store.identity import sources_digest
-    from symgen.study.journal import code_identity
-
-    known, real = code_identity(), Path.read_bytes
-    monkeypatch.setattr(
-        Path, "read_bytes", lambda self: real(self) + b"#" * self.as_posix().endswith(f"symgen/{edited}")
-    )
-    sources_digest.cache_clear()
-    after = code_identity()
-    sources_digest.cache_clear()
-    assert after != known
-
-
 @pytest.mark.parametrize("kind", ["link", "hard link", "content"])
 def test_a_lock_that_is_a_file_of_somebody_else_is_refused(kind, tmp_path):
     """A lock is opened for writing: through a link `rows.lock` it emptied the file at its end."""
