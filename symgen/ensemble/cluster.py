@@ -5,6 +5,7 @@ The scheduler hands a chunk whose worker was lost to another one. Rows are writt
 
 from __future__ import annotations
 
+import logging
 from asyncio import CancelledError
 from collections.abc import Callable
 from contextlib import suppress
@@ -42,6 +43,9 @@ def connect(address: str) -> Client:
     need("scheduler", "distributed", extra="dask")
     from distributed import Client
 
+    # a scheduler that goes while it computes is one sentence of ours, not a traceback of the library
+    for name in ("distributed.batched", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         return Client(address, timeout=10, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
@@ -103,7 +107,7 @@ def run_there(
         try:
             future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{token_hex(8)}")
         except (Exception, CancelledError) as error:  # of a scheduler that has gone
-            raise _gave_up(index, error) from None
+            raise _gave_up(client, index, error) from None
         attempts[future.key] = (index, attempt)
         return future
 
@@ -111,7 +115,7 @@ def run_there(
     if not threads:
         raise SimulationError("the cluster has no workers")
     first = [hand_out(index, 1) for _, index in zip(range(_AHEAD * threads), waiting, strict=False)]
-    completed = as_completed(first)
+    completed = as_completed(first, loop=client.loop)  # else of the default client, which this one need not be
     try:
         for future in completed:
             index, attempt = attempts.pop(future.key)
@@ -127,7 +131,7 @@ def run_there(
             elif isinstance(result, SimulationError | InputError):
                 raise result
             elif attempt >= _ATTEMPTS or client.status != "running":
-                raise _gave_up(index, result)
+                raise _gave_up(client, index, result)
             completed.add(hand_out(index, attempt + 1))
     except KeyboardInterrupt:
         return True
@@ -137,8 +141,11 @@ def run_there(
     return False
 
 
-def _gave_up(index: int, error: BaseException) -> SimulationError:
+def _gave_up(client: Client, index: int, error: BaseException) -> SimulationError:
+    """Return the sentence for a chunk that is not computed."""
     why = (str(error) or type(error).__name__).splitlines()[0]
+    if client.status != "running":
+        why = "the connection to the scheduler was lost"
     return SimulationError(f"the cluster could not compute chunk {index}: {why}")
 
 

@@ -58,7 +58,7 @@ _LIBRARY = (
     "sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn significand drem finite isinf isnan isfinite abs abort exit main "
     "printf memcpy memset div labs atoi atof system time clock signal index double_t float_t"
 )
-_OWN = ("end", "real", "mechanism", "model", "M", "I", "FINE", "EOF", "NULL", "NAN", "SMALL", "LARGE")
+_OWN = ("end", "real", "mechanism", "model", "I", "EOF", "NULL", "NAN", *(head.split("(")[0] for head, _, _ in _MACROS))
 #: Reserved words: keywords, names of the library, and the files' own names.
 RESERVED = frozenset((*_KEYWORDS.split(), *_LIBRARY.split(), *HELPERS, *_OWN))
 
@@ -75,7 +75,12 @@ _WIDTH = 120
 _LONGEST = 600
 
 
-def c_functions(functions: Mapping[str, lang.Function], bound: BoundFunctions | None = None, memory: str = "") -> str:
+def c_functions(
+    functions: Mapping[str, lang.Function],
+    bound: BoundFunctions | None = None,
+    memory: str = "",
+    around: frozenset[str] = frozenset(),
+) -> str:
     """Return the text of functions and their callees, each once, callees first, after their helpers.
 
     Parameters
@@ -86,9 +91,12 @@ def c_functions(functions: Mapping[str, lang.Function], bound: BoundFunctions | 
         Functions of the runtime bound to a model, which follow.
     memory : str
         Type of the structure with the memory of these.
+    around : frozenset of str
+        Names in the text around the functions, which callees do not take.
     """
     bound = bound or BoundFunctions({})
-    order, names = ordered({**functions, **bound.functions}, RESERVED)
+    given = {**functions, **bound.functions}
+    order, names = ordered(given, RESERVED | (around - given.keys()))
     written: dict[object, frozenset[str]] = {}
     for function in order:
         written[function.key] = _written(function, written)
@@ -163,7 +171,7 @@ def _names(body: object) -> frozenset[str]:
     """Return the names of arrays and variables that statements read or change."""
     names = set[str]()
     for value in visited(body):
-        if isinstance(value, lang.Variable | lang.Assign | lang.For):
+        if isinstance(value, lang.Variable | lang.Assign):
             names.add(value.name)
         elif isinstance(value, lang.ArrayElement | lang.Store | lang.ArrayView):
             names.add(value.array)

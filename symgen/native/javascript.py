@@ -81,7 +81,7 @@ RESERVED = frozenset(
     "arguments await break case catch class const debugger default delete enum eval export extends function implements "
     "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
     "var void with yield Math copysign floored rest least greatest square power "
-    "end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
+    "derive describe end newMemory quotient modulus nearest part low times sineOf cosineOf quarter sine cosine".split()
 )
 
 _CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}

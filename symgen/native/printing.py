@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import ClassVar
 
 from symgen.native import language as lang
+from symgen.native.folding import visited
 
 #: Precedence of binary operators in C and JavaScript. Signs that differ are in the printers.
 _SIGNS = {"add": ("+", 12), "sub": ("-", 12), "mul": ("*", 13), "div": ("/", 13), "and": ("&&", 5), "or": ("||", 4)}
@@ -23,7 +24,7 @@ def ordered(
     functions : mapping of str to Function
         Functions by their names in the text.
     reserved : collection of str
-        Reserved words.
+        Reserved words, and names that a text around the functions has; `functions` keep their names.
     """
     names: dict[object, str] = {function.key: name for name, function in functions.items()}
     order, defined = list[lang.Function](), set[object]()
@@ -86,6 +87,7 @@ class FunctionPrinter(ABC):
         self.views = dict[str, None]()  # names of arrays and of lengths that are assigned
         #: Variables whose only assignment is a statement of the body itself.
         self.once = function.fixed & {s.name for s in function.body if isinstance(s, lang.Assign)}
+        self.read = {value.name for value in visited(function.body) if isinstance(value, lang.Variable)}
 
     @abstractmethod
     def text(self) -> str:
@@ -176,7 +178,7 @@ class FunctionPrinter(ABC):
         assert isinstance(s, lang.For), "the language has no other statements"
         self.counters += 1
         counter = f"counter{self.counters}"
-        named = [f"{self.word(s.name)} = {counter};"] if s.name else []
+        named = [f"{self.word(s.name)} = {counter};"] if s.name in self.read else []
         return [self.loop_head(s, counter), *named, *self.lines(s.body), "}"]
 
     def passed(self, e: lang.FunctionCall) -> list[str]:

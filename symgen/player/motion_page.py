@@ -115,9 +115,13 @@ def _script(live: Live | None, spatial: bool) -> str:
 
 
 def _emitted(live: Live, functions: str, *further: str) -> str:
-    """Return emitted code, an object of the functions that it has, and what evaluates them."""
+    """Return emitted code as an object of the functions that it has, and what evaluates them.
+
+    The code is a function's body, so that none of its names is one of the page's.
+    """
     names = [n for n in functions.split() if f"function {n}(" in live.code or f"const {n} =" in live.code]
-    return f"{live.code}const emitted = {{ {', '.join([*names, *further])} }};\n{_web('rates.js')}"
+    given = f"return {{ {', '.join([*names, *further])} }};"
+    return f"const emitted = (() => {{\n{live.code}{given}\n}})();\n{_web('rates.js')}"
 
 
 def model_script(live: Live) -> str:

@@ -33,7 +33,7 @@ from symgen.running.start_lines import (
     is_described,
     written_start,
 )
-from symgen.targets._c_names import prefix_of
+from symgen.targets._c_names import defined_names, prefix_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -113,7 +113,7 @@ class CModel:
     @cached_property
     def text(self) -> str:
         """Emitted functions in C."""
-        return c_functions(self.functions, self.bound, "mechanism")
+        return c_functions(self.functions, self.bound, "mechanism", defined_names())
 
     @property
     def columns(self) -> tuple[Quantity, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache
 
 from symgen.base.files import templates_folder
@@ -36,6 +37,8 @@ _DECLARED = frozenset(
 #: Names that standards keep for libraries: of types, of functions for texts and memory, of mathematics.
 _KEPT = re.compile(r".*_[trl]|(str|mem|wcs)[a-z0-9]+|.*_(unlocked|np)|.*64|f(32|64|128)[a-z0-9]+")
 _PRECISION = re.compile(r"(f|l|f32x?|f64x?|f128)$")
+#: Functions and macros with arguments, arrays without a size, types.
+_DEFINED = re.compile(r"\b([A-Za-z]\w*) ?\(|\b([A-Za-z]\w*)\[\]|^(?:typedef [^;{]*\b|\} )(\w+);", re.MULTILINE)
 _PREFIX = re.compile(r"\{\{ (prefix|upper) \}\}")
 _NO_CODE = re.compile(r"\{[%#{].*?[%#}]\}|/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
 
@@ -69,10 +72,21 @@ def _is_taken(prefix: str, names: frozenset[str]) -> bool:
 
 
 @lru_cache(maxsize=1)
+def defined_names() -> frozenset[str]:
+    """Return the functions, types and arrays that the templates of both targets have: no printed function is one."""
+    texts = (_NO_CODE.sub(" ", text) for text in _templates())
+    return frozenset(next(filter(None, names)) for text in texts for names in _DEFINED.findall(text))
+
+
+@lru_cache(maxsize=1)
 def _of_templates() -> frozenset[str]:
     """Return the names in the templates, in all files of both targets."""
-    texts = (path.read_text(encoding="utf-8") for path in sorted((templates_folder() / "c").glob("*.[ch].j2")))
-    return frozenset().union(*(_words(_PREFIX.sub("_", text)) for text in texts))
+    return frozenset().union(*map(_words, _templates()))
+
+
+def _templates() -> Iterator[str]:
+    for path in sorted((templates_folder() / "c").glob("*.[ch].j2")):
+        yield _PREFIX.sub("_", path.read_text(encoding="utf-8"))
 
 
 def _words(text: str) -> frozenset[str]:
