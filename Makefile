@@ -56,7 +56,7 @@ slow: $(INSTALLED)  ## run the slow tests
 browser: $(INSTALLED)  ## run the tests of pages in Chromium, which is installed where it is missing and apt-get can
 	@command -v chromium chromium-browser google-chrome chrome >/dev/null || test -n "$$SYMGEN_BROWSER" \
 	  || { echo "installing Chromium"; apt-get update -qq && apt-get install -qq --yes chromium >/dev/null; }
-	@"$(BIN)/python" -m pytest -m browser tests/browser
+	@"$(BIN)/python" -m pytest -m browser tests/browser tests/processes
 
 lint: $(INSTALLED)  ## check format, style, types and the direction of imports
 	@"$(BIN)/ruff" format --check .

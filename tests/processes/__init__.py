@@ -1,0 +1,1 @@
+"""What users start as processes, as pages say: programs of this environment, each in a process of its own."""

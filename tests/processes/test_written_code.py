@@ -1,0 +1,65 @@
+"""C by a compiler and an FMU in FMPy, by the commands of `docs/howto/c-and-fmu.md`, against a run in a process."""
+
+import csv
+import json
+import sys
+import zipfile
+
+import pytest
+
+from tests.processes.programs import block_of, command_of, shell
+
+PAGE = "howto/c-and-fmu.md"
+RUN = "symgen run four-bar --method direct-correction --integrator rk4 --shape straight --no-verify --json"
+
+
+def final(words, folder):
+    """Return the last state of a run."""
+    out, _ = shell(f"{RUN} {words}", folder)
+    return json.loads(out)["final"]
+
+
+def test_c_by_the_compiler_of_the_page(tmp_path):
+    shell(command_of(PAGE, "symgen generate four-bar --target c"), tmp_path)
+    _, said = shell(command_of(PAGE, "cc -std=c99 -O2 four-bar-c"), tmp_path)
+    assert said == ""
+    with (tmp_path / "motion.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    own = final("", tmp_path)
+    last = {name.split(" ")[0]: float(value) for name, value in rows[-1].items()}
+    assert last["t"] == pytest.approx(own["t"], abs=1e-12) and own["t"] == 10.0
+    for name in ("crank.theta", "rocker.omega"):
+        assert last[name] == pytest.approx(value_of(own, name), abs=1e-9)
+
+
+def value_of(found, name):
+    """Return a quantity of the last state."""
+    for part in ("q", "v"):
+        if name in found[part]:
+            return found[part][name]
+    raise AssertionError(f"{name} is not in {found}")
+
+
+def test_an_fmu_in_fmpy_as_the_page_has_it(tmp_path):
+    (tmp_path / "simulated.py").write_text(block_of(PAGE, "rows = simulate_fmu("))
+    out, _ = shell(f"{sys.executable} simulated.py", tmp_path)
+    own = final("--set crank_mass=2.5 --until 1", tmp_path)
+    assert float(out) == pytest.approx(value_of(own, "crank.theta"), abs=1e-9)
+
+
+def test_an_fmu_by_the_command_and_its_library_by_the_compiler_of_the_page(tmp_path):
+    shell(command_of(PAGE, "symgen generate four-bar --target fmu --output four-bar.fmu"), tmp_path)
+    with zipfile.ZipFile(tmp_path / "four-bar.fmu") as archive:
+        archive.extractall(tmp_path / "unpacked")
+    (library,) = (tmp_path / "unpacked" / "binaries" / "linux64").iterdir()
+    library.unlink()
+    _, said = shell(command_of(PAGE, "cc -std=c99 -O2 -shared"), tmp_path / "unpacked")
+    assert said == "" and library.is_file()
+    script = (
+        "import os\nfrom fmpy import simulate_fmu\n"
+        "rows = simulate_fmu(os.path.abspath('unpacked'), stop_time=1.0, output=['crank.theta'])\n"
+        "print(rows['crank.theta'][-1])\n"
+    )
+    (tmp_path / "simulated.py").write_text(script)
+    out, _ = shell(f"{sys.executable} simulated.py", tmp_path)
+    assert float(out) == pytest.approx(value_of(final("--until 1", tmp_path), "crank.theta"), abs=1e-9)
