@@ -220,3 +220,16 @@ def test_what_has_just_been_written_is_not_kept(settled, tmp_path, monkeypatch):
     monkeypatch.setattr(sources, "_RECENT", float("inf"))
     identities()
     assert tables(tmp_path) == []
+
+
+def test_an_archive_is_one_source(tmp_path, monkeypatch):
+    """All that is in it changes with it."""
+    stamps = set()
+    for text in (b"one", b"another"):
+        archive = tmp_path / f"{text.decode()}.zip"
+        archive.write_bytes(text)
+        monkeypatch.setattr(sources, "_PACKAGE", str(archive / "symgen"))
+        forget()
+        stamps.add((sources.package_digest(), sources.reached_digest(*sources.LOOPS)))
+    forget()
+    assert len({package for package, _ in stamps}) == len({loops for _, loops in stamps}) == 2
