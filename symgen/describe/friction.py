@@ -311,13 +311,13 @@ def coefficient_of(friction: Friction) -> Expr:
 def effort_in_motion(friction: Friction) -> Effort:
     """Return the effort of a coordinate that moves; its sign is a number of the row, 0 at rest.
 
-    Of friction by a reaction it is the rest: the viscous part and, where the row is off, the number ``limit``.
+    The number ``effort`` is that of friction at rest which shares its hold with other rows, 0 in motion. Of friction by
+    a reaction only this and the viscous part are here.
     """
     rate = Name("rate")
-    if friction.pressed:
-        against = call("mul", call("sub", ONE, number_of(friction, "held")), number_of(friction, "limit"))
-    else:
-        against = call("mul", sign_of_rate(friction), bound_in_motion(friction, rate))
+    against: Expr = number_of(friction, "effort")
+    if not friction.pressed:
+        against = call("add", against, call("mul", sign_of_rate(friction), bound_in_motion(friction, rate)))
     return Effort("friction", friction.measure, call("neg", call("add", against, call("mul", friction.viscous, rate))))
 
 

@@ -201,7 +201,7 @@ class CompiledModel(ABC):
         return w
 
     def modes(self, w: Array) -> Array:
-        """Return a view of the modes of rows that may be off, shape (rows, 3), see `symgen.ir.program.MODES`."""
+        """Return a view of the modes of rows that may be off, one line a row, see `symgen.ir.program.MODES`."""
         if not self.info.switchable:
             return w[:0].reshape(0, MODE_NUMBERS)
         return self.section(w, "modes").reshape(-1, MODE_NUMBERS)

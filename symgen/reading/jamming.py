@@ -31,7 +31,7 @@ def jamming_numbers(run: Prepared) -> dict[str, float]:
         return {}
     w = start.w.copy()
     places = [compiled.info.switchable.index(row) for row in compiled.info.bounded]
-    compiled.modes(w)[places] = 0.0, 0.0, 1.0, 0.0
+    compiled.modes(w)[places] = 0.0, 0.0, 1.0, 0.0, 0.0
     counters = np.zeros(len(COUNTERS), dtype=np.int64)
     rate_function(compiled)(start.t, start.y.copy(), start.p, w, counters, np.zeros_like(start.y))
     numbers = np.sqrt(compiled.section(w, JAMMING)).tolist()

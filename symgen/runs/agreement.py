@@ -17,6 +17,7 @@ from symgen.native import types
 from symgen.runs.bounded_rows import (
     AT_BOUND,
     CHOICE,
+    CONSTANT,
     DISAGREED,
     HELD,
     JAMMED,
@@ -233,12 +234,12 @@ def follow_reactions(c: Any, resting: int) -> int:
     after, sharing = c.after, 0
     for i in range(c.count):
         at = MODE_NUMBERS * i
-        sharing += 1 if after[at + HELD] == 0.0 and after[at + LIMIT] != 0.0 else 0
+        sharing += 1 if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0 else 0
     if sharing > 0 and resting > 0 and (c.changes != 0 or can_move(c) != 0):
         count = 0
         for i in range(c.count):
             at = MODE_NUMBERS * i
-            if after[at + HELD] != 0.0 or after[at + LIMIT] != 0.0:
+            if after[at + HELD] != 0.0 or after[at + CONSTANT] != 0.0:
                 c.named[count] = i
                 count += 1
         c.named[count] = -1

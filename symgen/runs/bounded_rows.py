@@ -38,7 +38,10 @@ LEAST_MASS = 1e-4
 #: Assumed step until an adaptive run has chosen one, as a part of the run.
 FIRST = 1e-3
 #: Places of the numbers of a row.
-HELD, CONSTANT, SIGN, LIMIT = range(4)
+HELD, CONSTANT, SIGN, LIMIT, EFFORT = range(5)
+#: Constant of a row that is off and at rest with an effort of its own, of a stop 0. Where another row carries it, the
+#: constant is the number of that row, counted from 1.
+AT_REST = -1.0
 #: Codes: the same modes; others; accelerations that are not finite; no forces found; forces that are not determined;
 #: bounds, gaps or restitutions that are undefined or out of range.
 SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
@@ -156,7 +159,7 @@ def usual_of(c: Any, w: Any, i: int) -> float:
 def is_held(c: Any, w: Any, i: int) -> bool:
     """Return whether a row is in force, or others carry its force: it is at rest or closed by its mode."""
     at = c.first + MODE_NUMBERS * i
-    return bool(w[at + HELD] != 0.0 or (w[at + SIGN] == 0.0 and w[at + LIMIT] != 0.0))
+    return bool(w[at + HELD] != 0.0 or (w[at + SIGN] == 0.0 and w[at + CONSTANT] != 0.0))
 
 
 @exact()

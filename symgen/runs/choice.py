@@ -22,6 +22,7 @@ from symgen.runs.bounded_rows import (
     CHOICE,
     CONSTANT,
     DEPENDENT,
+    EFFORT,
     HELD,
     LEAST_MASS,
     LIMIT,
@@ -102,10 +103,10 @@ def accelerate(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) 
         c.iw[i] = iw[i]
     for i in range(c.count):
         at = c.first + MODE_NUMBERS * i
-        c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = 0.0
+        c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = c.w[at + EFFORT] = 0.0
         c.w[at + SIGN] = c.trial[i]
     if c.pushed[0] >= 0:
-        c.w[c.first + MODE_NUMBERS * c.pushed[0] + LIMIT] = 1.0
+        c.w[c.first + MODE_NUMBERS * c.pushed[0] + EFFORT] = 1.0
     if c.w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
         c.w[abi.STEP_STATUS] = c.step[0]
     if c.rates(t, c.y, p, c.w, c.iw, c.rate) != 0:
@@ -194,8 +195,8 @@ def find_rest(c: Any, w: Any) -> int:
         still = (still or is_held(c, w, i)) and not (stop and not is_shut(c, w, i))
         loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
         loose = (loose and c.stopped[i] == 0) or c.left[i] != 0
-        owner = int(c.before[at + CONSTANT])
-        if c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0 and c.before[at + LIMIT] != 0.0 and owner >= 0:
+        owner = int(c.before[at + CONSTANT]) - 1
+        if c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0 and owner >= 0:
             moves = c.broken[owner] + c.left[owner] != 0
             loose = loose or (moves and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
         c.loose[i] = 1 if loose else 0
@@ -302,12 +303,13 @@ def measure_margins(c: Any, w: Any, hunt: Any) -> int:
     for k in range(n):
         kind, i = int(hunt[at + MARGIN * n + k]), int(hunt[at + ROW * n + k])
         size, pace = 1.0, math.inf
+        rests = is_held(c, w, i)
         if kind == FORCE:
             size = c.scale[i]
         elif kind == GAP:
             size, pace = row_scale(c, w, i, abi.LENGTH), STILL * row_scale(c, w, i, abi.SPEED)
         elif kind == RATE:
-            size = row_scale(c, w, i, abi.SPEED)
+            size = math.inf if rests else row_scale(c, w, i, abi.SPEED)
         hunt[at + MEASURE * n + k], hunt[at + PACE * n + k] = size, pace
         found += 1 if kind != 0 else 0
     return found

@@ -9,9 +9,12 @@ from symgen.layout.scales import larger
 from symgen.loopcode.exact import exact
 from symgen.native import types
 from symgen.runs.bounded_rows import (
+    AT_BOUND,
+    AT_REST,
     CHOICE,
     CONSTANT,
     DEPENDENT,
+    EFFORT,
     HELD,
     LIMIT,
     NO_ACCELERATION,
@@ -25,6 +28,8 @@ from symgen.runs.box import independent_set, solve_independent
 
 _A, _N = types.float64[::1], types.int64
 
+#: Rows at rest that are put into force: see `take_rows`.
+PUSHING, WITHIN, ALL = range(3)
 #: Rows of which equal parts are independent, up to this part, hold one coordinate.
 _LEVEL = 1e-6
 
@@ -36,15 +41,20 @@ def independence(c: Any, i: int) -> float:
 
 
 @exact()
-def take_rows(c: Any, n: int, pushing: bool, w: Any) -> None:
-    """Put the most independent rows at rest into force, one after the other; `pushing`: only stops that push."""
+def take_rows(c: Any, n: int, which: int, w: Any) -> None:
+    """Put the most independent rows at rest into force, one after the other.
+
+    `which` is `PUSHING` for stops that push, `WITHIN` for others whose force is within its bounds, else `ALL`.
+    """
     k, left = c.count, c.rest_of
     while True:
         best, most = -1, 0.0
         for r in range(n):
             i = c.rest[r]
             free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (i >= c.dry and c.loose[i] != 0)
-            if pushing:
+            if which == WITHIN:
+                free = free and (i >= c.dry or abs(c.forces[i]) < AT_BOUND * c.static[i])
+            elif which == PUSHING:
                 least = NO_ACCELERATION * usual_of(c, w, i)
                 free = free and i >= c.dry and -c.forces[i] * c.matrix[i * k + i] > least
             part = independence(c, i)
@@ -79,12 +89,13 @@ def hold_rows(c: Any, w: Any) -> int:
         if c.matrix[i * k + i] > DEPENDENT * c.alone[i] or c.signs[i] == 0.0:
             c.rest[kept] = i
             kept += 1
-    take_rows(c, kept, True, w)
+    take_rows(c, kept, PUSHING, w)
     for r in range(kept):
         i = c.rest[r]
         if i < c.dry and c.passing[i] == 0 and independence(c, i) <= DEPENDENT:
             c.signs[i] = 0.0
-    take_rows(c, kept, False, w)
+    take_rows(c, kept, WITHIN, w)
+    take_rows(c, kept, ALL, w)
     count = 0
     for i in range(k):
         at = MODE_NUMBERS * i
@@ -107,7 +118,11 @@ def hold_rows(c: Any, w: Any) -> int:
 
 @exact()
 def share_force(c: Any, i: int, count: int) -> int:
-    """Give the effort of a row that rows in force determine to the one that carries it."""
+    """Give the effort of a row that rows in force determine to the one that carries it.
+
+    Where several do, dry friction keeps the effort that it has: as long as theirs are within their bounds all rest, and
+    where one reaches its bound, efforts are shared out anew.
+    """
     k, box, after = c.count, c.box, c.after
     a = 0
     for j in range(k):
@@ -130,24 +145,29 @@ def share_force(c: Any, i: int, count: int) -> int:
     for j in range(rank):
         box.left[box.order[j]] = box.right[j]
         most = larger(most, abs(box.right[j]))
-    owners, stops, owner, a, factor = 0, 0, -1, 0, 0.0
+    owners, owner, a, factor = 0, -1, 0, 0.0
     c.named[0] = i
     for j in range(k):
         if c.taken[j] != 0:
             if abs(box.left[a]) > NO_FACTOR * most:
                 owners += 1
-                stops += 1 if j >= c.dry else 0
                 owner, factor = j, abs(box.left[a])
                 c.named[owners] = j
             a += 1
     at = MODE_NUMBERS * i
-    if i >= c.dry or (stops == owners and owners != 1):
-        after[at + CONSTANT], after[at + LIMIT] = -1.0, 1.0
+    if i >= c.dry:
+        after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
         return SAME
-    if owners != 1:
+    if owners == 1:
+        after[at + CONSTANT] = float(owner + 1)
+        after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
+        return SAME
+    pressed = c.pressed[i] != 0
+    for j in range(1, owners + 1):
+        pressed = pressed or c.pressed[c.named[j]] != 0
+    if pressed:
         for j in range(owners + 1, k + 1):
             c.named[j] = -1
         return NOT_DETERMINED
-    after[at + CONSTANT], after[at + LIMIT] = float(owner), factor * c.static[i]
-    after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
+    after[at + CONSTANT], after[at + EFFORT] = AT_REST, c.forces[i]
     return SAME

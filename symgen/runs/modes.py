@@ -52,7 +52,7 @@ def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, fl
             expected = "1 or 0, a finite value, a sign of -1, 0 or 1 and a finite effort"
             raise InputError(f"modes.{name}", expected, f"{held:g}, {constant:g}, {sign:g}, {limit:g}")
     for name, mode in modes.items():
-        compiled.modes(w)[places[name]] = mode
+        compiled.modes(w)[places[name]] = (*mode, 0.0)
     begin_in_modes(simulation)
 
 

@@ -52,7 +52,7 @@ def rates(
     info, iw, rate = compiled.info, np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros_like(run.start.y)
     y[info.nq : info.nq + info.nv] *= moved
     for row, modes in zip(info.switchable, compiled.modes(w), strict=True):
-        modes[:] = 0.0, 0.0, signs[info.rows[row].joint], 0.0
+        modes[:] = 0.0, 0.0, signs[info.rows[row].joint], 0.0, 0.0
     assert Ready(compiled.law_module.rhs, abi.RHS)(0.0, y, p, w, iw, rate) == doubtful
     if doubtful:
         assert Ready(compiled.law_module.confirm, abi.RHS)(0.0, y, p, w, iw, rate) == 0
@@ -68,7 +68,7 @@ def rates(
 
 @pytest.mark.parametrize(
     ("friction", "pins", "more"),
-    [({"sliding": 4.0}, "A", 8), ({"sliding": 4.0}, "ABCD", 24), (BY_REACTION, "A", 96), (BY_REACTION, "AB", 332)],
+    [({"sliding": 4.0}, "A", 8), ({"sliding": 4.0}, "ABCD", 28), (BY_REACTION, "A", 96), (BY_REACTION, "AB", 332)],
     ids=["one", "four", "one-by-reaction", "two-by-reaction"],
 )
 def test_sliding_costs_few_operations(friction: dict[str, float], pins: str, more: int) -> None:

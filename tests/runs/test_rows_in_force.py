@@ -13,6 +13,7 @@ from symgen.describe.digest import digest
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.describe.switching import with_switchable
+from symgen.ir.program import MODE_NUMBERS
 from symgen.layout import abi
 from symgen.running.prepare import Prepared, prepare
 from symgen.runs.modes import set_modes
@@ -150,7 +151,7 @@ def test_outputs_keep_the_modes() -> None:
     whole, _, joint = catalogued("four-bar")
     run = ready(with_switchable(whole, joint), 1.0)
     _, outputs, _, _ = released(run, 0.8, [0.1, 0.4, 0.6, 0.8])
-    held = outputs.status[:, abi.N_STATUS + run.compiled.info.windings :: 4]
+    held = outputs.status[:, abi.N_STATUS + run.compiled.info.windings :: MODE_NUMBERS]
     np.testing.assert_array_equal(held, [[1.0, 1.0], [1.0, 1.0], [0.0, 0.0], [0.0, 0.0]])
 
 
@@ -184,7 +185,7 @@ def test_a_row_is_held_at_its_constant() -> None:
     compiled, w = simulation.compiled, simulation.state.w
     set_modes(simulation, {f"{joint}.x": (1.0, 0.1, 0.0, 0.0), f"{joint}.y": (0.0, 0.3, 1.0, 2.0)})
     np.testing.assert_allclose(compiled.section(w, "residual")[-2:], [-0.1, 0.0], rtol=0, atol=1e-14)
-    np.testing.assert_array_equal(compiled.modes(w), [[1.0, 0.1, 0.0, 0.0], [0.0, 0.3, 1.0, 2.0]])
+    np.testing.assert_array_equal(compiled.modes(w), [[1.0, 0.1, 0.0, 0.0, 0.0], [0.0, 0.3, 1.0, 2.0, 0.0]])
 
 
 @pytest.mark.parametrize(
