@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -108,6 +108,7 @@ class _Validator:
     def __init__(self, raw: Raw, source: str, errors: Errors) -> None:
         self.raw, self.source = raw, source
         self.errors = errors
+        self._entries: dict[str, list[tuple[str, Any]]] = {}
         self._joints: dict[str, Joint | None] = {}
         self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
@@ -226,13 +227,19 @@ class _Validator:
 
     # Names ---------------------------------------------------------------------------------------------------------
 
-    def entries(self, section: str) -> Iterator[tuple[str, Any]]:
-        """Yield name and content of a section's entries, names checked."""
+    def entries(self, section: str) -> Sequence[tuple[str, Any]]:
+        """Return name and content of a section's entries, names checked."""
+        if section not in self._entries:
+            self._entries[section] = list(self.checked(section))
+        return self._entries[section]
+
+    def checked(self, section: str) -> Iterator[tuple[str, Any]]:
+        """Yield name and content of a section's entries whose names are right."""
         content = self.raw.get(section, {})
         if not isinstance(content, Mapping):
             with self.errors.apart():
                 raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
-            content = {}
+            raise Incomplete  # which names the rest may use is unknown
         for name, value in content.items():
             right = name in self._parts
             if not right:
@@ -259,24 +266,24 @@ class _Validator:
 
     def beams(self, read_body: Callable[[Scope, object], AnyBody]) -> Beams | None:
         """Put the nodes and elements of beams into the description; return the beams, None where there are none."""
-        if not any(self.entries("beams")):
+        if not self.entries("beams"):
             return None
         from symgen.describe.beams import Beams
 
-        for section in ("bodies", "joints", "forces"):
-            any(self.entries(section))
         with self.errors.apart(*(name for name, _ in self.entries("beams"))):
-            beams = Beams(self.raw, self.scope, read_body)
+            beams = Beams(self.raw, self.scope, read_body, self.errors)
             self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
+            self._entries.clear()
             return beams
         return None
 
     def bodies(self, read_body: Callable[[Scope, object], AnyBody], beams: Beams | None) -> tuple[AnyBody, ...]:
         """Return the bodies, and the nodes of beams."""
         bodies = self.each("bodies", lambda name, value: read_body(self.scope("bodies", name), value))
-        with self.errors.apart():
-            if not bodies and not self.errors.found:
+        if not self.raw.get("bodies"):
+            with self.errors.apart():
                 raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+            raise Incomplete
         with self.errors.apart(*(body.name for body in bodies)):
             return bodies if beams is None else tuple(map(beams.with_ends, bodies))
         return ()
