@@ -13,6 +13,8 @@ from symgen.describe.validate import errors_of
 
 _INDEX = re.compile(r"\[(\d+)\]")
 _AT = re.compile(r"\(at line (\d+), column (\d+)\)$")
+#: Body or force that is a node or an element of a beam, whose table has the keys.
+_PART_OF_BEAM = re.compile(r"(?:bodies|forces)\.(\w+)\.\w+(.*)")
 _NOWHERE = Place(None, None)
 
 
@@ -97,7 +99,11 @@ def _syntax(error: InputError) -> Place:
 
 def _place(error: InputError, source: str, raw: Mapping[str, Any], found: Mapping[Path, Place]) -> Place:
     """Return the place of the innermost part of a file, with its content and its places, that an error leads to."""
-    path = _followed(raw, _path_in(error, source))
+    words = _path_in(error, source)
+    part = _PART_OF_BEAM.match(words)
+    if part is not None and part[1] in raw.get("beams", ()):
+        words = f"beams.{part[1]}{part[2]}"
+    path = _followed(raw, words)
     if error.key and (*path, error.key) in found:
         path = (*path, error.key)
     return found.get(path, _NOWHERE)

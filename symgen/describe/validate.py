@@ -96,10 +96,10 @@ def errors_of(raw: Raw, source: str) -> tuple[InputError, ...]:
 
     Errors that follow from tables which are wrong, such as joints of their bodies, are left out.
     """
-    validator = _Validator(raw, source, Errors(all_of_them=True))
-    with suppress(Incomplete):
-        validator.mechanism()
-    return tuple(validator.errors.found.values())
+    errors = Errors(all_of_them=True)
+    with suppress(Incomplete), errors.apart():
+        _Validator(raw, source, errors).mechanism()
+    return tuple(errors.found.values())
 
 
 class _Validator:
@@ -129,7 +129,9 @@ class _Validator:
         """Return what `read` makes of name and content of a section's entries, each apart from the others."""
         results = []
         for name, value in self.entries(section):
-            with self.errors.apart(name):
+            beam = (name.partition(".")[0],) if name in self._parts else ()  # whose further parts are wrong alike
+            with self.errors.apart(name, *beam):
+                self.errors.need(*beam)
                 results.append(read(name, value))
         return tuple(results)
 
@@ -148,10 +150,13 @@ class _Validator:
             with self.errors.apart():
                 check_mechanism_name(head.name, f"{where}.name")
             return head
-        space = self.raw["mechanism"].get("space") if isinstance(self.raw.get("mechanism"), Mapping) else None
-        if space not in ("planar", "spatial"):  # what is right in the rest depends on it
+        # What is right in the rest depends on the space.
+        table = self.raw.get("mechanism")
+        if not isinstance(table, Mapping) or table.get("space", "planar") not in ("planar", "spatial"):
             raise Incomplete
-        return MechanismSection(name="", space=space)
+        if "space" not in table and nearest("space", table).startswith("did you mean"):
+            raise Incomplete
+        return MechanismSection(name="", space=table.get("space", "planar"))
 
     def mechanism(self) -> Mechanism:
         head = self.head()
@@ -280,10 +285,9 @@ class _Validator:
     def bodies(self, read_body: Callable[[Scope, object], AnyBody], beams: Beams | None) -> tuple[AnyBody, ...]:
         """Return the bodies, and the nodes of beams."""
         bodies = self.each("bodies", lambda name, value: read_body(self.scope("bodies", name), value))
-        if not self.raw.get("bodies"):
-            with self.errors.apart():
-                raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
-            raise Incomplete
+        if not self.raw.get("bodies") and not self.raw.get("beams"):
+            self.errors.check()
+            raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
         with self.errors.apart(*(body.name for body in bodies)):
             return bodies if beams is None else tuple(map(beams.with_ends, bodies))
         return ()
