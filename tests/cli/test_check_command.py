@@ -67,7 +67,8 @@ def test_the_path_of_the_file_is_as_it_was_given(cli, folder):
 
 
 def test_check_shows_a_hundred_errors_at_most_and_json_has_all(cli, folder):
-    (folder / "many.toml").write_text("[mechanism]\nname = 'many'\n[parameters]\n" + "".join(f"p{i} = true\n" for i in range(150)))
+    wrong = "".join(f"p{i} = true\n" for i in range(150))
+    (folder / "many.toml").write_text(f"[mechanism]\nname = 'many'\n[parameters]\n{wrong}")
     code, out, err = cli("check", "many.toml", "--json")
     assert (code, len(json.loads(out)["errors"])) == (2, 150)
     assert err.count("\n") == 101 and err.endswith("many.toml: 50 more\n")
