@@ -37,7 +37,7 @@ class Source(str):
 
 @contextmanager
 def errors_in(source: str) -> Iterator[None]:
-    """Note in errors which file they are about, where `source` is that of a file."""
+    """Note the file in errors, where `source` has one."""
     try:
         yield
     except InputError as error:

@@ -92,7 +92,7 @@ def _path_in(error: InputError, source: str) -> str:
 
 
 def _syntax(error: InputError) -> Place:
-    """Return the place that an error about the text as TOML names; that of the whole file for other bounds of it."""
+    """Return the place of a syntax error of TOML; for other errors of the text none."""
     match = _AT.search(error.got)
     return _NOWHERE if match is None else Place(Span(int(match[1]), int(match[2]), 0), None)
 
