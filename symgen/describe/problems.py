@@ -12,6 +12,7 @@ from symgen.describe.places import Path, Place, Span, places
 from symgen.describe.validate import errors_of
 
 _INDEX = re.compile(r"\[(\d+)\]")
+_END = re.compile(r"[.\[]")
 _AT = re.compile(r"\(at line (\d+), column (\d+)\)$")
 #: Body or force that is a node or an element of a beam, whose table has the keys.
 _PART_OF_BEAM = re.compile(r"(?:bodies|forces)\.(\w+)\.\w+(.*)")
@@ -114,10 +115,10 @@ def _followed(value: object, words: str) -> Path:
     path: Path = ()
     while words:
         if isinstance(value, Mapping):
-            fitting = [key for key in value if words == key or words.startswith((f"{key}.", f"{key}["))]
-            if not fitting:
+            ends = (len(words), *(end.start() for end in reversed([*_END.finditer(words)])))
+            key = next((words[:end] for end in ends if words[:end] in value), None)
+            if key is None:
                 break
-            key = max(fitting, key=len)
             path, value, words = (*path, key), value[key], words[len(key) :].removeprefix(".")
         else:
             match = _INDEX.match(words)
