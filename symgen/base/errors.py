@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from symgen.base.escapes import printable
 
@@ -42,19 +43,28 @@ class InputError(SymgenError):
         What was found.
     hint : str, optional
         Nearest valid spelling or a remedy.
+    key : str, optional
+        The key in the table `where` that is wrong, where the sentence names it among what was found.
+
+    Attributes
+    ----------
+    file : path or None
+        The mechanism file, where the error is about its text.
     """
 
     exit_code = 2
+    file: Path | None = None
 
-    def __init__(self, where: str, expected: str, got: str, hint: str = "") -> None:
+    def __init__(self, where: str, expected: str, got: str, hint: str = "", key: str = "") -> None:
+        self.key = key
         self.where = where if len(where) <= LONGEST_PLACE else f"{where[:160]}...{where[-60:]}"
         self.expected, self.got, self.hint = (
             text if len(text) <= LONGEST_PART else f"{text[:LONGEST_PART]}..." for text in (expected, got, hint)
         )
         super().__init__(f"{self.where}: expected {self.expected}, got {self.got}" + (f"; {self.hint}" if hint else ""))
 
-    def __reduce__(self) -> tuple[type, tuple[str, str, str, str]]:
-        return type(self), (self.where, self.expected, self.got, self.hint)
+    def __reduce__(self) -> tuple[type, tuple[str, str, str, str, str]]:
+        return type(self), (self.where, self.expected, self.got, self.hint, self.key)
 
 
 class AssemblyError(SymgenError):

@@ -26,7 +26,7 @@ from typing import Any
 import click
 
 from symgen.analyses.kinds import ANALYSES
-from symgen.base.errors import CLOSE, SymgenError, nearest
+from symgen.base.errors import CLOSE, InputError, SymgenError, nearest
 from symgen.base.escapes import printable
 from symgen.base.plugins import failure_of_plugin, load_plugins
 from symgen.base.registry import Registry
@@ -156,6 +156,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except click.ClickException as error:
         return complain(_sentence(error), BAD_INPUT)
+    except InputError as error:
+        return complain(in_line(error), error.exit_code)
     except SymgenError as error:
         return complain(str(error), error.exit_code)
     except (click.Abort, KeyboardInterrupt):
@@ -177,6 +179,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if (failure := failure_of_plugin(error)) is None:
             raise
         return complain(str(failure), failure.exit_code)
+
+
+def in_line(error: InputError) -> str:
+    """Return the sentence of an error, with the line of the mechanism file that it is about."""
+    if error.file is None:
+        return str(error)
+    from symgen.describe.problems import in_line
+
+    return in_line(error)
 
 
 def complain(sentence: str, code: int) -> int:

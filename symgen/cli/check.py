@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.base.errors import counted
-from symgen.cli import OK, write_json
+from symgen.base.errors import InputError, counted, fitting
+from symgen.base.escapes import printable
+from symgen.cli import BAD_INPUT, OK, write_json
 from symgen.cli._options import examples, json_option, setting_options
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.describe.problems import Problem
+
+#: Problems of a file that are written to standard error at most; JSON has all.
+MOST_SHOWN = 100
 
 
 @click.command(
@@ -30,18 +39,27 @@ def command(
 ) -> int:
     """Validate MODEL, assemble it, and show its degrees of freedom, rank and redundant rows.
 
+    All errors of a mechanism file are written to standard error, each with its line.
+
     --draw also draws a mechanism that does not close: the picture shows its last position and the open joints.
     """
+    from symgen.api import load
+
+    try:
+        loaded = load(model)
+    except InputError as error:
+        if error.file is not None and (found := _problems(error.file)):
+            return _complain(model, found, as_json)
+        raise
     if picture is not None:
-        from symgen.api import load
         from symgen.base.files import check_path
         from symgen.drawing.drawing import PICTURES
 
         file = check_path("--draw", Path(picture), PICTURES, "plot")
-        load(model).draw(parameters, start).save(file)
+        loaded.draw(parameters, start).save(file)
         if not as_json:
             click.echo(f"written: {file}", err=True)
-    facts = _facts(model, parameters, start, strict)
+    facts = _facts(loaded, parameters, start, strict)
     if as_json:
         write_json(facts)
         return OK
@@ -63,11 +81,30 @@ def command(
     return OK
 
 
-def _facts(model: str, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
-    """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
-    from symgen.api import load
+def _problems(file: Path) -> Sequence[Problem]:
+    """Return what is wrong in a file; nothing if it was changed into a valid one in the meantime."""
+    from symgen.describe.load import read_text
+    from symgen.describe.origins import Source
+    from symgen.describe.problems import problems
 
-    loaded = load(model)
+    return problems(read_text(file), Source.of(file))
+
+
+def _complain(file: str, found: Sequence[Problem], as_json: bool) -> int:
+    """Write the problems of a file, to standard error and, on request, as JSON; return the exit code."""
+    shown = fitting(len(found), MOST_SHOWN)
+    for problem in found[:shown]:
+        click.echo(printable(f"{file}:{problem.line}: {problem}"), err=True)
+    if len(found) > shown:
+        click.echo(f"{file}: {len(found) - shown} more", err=True)
+    if as_json:
+        keys = ("line", "where", "expected", "got", "hint")
+        write_json({"errors": [{key: getattr(problem, key) for key in keys} for problem in found]})
+    return BAD_INPUT
+
+
+def _facts(loaded: Model, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
+    """Return the facts of an assembled mechanism: sizes, rank, degrees of freedom, redundant rows and notes."""
     compiled = loaded.compile()
     start = loaded.assemble(compiled, parameters, strict=strict, held=held)
     info, mechanism = compiled.info, loaded.mechanism

@@ -19,6 +19,7 @@ from symgen.base.errors import nearest, quoted
 from symgen.describe.beam_lines import CrossSection, cross_sections, segments
 from symgen.describe.beam_sections import BeamSection, Properties, properties_of
 from symgen.describe.bodies import shifted
+from symgen.describe.collected import Errors
 from symgen.describe.evaluate import scalars
 from symgen.describe.fields import read_table, words_of
 from symgen.describe.formula_text import file_value, to_text
@@ -93,6 +94,8 @@ class Beams:
         Scope of a section and a name.
     body_of : callable
         Reads the body that a scope names from its table.
+    errors : Errors
+        Where errors go.
 
     Attributes
     ----------
@@ -101,9 +104,13 @@ class Beams:
     """
 
     def __init__(
-        self, raw: Raw, scope_of: Callable[[str, str], Scope], body_of: Callable[[Scope, object], AnyBody]
+        self,
+        raw: Raw,
+        scope_of: Callable[[str, str], Scope],
+        body_of: Callable[[Scope, object], AnyBody],
+        errors: Errors,
     ) -> None:
-        self.raw, self.scope_of, self.body_of = raw, scope_of, body_of
+        self.raw, self.scope_of, self.body_of, self.errors = raw, scope_of, body_of, errors
         self._nodes: dict[str, list[tuple[str, float]]] = {}  # of a beam, "" for a clamped end, and parts of its length
         self._counts: dict[str, list[int]] = {}  # elements of the segments of a beam
         self._further: dict[str, list[_Mass]] = {}  # of bodies, besides those of their tables
@@ -121,12 +128,16 @@ class Beams:
         """
         for name, table in self.raw["beams"].items():
             scope = self.scope_of("beams", name)
-            self._add(scope, name, read_table(BeamSection, table, scope.where("")))
+            with self.errors.apart(name):
+                self._add(scope, name, read_table(BeamSection, table, scope.where("")))
+        self.errors.need(*self.raw["beams"])
         raw = {key: dict(value) if key in ("joints", "forces") else value for key, value in self.raw.items()}
         for section in ("joints", "forces"):
-            for name, table in raw.get(section, {}).items():
+            for name, table in self.raw.get(section, {}).items():
                 if isinstance(table, Mapping):
-                    raw[section][name] = self._on_nodes(self.scope_of(section, name), dict(table), section)
+                    del raw[section][name]
+                    with self.errors.apart(name):
+                        raw[section][name] = self._on_nodes(self.scope_of(section, name), dict(table), section)
         del raw["beams"]
         return raw | {
             "bodies": {**self.raw.get("bodies", {}), **self.bodies},

@@ -159,7 +159,7 @@ def to_toml(raw: Mapping[str, Any]) -> str:
     Parameters
     ----------
     raw : mapping
-        Sections as `symgen.describe.load.read_toml` returns them.
+        Sections as `symgen.describe.load.parse_toml` returns them.
     """
     blocks = []
     for section in (*SECTIONS, *(key for key in raw if key not in SECTIONS)):

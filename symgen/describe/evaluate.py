@@ -127,7 +127,7 @@ def evaluation_order(formulas: Mapping[str, Expr | None], where: str) -> list[st
     Parameters
     ----------
     formulas : mapping of str to Expr or None
-        The formula of each, None for numbers.
+        The formula of each, None for numbers; formulas may have further names.
     where : str
         File and section, for the message.
 
@@ -136,7 +136,10 @@ def evaluation_order(formulas: Mapping[str, Expr | None], where: str) -> list[st
     InputError
         If formulas form a cycle, which the message lists.
     """
-    needs = {name: () if formula is None else dict.fromkeys(names_in(formula)) for name, formula in formulas.items()}
+    needs = {
+        name: () if formula is None else [need for need in dict.fromkeys(names_in(formula)) if need in formulas]
+        for name, formula in formulas.items()
+    }
     try:
         TopologicalSorter(needs).prepare()
     except CycleError as error:

@@ -186,7 +186,8 @@ def read_table(kind: type[T], raw: object, where: str, further: tuple[str, ...] 
             names = [*further, *fields]
             hint = nearest(str(key), names)
             got = f"the unknown key {quoted(key)}"
-            raise InputError(where, f"the keys {', '.join(names)}", got, "" if hint.startswith("known") else hint)
+            hint = "" if hint.startswith("known") else hint
+            raise InputError(where, f"the keys {', '.join(names)}", got, hint, str(key))
     for key, field in fields.items():
         if field.required and key not in raw:
             raise InputError(f"{where}.{key}", describe_type(field.type), "no such key")

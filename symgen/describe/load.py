@@ -18,7 +18,7 @@ from typing import Any
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.origins import Source
+from symgen.describe.origins import Source, errors_in
 from symgen.describe.parser import LONGEST_TEXT
 from symgen.describe.validate import DEEPEST, validate
 
@@ -99,7 +99,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
         return catalogue.raw(match.group("name"), None if size is None else int(size)), text
     path = Path(text)
     if _is_file(path):
-        return (read_toml(path), Source.of(path)) if path.suffix == ".toml" else _read_other(path)
+        return _read_file(path) if path.suffix == ".toml" else _read_other(path)
     if path.suffix == ".toml" or "/" in text or os.sep in text:
         raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
     entries = catalogue.all_names()
@@ -109,13 +109,21 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)
 
 
+def _read_file(path: Path) -> tuple[dict[str, Any], Source]:
+    """Return the tables of a TOML file."""
+    source = Source.of(path)
+    text = read_text(path)
+    with errors_in(source):
+        return parse_toml(text, source), source
+
+
 def _read_other(path: Path) -> tuple[dict[str, Any], Source]:
     """Return the tables of a file of another program's format; without a known end it is TOML."""
     from symgen.describe.formats import format_of, read_robot
 
     other = format_of(path)
     if other is None:
-        return read_toml(path), Source.of(path)
+        return _read_file(path)
     read = read_robot(path, other)
     return read.raw, Source.of(path, read.folder)
 
@@ -127,8 +135,8 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """Return the tables of the TOML file at `path`, not yet validated."""
+def read_text(path: Path) -> str:
+    """Return the text of the mechanism file at `path`."""
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
@@ -137,10 +145,9 @@ def read_toml(path: Path) -> dict[str, Any]:
     if len(content) > LARGEST_FILE:
         raise InputError(path.name, f"a file of at most {LARGEST_FILE} bytes", "a larger one")
     try:
-        text = content.decode("utf-8-sig")  # some editors begin files with a byte order mark
+        return content.decode("utf-8-sig")  # some editors begin files with a byte order mark
     except UnicodeDecodeError as error:
         raise InputError(path.name, "text in UTF-8", f"another byte at position {error.start}") from None
-    return parse_toml(text, path.name)
 
 
 def parse_toml(text: str, source: str) -> dict[str, Any]:

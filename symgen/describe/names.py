@@ -34,17 +34,19 @@ def check_identifier(name: str, where: str, what: str) -> str:
     """Return `name` if it may name a body, joint, force, parameter, table or point; else raise `InputError`."""
     named = f"{'an' if what[0] in 'aeiou' else 'a'} {what} name"
     if len(name) > LONGEST:
-        raise InputError(where, f"{named} of at most {LONGEST} characters", f"{len(name)} characters")
+        raise InputError(where, f"{named} of at most {LONGEST} characters", f"{len(name)} characters", "", name)
     if not _IDENTIFIER.fullmatch(name):
         hint = ""
         cured = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_0123456789")
         if cured and not keyword.iskeyword(cured) and cured not in RESERVED:
             hint = f"for example '{cured}'"
-        raise InputError(where, f"{named} of letters, digits and _, a letter first", quoted(name), hint)
+        raise InputError(where, f"{named} of letters, digits and _, a letter first", quoted(name), hint, name)
     if name in RESERVED or keyword.iskeyword(name):
         of_forces = "formulas of forces mean by 's' what they act along, by 'rate' its rate; "
         why = of_forces if name in ("s", "rate") else ""
-        raise InputError(where, f"{named} that has no meaning of its own", quoted(name), f"{why}'{name}_' is free")
+        raise InputError(
+            where, f"{named} that has no meaning of its own", quoted(name), f"{why}'{name}_' is free", name
+        )
     return name
 
 

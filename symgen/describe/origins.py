@@ -3,24 +3,47 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from symgen.base.errors import InputError
 from symgen.describe.mechanism import Mechanism
 
 
 class Source(str):
-    """The name of a file for messages, with the folder that its meshes are named from."""
+    """The name of a file for messages, with the folder that its meshes are named from.
+
+    Attributes
+    ----------
+    folder : str
+        Where the file is, or another folder that names of meshes begin in.
+    file : path or None
+        The file, where its lines are those of the description: TOML.
+    """
 
     folder: str = ""
+    file: Path | None = None
 
     @classmethod
     def of(cls, path: Path, folder: Path | None = None) -> Source:
         """Return the source of a file; meshes are named from the folder that it is in, unless from another one."""
         source = cls(path.name)
         source.folder = str(path.absolute().parent if folder is None else folder)
+        source.file = path if folder is None else None
         return source
+
+
+@contextmanager
+def errors_in(source: str) -> Iterator[None]:
+    """Note the file in errors, where `source` has one."""
+    try:
+        yield
+    except InputError as error:
+        if isinstance(source, Source):
+            error.file = source.file
+        raise
 
 
 class Origin(NamedTuple):

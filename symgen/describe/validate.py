@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.memory import uncollected
 from symgen.describe.bodies import planar_body, shapes_of, spatial_body
+from symgen.describe.collected import Errors, Incomplete
 from symgen.describe.columns import check_columns
-from symgen.describe.evaluate import evaluate, evaluation_order
 from symgen.describe.events import read_event
 from symgen.describe.fields import (
     OF_ANY_JOINT,
@@ -40,34 +40,33 @@ from symgen.describe.mechanism import (
     Output,
     Parameter,
     Rotor,
+    Shape,
     StateVariable,
+    Vec,
 )
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
-from symgen.describe.origins import keep_origin
-from symgen.describe.parser import FormulaNames, parse
+from symgen.describe.numbers import read_defaults, read_points
+from symgen.describe.origins import errors_in, keep_origin
+from symgen.describe.parameters import Parameters
 from symgen.describe.scope import Context, Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
-    InputSection,
     MechanismSection,
     OutputSection,
-    ParameterSection,
-    RunSection,
     StateSection,
-    TableSection,
 )
 from symgen.describe.smooth_friction import with_smooth_friction
 from symgen.describe.stops import check_stops, read_gap, read_limits, with_stop_outputs
-from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
-from symgen.vocabulary.expressions import ONE, call, names_in
+from symgen.vocabulary.expressions import ONE, call
 from symgen.vocabulary.measures import GROUND, Marker
 
 if TYPE_CHECKING:
     from symgen.describe.beams import Beams
 
 Raw = Mapping[str, Any]
+T = TypeVar("T")
 #: Levels of tables in a file, and joints in a chain of references.
 DEEPEST = 20
 
@@ -86,14 +85,30 @@ def validate(raw: Raw, source: str) -> Mechanism:
     InputError
         At the first thing that is wrong.
     """
-    return keep_origin(_Validator(raw, source).mechanism(), raw, source)
+    with errors_in(source):
+        mechanism = _Validator(raw, source, Errors()).mechanism()
+    return keep_origin(mechanism, raw, source)
+
+
+@uncollected()
+def errors_of(raw: Raw, source: str) -> tuple[InputError, ...]:
+    """Return all that is wrong with a description, as of `validate`: of each table the first thing.
+
+    Errors that follow from tables which are wrong, such as joints of their bodies, are left out.
+    """
+    errors = Errors(all_of_them=True)
+    with suppress(Incomplete), errors.apart():
+        _Validator(raw, source, errors).mechanism()
+    return tuple(errors.found.values())
 
 
 class _Validator:
     """One description being read, section by section; joints may refer to each other and are resolved on demand."""
 
-    def __init__(self, raw: Raw, source: str) -> None:
+    def __init__(self, raw: Raw, source: str, errors: Errors) -> None:
         self.raw, self.source = raw, source
+        self.errors = errors
+        self._entries: dict[str, list[tuple[str, Any]]] = {}
         self._joints: dict[str, Joint | None] = {}
         self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
@@ -110,18 +125,44 @@ class _Validator:
     def scope(self, section: str, name: str) -> Scope:
         return Scope(self.context, f"{section}.{name}", name)
 
-    def mechanism(self) -> Mechanism:
-        for key in self.raw:
+    def each(self, section: str, read: Callable[[str, Any], T]) -> tuple[T, ...]:
+        """Return what `read` makes of name and content of a section's entries, each apart from the others."""
+        results = []
+        for name, value in self.entries(section):
+            beam = (name.partition(".")[0],) if name in self._parts else ()  # whose further parts are wrong alike
+            with self.errors.apart(name, *beam):
+                self.errors.need(*beam)
+                results.append(read(name, value))
+        return tuple(results)
+
+    def head(self) -> MechanismSection:
+        """Return the table that says what the mechanism is called, and in which space it lies."""
+        for key, content in self.raw.items():
             if key not in SECTIONS:
-                expected = f"the sections {', '.join(SECTIONS)}"
-                raise InputError(self.source, expected, f"the unknown section {quoted(key)}", nearest(key, SECTIONS))
-        if "mechanism" not in self.raw:
-            raise InputError(self.where("mechanism"), "a section [mechanism] with a name", "no such section")
-        head = read_table(MechanismSection, self.raw["mechanism"], self.where("mechanism"))
-        check_mechanism_name(head.name, self.where("mechanism.name"))
+                with self.errors.apart(*(content if isinstance(content, Mapping) else ())):
+                    expected, got = f"the sections {', '.join(SECTIONS)}", f"the unknown section {quoted(key)}"
+                    raise InputError(self.source, expected, got, nearest(key, SECTIONS), key)
+        where = self.where("mechanism")
+        with self.errors.apart():
+            if "mechanism" not in self.raw:
+                raise InputError(where, "a section [mechanism] with a name", "no such section")
+            head = read_table(MechanismSection, self.raw["mechanism"], where)
+            with self.errors.apart():
+                check_mechanism_name(head.name, f"{where}.name")
+            return head
+        # What is right in the rest depends on the space.
+        table = self.raw.get("mechanism")
+        if not isinstance(table, Mapping) or table.get("space", "planar") not in ("planar", "spatial"):
+            raise Incomplete
+        if "space" not in table and nearest("space", table).startswith("did you mean"):
+            raise Incomplete
+        return MechanismSection(name="", space=table.get("space", "planar"))
+
+    def mechanism(self) -> Mechanism:
+        head = self.head()
         self.unique()
         parameters = self.parameters()
-        tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
+        tables = self.each("tables", lambda name, value: read_points(name, value, self.where(f"tables.{name}")))
         self.context = Context(
             self.source,
             {p.name: p.value for p in parameters if not p.input},
@@ -136,26 +177,27 @@ class _Validator:
         scope = Scope(self.context, "mechanism")
         read_body = spatial_body if head.space == "spatial" else planar_body
         beams = self.beams(read_body)
-        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
-        bodies = tuple(read_body(self.scope("bodies", name), value) for name, value in self.entries("bodies"))
-        if not bodies:
-            raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
-        bodies = bodies if beams is None else tuple(map(beams.with_ends, bodies))
+        gravity: Vec = ()
+        with self.errors.apart():
+            gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
+        bodies = self.bodies(read_body, beams)
         self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
-        joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
-        forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
+        joints = self.each("joints", lambda name, _: self.joint(name, self.where("joints")))
+        forces = self.each("forces", self.force)
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
-        described = [(self.scope("bodies", body.name), self.raw["bodies"][body.name], body) for body in bodies]
-        ground = Scope(self.context, "mechanism", GROUND)
-        looks = [(ground, self.raw["mechanism"]), *((scope, raw) for scope, raw, _ in described)]
-        holds = [hold for scope, raw, body in described for hold in body_holds(scope, raw, body)]
+        holds, shapes = self.holds_and_shapes(bodies)
         holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
         frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
         stops = (
             *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
-            *(read_gap(self.scope("stops", name), value) for name, value in self.entries("stops")),
+            *self.each("stops", lambda name, value: read_gap(self.scope("stops", name), value)),
         )
         self.context = msgspec.structs.replace(self.context, losses=losses((*frictions, *stops)))
+        defaults = self.defaults(line(head.source))
+        states = self.each("states", self.state)
+        outputs = self.each("outputs", self.output)
+        events = self.each("events", lambda name, value: read_event(self.scope("events", name), name, value))
+        self.errors.check()
         mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
@@ -166,38 +208,50 @@ class _Validator:
             bodies=bodies,  # type: ignore[arg-type]  # all of one space
             joints=joints,
             forces=forces,
-            defaults=self.defaults(line(head.source)),
+            defaults=defaults,
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
             frictions=tuple(friction for friction in frictions if friction.speed is None),
             stops=stops,
-            states=tuple(self.state(name, value) for name, value in self.entries("states")),
-            outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
+            states=states,
+            outputs=outputs,
             seats=tuple(self._seats.items()),
             cuts=tuple(self._cuts),
             holds=tuple(holds),
-            shapes=tuple((scope.name, shape) for scope, raw in looks for shape in shapes_of(scope, raw)),
+            shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
-            events=tuple(read_event(self.scope("events", n), n, event) for n, event in self.entries("events")),
+            events=events,
         )
-        smooth = [friction for friction in frictions if friction.speed is not None]
-        mechanism = with_smooth_friction(with_stop_outputs(with_friction_outputs(mechanism)), smooth)
-        check_columns(mechanism, self.source)
-        check_frictions(mechanism, self.source)
-        check_stops(mechanism, self.source)
-        holds_of(mechanism, self.source)  # says what is held twice
+        with self.errors.apart():
+            smooth = [friction for friction in frictions if friction.speed is not None]
+            mechanism = with_smooth_friction(with_stop_outputs(with_friction_outputs(mechanism)), smooth)
+            check_columns(mechanism, self.source)
+            check_frictions(mechanism, self.source)
+            check_stops(mechanism, self.source)
+            holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
 
     # Names ---------------------------------------------------------------------------------------------------------
 
-    def entries(self, section: str) -> Iterator[tuple[str, Any]]:
-        """Yield name and content of a section's entries, names checked."""
+    def entries(self, section: str) -> Sequence[tuple[str, Any]]:
+        """Return name and content of a section's entries, names checked."""
+        if section not in self._entries:
+            self._entries[section] = list(self.checked(section))
+        return self._entries[section]
+
+    def checked(self, section: str) -> Iterator[tuple[str, Any]]:
+        """Yield name and content of a section's entries whose names are right."""
         content = self.raw.get(section, {})
         if not isinstance(content, Mapping):
-            raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
+            with self.errors.apart():
+                raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
+            raise Incomplete  # which names the rest may use is unknown
         for name, value in content.items():
-            if name not in self._parts:
-                check_identifier(name, self.where(section), NAMED[section])
-            yield name, value
+            right = name in self._parts
+            if not right:
+                with self.errors.apart(name):
+                    right = bool(check_identifier(name, self.where(section), NAMED[section]))
+            if right:
+                yield name, value
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
@@ -210,111 +264,59 @@ class _Validator:
             for section in group:
                 for name, _ in self.entries(section):
                     if name in sections:
-                        got = f"'{name}', which is a {NAMED[sections[name]]} already"
-                        raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
+                        with self.errors.apart():
+                            got = f"'{name}', which is a {NAMED[sections[name]]} already"
+                            raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
                     sections[name] = section
 
     def beams(self, read_body: Callable[[Scope, object], AnyBody]) -> Beams | None:
         """Put the nodes and elements of beams into the description; return the beams, None where there are none."""
-        if not any(self.entries("beams")):
+        if not self.entries("beams"):
             return None
         from symgen.describe.beams import Beams
 
-        for section in ("bodies", "joints", "forces"):
-            any(self.entries(section))
-        beams = Beams(self.raw, self.scope, read_body)
-        self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
-        return beams
+        with self.errors.apart(*(name for name, _ in self.entries("beams"))):
+            beams = Beams(self.raw, self.scope, read_body, self.errors)
+            self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
+            self._entries.clear()
+            return beams
+        return None
+
+    def bodies(self, read_body: Callable[[Scope, object], AnyBody], beams: Beams | None) -> tuple[AnyBody, ...]:
+        """Return the bodies, and the nodes of beams."""
+        bodies = self.each("bodies", lambda name, value: read_body(self.scope("bodies", name), value))
+        if not self.raw.get("bodies") and not self.raw.get("beams"):
+            self.errors.check()
+            raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+        with self.errors.apart(*(body.name for body in bodies)):
+            return bodies if beams is None else tuple(map(beams.with_ends, bodies))
+        return ()
+
+    def holds_and_shapes(self, bodies: tuple[AnyBody, ...]) -> tuple[list[Hold], list[tuple[str, Shape]]]:
+        """Return what bodies keep of their start, and what they and the ground look like."""
+        holds, shapes = list[Hold](), list[tuple[str, Shape]]()
+        with self.errors.apart():
+            ground = Scope(self.context, "mechanism", GROUND)
+            shapes += [(GROUND, shape) for shape in shapes_of(ground, self.raw["mechanism"])]
+        for body in bodies:
+            scope, raw = self.scope("bodies", body.name), self.raw["bodies"][body.name]
+            with self.errors.apart():
+                holds += body_holds(scope, raw, body)
+            with self.errors.apart():
+                shapes += [(body.name, shape) for shape in shapes_of(scope, raw)]
+        return holds, shapes
 
     # Sections ------------------------------------------------------------------------------------------------------
 
     def defaults(self, source: str) -> Defaults:
-        where = self.where("run")
-        run = read_table(RunSection, self.raw.get("run", {}), where)
-        for key in ("until", "step", "output_step", "max_step", "predictable_until"):
-            value = getattr(run, key)
-            if value is not None and not math.isfinite(value):
-                raise InputError(f"{where}.{key}", "a finite number", str(value))
-        usual = Defaults().step
-        step = run.step or (usual if run.until >= usual else 0.01 * run.until)
-        if step > run.until:
-            raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(step))
-        further = source, run.step, run.integrator, run.verify
-        return Defaults(run.until, step, run.output_step, run.predictable_until, run.max_step, *further)
+        with self.errors.apart():
+            return read_defaults(self.raw.get("run", {}), self.where("run"), source)
+        return Defaults()
 
     def parameters(self) -> tuple[Parameter, ...]:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
-        entries, inputs = dict(self.entries("parameters")), dict(self.entries("inputs"))
-        elsewhere = frozenset(("t", *inputs, *(name for name, _ in self.entries("tables"))))
-        allowed = FormulaNames(
-            "a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere
-        )
-        parameters = {name: self.parameter("parameters", name, value, allowed) for name, value in entries.items()}
-        parameters |= {name: self.parameter("inputs", name, value, allowed) for name, value in inputs.items()}
-        values = dict[str, float]()
-        for name in evaluation_order({name: p.formula for name, p in parameters.items()}, self.where("parameters")):
-            formula = parameters[name].formula
-            if formula is not None:
-                value = evaluate(formula, values, self.where(f"{'inputs' if name in inputs else 'parameters'}.{name}"))
-                parameters[name] = msgspec.structs.replace(parameters[name], value=value)
-            values[name] = parameters[name].value
-        return tuple(parameters.values())
-
-    def parameter(self, section: str, name: str, raw: object, allowed: FormulaNames) -> Parameter:
-        """Return a parameter or an input; one with a formula of others has no value yet."""
-        where, unit, note = self.where(f"{section}.{name}"), "", ""
-        value: float | str
-        if not isinstance(raw, Mapping):
-            value = read_value(Scalar, raw, where)
-        elif section == "inputs":
-            content = read_table(InputSection, raw, where)
-            value, unit, note = content.default, content.unit, content.note
-        else:
-            table = read_table(ParameterSection, raw, where)
-            value, unit, note = table.value, table.unit, table.note
-        formula = None
-        if isinstance(value, str):
-            expression = parse(value, allowed, where)
-            if any(names_in(expression)):
-                value, formula = 0.0, expression
-            else:
-                value = evaluate(expression, {}, where)
-        if not math.isfinite(value):
-            raise InputError(where, "a finite number", str(value))
-        unit, note = check_unit(unit, f"{where}.unit"), line(note)
-        return Parameter(name, float(value), unit, note, formula, section == "inputs")
-
-    def table(self, name: str, raw: object) -> Table:
-        where = self.where(f"tables.{name}")
-        section = read_table(TableSection, raw, where)
-        if len(section.x) < 2:
-            raise InputError(f"{where}.x", "two numbers or more", str(len(section.x)))
-        if len(section.y) != len(section.x):
-            raise InputError(f"{where}.y", f"as many numbers as x has, {len(section.x)}", str(len(section.y)))
-        for key in ("x", "y"):
-            for value in getattr(section, key):
-                if not math.isfinite(value):
-                    raise InputError(f"{where}.{key}", "finite numbers", str(value))
-        for left, right in zip(section.x, section.x[1:], strict=False):
-            if not left < right:
-                raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
-        how, fewest = section.interpolation, 4 if section.interpolation == "cubic" or section.periodic else 2
-        if len(section.x) < fewest:
-            expected = f"{fewest} numbers or more for interpolation = '{how}'{', periodic' if section.periodic else ''}"
-            raise InputError(f"{where}.x", expected, str(len(section.x)))
-        if section.periodic and how == "linear":
-            raise InputError(f"{where}.periodic", "true where interpolation is 'cubic' or 'pchip'", "true for 'linear'")
-        if section.periodic and section.y[0] != section.y[-1]:
-            got = f"{section.y[0]!r} and {section.y[-1]!r}"
-            raise InputError(f"{where}.y", "the same value at both ends of a period", got)
-        table = Table(name, section.x, section.y, how, section.periodic)
-        try:
-            finite = all(math.isfinite(c) for piece in table.interpolated.pieces for c in piece)
-        except (ArithmeticError, ValueError):
-            finite = False
-        if not finite:
-            raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
-        return table
+        sections = {section: dict(self.entries(section)) for section in ("parameters", "inputs")}
+        return Parameters(self.source, self.errors, sections, [name for name, _ in self.entries("tables")]).read()
 
     def state(self, name: str, raw: object) -> StateVariable:
         where, scope = self.where(f"states.{name}"), self.scope("states", name)
@@ -350,14 +352,24 @@ class _Validator:
             got = f"the unknown joint {quoted(name)}"
             raise InputError(where, "the name of a joint", got, nearest(name, self.raw.get("joints", {})))
         if name in self._joints:
+            self.errors.need(name)
             resolved = self._joints[name]
             if resolved is None:
                 raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
             return resolved
         self._joints[name] = None
         self._open += 1
-        if self._open > DEEPEST:
-            raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
+        with self.errors.apart(name):
+            if self._open > DEEPEST:
+                raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
+            self._joints[name] = joint = self.read_joint(name)
+            self._open -= 1
+            return joint
+        self._open -= 1
+        raise Incomplete
+
+    def read_joint(self, name: str) -> Joint:
+        """Return the joint `name`, and note what else its table says."""
         path = f"joints.{name}"
         kind, table = self.split(path, self.raw["joints"][name], "joint type", *OF_ANY_JOINT)
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
@@ -384,8 +396,6 @@ class _Validator:
                 self._cuts.append(name)  # its reaction is a multiplier
         if "stop" in self.raw["joints"][name]:
             self._limits[name] = read_limits(scope, joint, self.raw["joints"][name]["stop"])
-        self._joints[name] = joint
-        self._open -= 1
         return joint
 
     def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:

@@ -10,7 +10,7 @@ import pytest
 from symgen.base.errors import InputError
 from symgen.describe import load
 from symgen.describe.load import LARGEST_FILE, parse_toml
-from symgen.describe.validate import validate
+from symgen.describe.validate import errors_of, validate
 
 GOOD = """
 [mechanism]
@@ -241,6 +241,9 @@ def test_one_sentence(path, value, sentence):
     assert sentence in message
     assert "\n" not in message
     assert error.value.exit_code == 2
+    first, *others = map(str, errors_of(changed(path, value), "rod.toml"))
+    assert first == message
+    assert not others or path == "mechanism.space"  # in the other space more of the file is wrong
 
 
 # Files ----------------------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe.validate import validate
+from symgen.describe.validate import errors_of, validate
 
 RIGID = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "points": {"P": [0.1, 0.0, 0.0]}}
 GOOD = {
@@ -95,6 +95,7 @@ def test_one_sentence(section, table, sentence):
     message = str(error.value)
     assert message.startswith(f"thing.toml: {section}.it") and sentence in message
     assert "\n" not in message and len(message) < 400
+    assert [str(each) for each in errors_of(raw, "thing.toml")] == [message]
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import ast
 import os
 import re
 import shlex
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -113,6 +114,15 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
         script, rest = (COMMAND, words[1:]) if words[0] == "symgen" else (file, [])
         done = python(script, *rest, cwd=tmp_path, env={**os.environ, **settings})
         assert done.returncode == 0, f"{name(page)}:{line}: {command}\n{done.stderr}"
+
+
+def test_the_errors_of_the_wrong_file_that_a_page_shows(
+    cli: Callable[..., tuple[int, str, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file, errors = (block.text for block in fenced(ROOT / "docs" / "command-line.md", "text"))
+    (tmp_path / "slips.toml").write_text(file, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert cli("check", "slips.toml") == (2, "", errors)
 
 
 @pytest.mark.parametrize("page", with_language("python"))

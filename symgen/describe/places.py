@@ -1,0 +1,177 @@
+"""Places of keys and values in the text of a TOML document, which `tomllib` does not give."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from bisect import bisect_right
+from typing import NamedTuple
+
+#: Keys of tables and indices of arrays that lead to a value of a document.
+Path = tuple[str | int, ...]
+
+_BLANK = re.compile(r"(?:[ \t\r\n]++|\#[^\n]*+)*+")
+_PART = re.compile(r"""[ \t]*+("(?:[^"\\\n]++|\\.)*+"|'[^'\n]*+'|[A-Za-z0-9_-]++)[ \t]*+""")
+# Digits that contain a space are a date with a time.
+_SCALAR = re.compile(
+    r"""\"{3}(?:[^"\\]++|\\.|"{1,2}+(?!"))*+"{3,5}+ | '{3}(?:[^']++|'{1,2}+(?!'))*+'{3,5}+
+      | "(?:[^"\\\n]++|\\.)*+" | '[^'\n]*+'
+      | \d{4}-\d\d-\d\d[ ]\d\d:[^\s,\]}\#]++ | [^\s,\]}\#]++""",
+    re.VERBOSE | re.DOTALL,
+)
+
+
+class Span(NamedTuple):
+    """A part of one line or more.
+
+    Attributes
+    ----------
+    line, column : int
+        Where it begins, each counted from 1; columns are characters.
+    length : int
+        Its characters, line ends included.
+    """
+
+    line: int
+    column: int
+    length: int
+
+
+class Place(NamedTuple):
+    """Where a document has a table, an array or another value.
+
+    Attributes
+    ----------
+    key : Span or None
+        The key, of a table the part of the first header or dotted key that names it; None for an item of an array.
+    value : Span or None
+        The value; None for tables and arrays that headers and dotted keys make.
+    """
+
+    key: Span | None
+    value: Span | None
+
+    @property
+    def line(self) -> int:
+        """Line of the key, or of the value of an item."""
+        return (self.key or self.value or Span(1, 1, 0)).line
+
+
+def places(text: str) -> dict[Path, Place]:
+    """Return the place of every table, array and value of a document, by its path.
+
+    Parameters
+    ----------
+    text : str
+        A document that `tomllib` reads without an error.
+    """
+    return _Scanner(text).places
+
+
+class _Scanner:
+    """A document being scanned, from its first character to the last one."""
+
+    def __init__(self, text: str) -> None:
+        self.text, self.at = text, 0
+        self.places: dict[Path, Place] = {}
+        self._starts = [0, *(end.end() for end in re.finditer("\n", text))]
+        self._items: dict[Path, int] = {}  # items so far of arrays whose items have headers
+        table: Path = ()
+        self.blank()
+        while self.at < len(text):
+            if text[self.at] == "[":
+                table = self.header()
+            else:
+                self.pair(table)
+            self.blank()
+
+    def span(self, start: int, end: int) -> Span:
+        line = bisect_right(self._starts, start)
+        return Span(line, start - self._starts[line - 1] + 1, end - start)
+
+    def blank(self) -> None:
+        """Pass white space, line ends and comments."""
+        self.at = self.after(_BLANK).end()
+
+    def after(self, pattern: re.Pattern[str]) -> re.Match[str]:
+        match = pattern.match(self.text, self.at)
+        assert match is not None, f"no TOML at character {self.at}"
+        return match
+
+    def passed(self, character: str) -> bool:
+        """Return whether `character` is next, and pass it."""
+        passed = self.text.startswith(character, self.at)
+        self.at += passed
+        return passed
+
+    def key(self) -> list[tuple[str, Span]]:
+        """Pass a key; return its parts."""
+        parts = list[tuple[str, Span]]()
+        while not parts or self.passed("."):
+            match = self.after(_PART)
+            part = match[1]
+            self.at = match.end()
+            if part[0] in "\"'":
+                part = tomllib.loads(f"key = {part}")["key"]
+            parts.append((part, self.span(*match.span(1))))
+        return parts
+
+    def header(self) -> Path:
+        """Pass the header of a table or of an item; return its path."""
+        item = self.text.startswith("[[", self.at)
+        self.at += 2 if item else 1
+        parts = self.key()
+        self.at += 2 if item else 1
+        path: Path = ()
+        for i, (part, span) in enumerate(parts):
+            path = (*path, part)
+            self.places.setdefault(path, Place(span, None))
+            if item and i == len(parts) - 1:
+                self._items[path] = self._items.get(path, 0) + 1
+            if path in self._items:
+                path = (*path, self._items[path] - 1)
+                self.places.setdefault(path, Place(span, None))
+        return path
+
+    def pair(self, table: Path) -> None:
+        """Pass a key and its value in `table`."""
+        path = table
+        for part, span in (parts := self.key()):
+            path = (*path, part)
+            self.places.setdefault(path, Place(span, None))
+        self.at += 1  # the equals sign
+        self.value(path, parts[-1][1])
+
+    def value(self, path: Path, key: Span | None) -> None:
+        """Pass a value whose path is `path`."""
+        self.blank()
+        start = self.at
+        self.places[path] = Place(key, self.span(start, start))  # in front of what it contains
+        if self.passed("["):
+            self.items(path)
+        elif self.passed("{"):
+            self.pairs(path)
+        else:
+            self.at = self.after(_SCALAR).end()
+        self.places[path] = Place(key, self.span(start, self.at))
+
+    def items(self, path: Path) -> None:
+        """Pass the items of an array, and its bracket."""
+        index = 0
+        self.blank()
+        while not self.passed("]"):
+            self.value((*path, index), None)
+            self.separator()
+            index += 1
+
+    def pairs(self, path: Path) -> None:
+        """Pass the pairs of an inline table, and its brace."""
+        self.blank()
+        while not self.passed("}"):
+            self.pair(path)
+            self.separator()
+
+    def separator(self) -> None:
+        self.blank()
+        self.passed(",")
+        self.blank()

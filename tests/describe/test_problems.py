@@ -1,0 +1,240 @@
+"""What is wrong in a mechanism file: everything, each with its place, without what only follows."""
+
+import pickle
+import tomllib
+
+import pytest
+
+from symgen.base.errors import InputError
+from symgen.describe import load
+from symgen.describe.load import LARGEST_FILE
+from symgen.describe.problems import in_line, problems
+from symgen.describe.validate import errors_of, validate
+
+GOOD = """\
+[mechanism]
+name = "cart"
+
+[parameters]
+mass = 2.0
+half = "mass/2"
+quarter = "half/2"
+
+[tables.road]
+x = [0.0, 1.0]
+y = [0.0, 1.0]
+
+[bodies.cart]
+mass = "mass"
+inertia = 0.1
+points.hook = [
+  "quarter",
+  0.0,
+]
+
+[bodies.load]
+mass = 1.0
+inertia = 0.1
+
+[joints.rail]
+type = "translational"
+between = ["ground", "cart"]
+at = [[0.0, 0.0], "centre"]
+axis = [1.0, 0.0]
+
+[joints.pin]
+type = "revolute"
+between = ["cart", "load"]
+at = ["hook", "centre"]
+
+[joints.mesh]
+type = "coupling"
+terms = { pin = 1.0, wheel = -1.0 }
+
+[joints.wheel]
+type = "revolute"
+between = ["ground", "load"]
+at = [[0.0, 0.0], "centre"]
+
+[forces.push]
+type = "force"
+body = "cart"
+at = "centre"
+force = ["road(cart.x)", 0.0]
+
+[states.heat]
+rate = "cart.vx"
+
+[outputs]
+"far" = "load.x"
+warm = "heat"
+
+[events.low]
+when = "load.y < -1"
+reset = { "load.vy" = "-load.vy" }
+"""
+
+
+def found(text):
+    return [(problem.line, problem.where) for problem in problems(text, "cart.toml")]
+
+
+def changed(*changes):
+    text = GOOD
+    for old, new in changes:
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return text
+
+
+def test_nothing_is_wrong_with_a_good_file():
+    assert problems(GOOD, "cart.toml") == ()
+
+
+ONE = {
+    "a parameter that others need": (("mass = 2.0", 'mass = "weight"'), (5, "parameters.mass")),
+    "formulas in a circle": (("mass = 2.0", 'mass = "quarter"'), (5, "parameters.mass")),
+    "a key of a parameter": (("mass = 2.0", "mass = { value = 2.0, units = 'kg' }"), (5, "parameters.mass")),
+    "a name": (("mass = 2.0", '"my mass" = 2.0\nmass = 2.0'), (5, "parameters")),
+    "a table that a force reads": (("x = [0.0, 1.0]", "x = [1.0, 0.0]"), (10, "tables.road.x")),
+    "a point over several lines": (("0.0,\n]", "0.0, 0.0,\n]"), (16, "bodies.cart.points.hook")),
+    "a key that is missing": (("[bodies.load]\nmass = 1.0", "[bodies.load]"), (21, "bodies.load.mass")),
+    "an unknown key": (("[bodies.load]\nmass = 1.0", "[bodies.load]\nmass = 1.0\nmas = 1.0"), (23, "bodies.load")),
+    "a joint that another one needs": (('at = ["hook", "centre"]', 'at = ["hok", "centre"]'), (34, "joints.pin.at")),
+    "a quoted key": (('"far" = "load.x"', '"far" = "load.q"'), (55, "outputs.far")),
+    "a state that an output reads": (('rate = "cart.vx"', 'rate = "cart.vq"'), (52, "states.heat.rate")),
+    "a key with a dot": (('"-load.vy"', '"-load.vz"'), (60, "events.low.reset.load.vy")),
+    "an unknown section": (("[bodies.load]", "[body.load]"), (21, "")),
+    "another space by its key": (('name = "cart"', 'name = "cart"\nspac = "spatial"'), (3, "mechanism")),
+    "an unknown space": (('name = "cart"', 'name = "cart"\nspace = "flat"'), (3, "mechanism.space")),
+    "a table that is a number": (('[states.heat]\nrate = "cart.vx"', "[states]\nheat = 1.0"), (52, "states.heat")),
+}
+
+
+@pytest.mark.parametrize("change", ONE)
+def test_one_mistake_is_one_problem_with_its_line(change):
+    """What needs something that is wrong is no problem of its own."""
+    (old, new), expected = ONE[change]
+    assert found(changed((old, new))) == [expected]
+
+
+def test_mistakes_in_all_kinds_of_tables_are_found_at_once():
+    changes = (
+        ("mass = 2.0", "mass = 2.0\nspare = true"),
+        ("x = [0.0, 1.0]", "x = [0.0]"),
+        ("[bodies.cart]", "[bodies.cart]\nhold = 'all'"),
+        ("[bodies.load]", "[bodies.load]\nshape = { type = 'ball' }"),
+        ("axis = [1.0, 0.0]", "axis = [1.0, 0.0]\nfriction = { sliding = -1.0 }"),
+        ("terms = { pin = 1.0, wheel = -1.0 }", "terms = { pinn = 1.0, wheel = -1.0 }"),
+        ('at = "centre"\nforce', 'at = "center"\nforce'),
+        ('rate = "cart.vx"', 'rates = "cart.vx"'),
+        ('"load.x"', '"load.X"'),
+        ("[events.low]", "[run]\nuntil = -1.0\n[stops.floor]\ngap = 'load.z'\n[events.low]"),
+        ('when = "load.y < -1"', 'when = "load.z < -1"'),
+    )
+    assert found(changed(*changes)) == [
+        (6, "parameters.spare"),
+        (11, "tables.road.x"),
+        (15, "bodies.cart.hold"),
+        (24, "bodies.load.shape.type"),
+        (33, "joints.rail.friction.sliding"),
+        (42, "joints.mesh.terms.pinn"),
+        (52, "forces.push.at"),
+        (56, "states.heat"),
+        (59, "outputs.far"),
+        (63, "run.until"),
+        (65, "stops.floor.gap"),
+        (67, "events.low.when"),
+    ]
+
+
+def test_problems_say_what_errors_say():
+    text = changed(("mass = 2.0", "mass = true"), ("[bodies.load]\nmass = 1.0", "[bodies.load]\nmass = [1.0]"))
+    errors = errors_of(tomllib.loads(text), "cart.toml")
+    assert [f"cart.toml: {problem}" for problem in problems(text, "cart.toml")] == list(map(str, errors))
+    assert len(errors) == 2
+    with pytest.raises(InputError) as first:
+        validate(tomllib.loads(text), "cart.toml")
+    assert str(first.value) == str(errors[0])
+
+
+def test_places_are_those_of_keys_and_values():
+    (problem,) = problems(changed(('force = ["road(cart.x)", 0.0]', "force = { x = 1.0 }")), "cart.toml")
+    assert problem.place.key == (49, 1, len("force"))
+    assert problem.place.value == (49, 9, len("{ x = 1.0 }"))
+
+
+BEAMS = """\
+[mechanism]
+name = "arm"
+
+[beams.arm]
+start = [0.0, 0.0]
+end = [1.0, 0.0]
+elements = 4
+axial = 1000.0
+bending = 1.0
+mass = 0.5
+rotary = 0.01
+
+[forces.load]
+type = "force"
+body = "arm.end"
+at = "centre"
+force = [0.0, -1.0]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("bending = 1.0", "bending = 0.0", (9, "forces.arm.e1.bending")),
+        ("axial = 1000.0", "axial = []", (8, "beams.arm.axial")),
+        ("elements = 4", "element = 4", (7, "beams.arm")),
+        ('"arm.end"', '"arm.nd"', (15, "forces.load.body")),
+    ],
+)
+def test_elements_of_beams_have_the_places_of_the_beam(old, new, expected):
+    assert problems(BEAMS, "arm.toml") == ()
+    assert BEAMS.count(old) == 1
+    assert found(BEAMS.replace(old, new)) == [expected]
+
+
+# Sentences with lines -------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def wrong(tmp_path):
+    path = tmp_path / "cart.toml"
+    path.write_text(changed(("[bodies.load]\nmass = 1.0", "[bodies.load]\nmass = -1.0")))
+    return path
+
+
+def test_an_error_has_its_line_where_it_is_printed(wrong):
+    with pytest.raises(InputError) as error:
+        load(wrong)
+    assert str(error.value) == "cart.toml: bodies.load.mass: expected a value above 0, got -1.0"
+    assert in_line(error.value) == "cart.toml:22: bodies.load.mass: expected a value above 0, got -1.0"
+
+
+@pytest.mark.parametrize("later", [GOOD.replace("[mechanism]", "[mechanism"), b"\xff", "#" * (LARGEST_FILE + 1), None])
+def test_an_error_keeps_its_sentence_where_the_file_was_changed(wrong, later):
+    with pytest.raises(InputError) as error:
+        load(wrong)
+    if later is None:
+        wrong.unlink()
+    else:
+        wrong.write_bytes(later if isinstance(later, bytes) else later.encode())
+    assert in_line(error.value) == str(error.value)
+
+
+def test_errors_of_other_sources_have_no_file(tmp_path):
+    with pytest.raises(InputError) as error:
+        validate(tomllib.loads(GOOD.replace("mass = 1.0", "mass = -1.0")), "cart.toml")
+    assert error.value.file is None
+    assert in_line(error.value) == str(error.value)
+
+
+def test_the_key_of_an_error_survives_pickling():
+    error = pickle.loads(pickle.dumps(InputError("a.toml: b", "c", "d", "e", "f")))
+    assert (error.where, error.expected, error.got, error.hint, error.key) == ("a.toml: b", "c", "d", "e", "f")
