@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from symgen.base.errors import counted
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option
 
@@ -56,7 +57,9 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
         counts = {"bodies": len(mechanism.bodies), "joints": len(mechanism.joints), "inputs": len(mechanism.inputs)}
         write_json({"file": str(target), "format": read.format, **counts, "left_out": left_out})
         return OK
-    click.echo(f"wrote {target}: {len(mechanism.bodies)} bodies, {len(mechanism.joints)} joints")
+    click.echo(
+        f"wrote {target}: {counted(len(mechanism.bodies), 'body', 'bodies')}, {counted(len(mechanism.joints), 'joint')}"
+    )
     for line in lines:
         click.echo(line)
     return OK

@@ -10,7 +10,7 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted, sizes_of
 from symgen.base.escapes import script_json
 from symgen.compiling.closing import law_at_start
 from symgen.drawing import sketch
@@ -161,7 +161,7 @@ class EquationPage:
         e, method, joints = self.e, self.choice.method.name, self.mechanism.joints
         title = self.whole.title or self.whole.name
         kind = "bodies" if self.mechanism.topology is None else "the joints of a tree"
-        sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
+        sizes = f"{sizes_of(e)}, {counted(len(e.parameters), 'parameter')}"
         rates = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
         body = [
             f"<h1>{escape(title)}</h1>",
@@ -213,7 +213,7 @@ class EquationPage:
             between = " and ".join(dict.fromkeys(joint.bodies))
             link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        parts = [fold(f"{len(self.mechanism.joints)} joints", html_table(lines), len(lines) <= 13)]
+        parts = [fold(f"{counted(len(self.mechanism.joints), 'joint')}", html_table(lines), len(lines) <= 13)]
         if self.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
@@ -268,7 +268,8 @@ class EquationPage:
         parts.append(equations(self.sheet.jacobian(joint.name)))
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
-        head = f"<b>{escape(joint.name)}</b>: {names}, {len(rows)} rows, {g.operations(nodes)} operations"
+        sizes = f"{counted(len(rows), 'row')}, {counted(g.operations(nodes), 'operation')}"
+        head = f"<b>{escape(joint.name)}</b>: {names}, {sizes}"
         return fold(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
 
     def _lines_of(self, name: str) -> str:

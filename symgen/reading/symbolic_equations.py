@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import sympy as sp
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, counted, nearest, sizes_of
 from symgen.describe.evaluate import parameter_values
 from symgen.formulate.formulate import formulate
 from symgen.reading import boxes
@@ -301,11 +301,11 @@ class SymbolicEquations:
     def _repr_html_(self) -> str:
         """Return the HTML for a notebook: sizes, and the quantities folded."""
         e = self.derived
-        sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
+        sizes = f"{sizes_of(e)}, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
         for name in self._quantities:
             words, count = QUANTITIES[name], self._size(name)
-            head = f"<summary><code>{name}</code>: {escape(words)}, {count} operations</summary>"
+            head = f"<summary><code>{name}</code>: {escape(words)}, {counted(count, 'operation')}</summary>"
             text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
             parts.append(f"<details>{head}{escape(text)}</details>")
         return "\n".join(parts)

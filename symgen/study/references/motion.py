@@ -119,7 +119,8 @@ class CompiledEquations(IndependentEquations):
     @cached_property
     def _address(self) -> Any:
         """The equations as an argument of compiled functions: of a function itself Numba looks it up at every call."""
-        return types.CompileResultWAP(self._function.get_compile_result(EQUATIONS.signature))
+        function: Any = self._function
+        return types.CompileResultWAP(function.get_compile_result(EQUATIONS.signature))
 
     @cached_property
     def _index(self) -> Any:
