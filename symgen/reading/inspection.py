@@ -420,7 +420,7 @@ def as_text(facts: dict[str, Any]) -> str:
     lines += [f"gamma[{name}] = {gamma}" for name, gamma in facts["gamma_by_terms"].items()]
     section("Mass matrix M")
     lines += [f"M[{', '.join(b['velocities'])}] = {_matrix(b['matrix'])}" for b in facts["mass"]]
-    section("Forces f: M v' + D^T lambda = f")
+    section("Forces f: M v' + D^T lambda = f" if facts["rows"] else "Forces f: M v' = f")
     lines += [f"f[{name}] = {force}" for name, force in facts["forces_by_terms"].items()]
     if facts["terms"]:
         section("Shared terms of gamma and f")

@@ -91,7 +91,7 @@ def document(
     parts = [text for part in chosen for text in sections[part]]
     parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(chosen))))
     if "law" in content:
-        parts += _law(law)
+        parts += _law(law) if e.m else []
     if "left-out" in content and e.omissions:
         items = [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
         parts += _section("Left out", [r"\begin{itemize}", *items, r"\end{itemize}"])
@@ -116,7 +116,9 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
         r"\maketitle",
         rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {sizes_of(e)}. "
         rf"Its motion follows from",
-        r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]",
+        r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]"
+        if e.m
+        else r"\[ M \dot v = f, \qquad \dot q = N v. \]",
         *(rf"\par {_words(k)} has no row: it prescribes {_words(what)}." for k, what in sheet.prescribed().items()),
         *([rf"\par Nonholonomic, conditions on velocities without $\Phi$: {free}."] if free else []),
         r"\par Numbers are rounded to six digits.",

@@ -292,6 +292,9 @@ class SymbolicEquations:
 
     def _repr_latex_(self) -> str:
         """Return the plain text for a notebook."""
+        if not self.derived.m:
+            sizes = rf"q \in \mathbb{{R}}^{{{self.derived.nq}}},\ v \in \mathbb{{R}}^{{{self.derived.nv}}}"
+            return rf"$\displaystyle M \dot v = f,\quad \dot q = N v,\quad {sizes}$"
         return (
             r"$\displaystyle M \dot v + D^T \lambda = f,\quad D \dot v = \gamma,\quad \dot q = N v,\quad "
             rf"q \in \mathbb{{R}}^{{{self.derived.nq}}},\ v \in \mathbb{{R}}^{{{self.derived.nv}}},\ "
