@@ -274,6 +274,34 @@ def test_outputs_and_the_verdict_name_stops() -> None:
     assert note.startswith("impacts of floor accumulate at t = 2.5586339")
 
 
+def test_an_impact_without_rebound_closes_a_stop_and_says_so() -> None:
+    result = symgen.load(described(BALL.replace("0.7", "0.0"))).simulate(until=1.0)
+    fall = np.sqrt(2.0 / G)
+    (note,) = result.notes
+    start, _, end = note.partition(f"{fall:.9g}")
+    assert start == "an impact without rebound closes floor at t = " and end.endswith(" s")
+    rope = symgen.load(described(ROPE)).simulate(until=4.0)
+    assert [note for note in rope.notes if "rope" in note] == [
+        f"an impact without rebound closes rope at t = {rope.events[1].t:.13g} s"
+    ]
+
+
+def test_stops_that_strike_at_once_say_what_newton_s_law_does() -> None:
+    """Three balls on a rail, two of them in touch: by Newton's law all gaps open at once, no cradle."""
+    balls = "".join(
+        f'[bodies.{name}]\ntype = "point"\nmass = 1.0\nposition = [{x}, 0.0]\nvelocity = [{v}, 0.0]\n'
+        f'[joints.rail_{name}]\ntype = "rows"\nrows = [{{ position = "{name}.y" }}]\n'
+        for name, x, v in (("a", 0.0, 1.0), ("b", 2.0, 0.0), ("c", 3.0, 0.0))
+    )
+    gaps = "".join(f'[stops.{x}{y}]\ngap = "{y}.x - {x}.x - 1"\nrestitution = 1.0\n' for x, y in ("ab", "bc"))
+    result = symgen.load(described(f'[mechanism]\nname = "cradle"\n{balls}{gaps}')).simulate(until=2.0)
+    np.testing.assert_allclose([result[f"{x}.vx"][-1] for x in "abc"], [-1 / 3, 2 / 3, 2 / 3], atol=1e-12)
+    (note,) = [note for note in result.notes if "at once" in note]
+    assert note.startswith("ab and bc strike at once at t = 1 s: by Newton's law each gap opens")
+    alone = symgen.load(described(BALL)).simulate(until=2.0)
+    assert not any("at once" in note for note in alone.notes)
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
