@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.events import RECORD, RESET, STOP
 from symgen.describe.friction import JAM, REVERSE, SLIP
-from symgen.describe.stops import HIT, LEAVE, REST
+from symgen.describe.stops import HIT, LEAVE
 from symgen.effects.accumulation import accumulation, add_resets, latest_events, new_past
 from symgen.effects.effects import Impact
 from symgen.layout import abi
@@ -328,23 +328,16 @@ def stopped(outcome: Outcome) -> list[str]:
 
 
 def brought_to_rest(outcome: Outcome) -> list[str]:
-    """Return a note on each stop that impacts have brought to rest, with the time that was left where they are many."""
-    notes, at_once = list[str](), dict[str, list[float]]()
-    hits = {(event.name, event.t) for event in outcome.happened}
-    for event in outcome.happened:
-        stop, _, word = event.name.rpartition(".")
-        if event.left:
-            notes.append(
-                f"impacts of {stop} accumulate at t = {event.t + event.left:.13g} s: "
-                f"it rests from t = {event.t:.13g} s on, where {event.left:.3g} s were left"
-            )
-        elif word == REST and (f"{stop}.{HIT}", event.t) in hits:
-            at_once.setdefault(stop, []).append(event.t)
-    for stop, times in at_once.items():
-        how = "an impact without rebound closes" if len(times) == 1 else "impacts without rebound close"
-        often = "" if len(times) == 1 else f"{len(times)} times, first "
-        notes.append(f"{how} {stop} {often}at t = {times[0]:.13g} s")
-    return notes
+    """Return a note on each stop that ever faster impacts have brought to rest, with the time that was left.
+
+    A single impact without rebound accumulates nothing: its events say all.
+    """
+    return [
+        f"impacts of {event.name.rpartition('.')[0]} accumulate at t = {event.t + event.left:.13g} s: "
+        f"it rests from t = {event.t:.13g} s on, where {event.left:.3g} s were left"
+        for event in outcome.happened
+        if event.left
+    ]
 
 
 def struck_at_once(outcome: Outcome) -> list[str]:
