@@ -20,7 +20,7 @@ from symgen.analyses.equilibrium import value_of
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.stopped import fault
 from symgen.analyses.subject import Subject
-from symgen.base.errors import AnalysisError
+from symgen.base.errors import AnalysisError, counted
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Friction, Mechanism
 
@@ -68,7 +68,7 @@ def band_of(mechanism: Mechanism, parameters: Mapping[str, float], rest: Settled
     subject, left_out = rest.subject, "an equilibrium without dry friction, which holds other positions too"
     freedom = subject.split(subject.rows(subject.evaluated(rest.y)))[0].shape[1]
     if freedom != 1:
-        return Band({}, f"{left_out}: no band of them with {freedom} degrees of freedom")
+        return Band({}, f"{left_out}: no band of them with {counted(freedom, 'degree')} of freedom")
     pressed = ", ".join(friction.name for friction in frictions if friction.pressed)
     if pressed:
         return Band({}, f"{left_out}: no band of them, as friction of {pressed} depends on reactions")

@@ -27,7 +27,7 @@ from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, at_balance, settle
 from symgen.analyses.stopped import fault
 from symgen.analyses.subject import Subject
-from symgen.base.errors import AnalysisError, InputError
+from symgen.base.errors import AnalysisError, InputError, counted
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -103,7 +103,9 @@ class Equilibrium:
 
     def __repr__(self) -> str:
         squares = ", ".join(f"{x:.4g}" for x in self.omega_squared[:3]) + ", ..." * (len(self.omega_squared) > 3)
-        return f"<Equilibrium: {self.stability}, omega^2 = [{squares}] 1/s^2, {len(self.q)} coordinates in .q>"
+        return (
+            f"<Equilibrium: {self.stability}, omega^2 = [{squares}] 1/s^2, {counted(len(self.q), 'coordinate')} in .q>"
+        )
 
     def _repr_html_(self) -> str:
         from symgen.analyses.kinds import in_notebook
@@ -136,7 +138,11 @@ def judged(rest: Settled) -> Equilibrium:
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=(*subject.mode, *subject.singular(d), *edges(subject, y)),
+        notes=(
+            *subject.mode,
+            *subject.singular(d),
+            *edges(subject, y),
+        ),
     )
 
 

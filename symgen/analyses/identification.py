@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
 from symgen.analyses.measured_data import Data, measured_columns
 from symgen.analyses.null_directions import null_directions
-from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
+from symgen.base.errors import AnalysisError, AssemblyError, InputError, counted, nearest, quoted
 from symgen.describe.lifted import lifted
 from symgen.layout import abi
 from symgen.result.sensitivities import place_of
@@ -277,7 +277,7 @@ def _fit(task: Identification, solution: Any) -> Fit:
     sizes = np.where(x != 0.0, np.abs(x), task.sizes)
     null, notes = null_directions(slopes, sizes, labels), list[str]()
     if solution.status == 0:
-        notes.append(f"the search ended after {solution.nfev} steps before it was still")
+        notes.append(f"the search ended after {counted(solution.nfev, 'step')} before it was still")
     active = solution.active_mask != 0
     free, count = np.flatnonzero(~active), len(residuals) - len(labels)
     errors, correlations = np.full(len(x), np.nan), np.full((len(x), len(x)), np.nan)

@@ -15,7 +15,7 @@ from symgen.analyses.kinematics import Kinematics, driven_motion
 from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
 from symgen.base.digits import cleaned
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted
 from symgen.breaks.stops import stops_of
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import are_words_of_data
@@ -158,7 +158,9 @@ class Inverse(Tables):
         }
 
     def __repr__(self) -> str:
-        return f"<Inverse dynamics of {self.mechanism} at {len(self.t)} times: {', '.join(self.efforts.names)}>"
+        return (
+            f"<Inverse dynamics of {self.mechanism} at {counted(len(self.t), 'time')}: {', '.join(self.efforts.names)}>"
+        )
 
 
 def inverse_dynamics(

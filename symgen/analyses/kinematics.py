@@ -19,7 +19,7 @@ from symgen.analyses.prescribed import drivers_of, make_driven
 from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, counted, nearest
 from symgen.base.memory import require
 from symgen.layout import abi
 from symgen.result.labelled import Labelled, labelled
@@ -148,7 +148,7 @@ class Kinematics(MotionTables):
         start = {"t": float(self.t[0]), "q": self.q.row(0), "v": self.v.row(0)} if len(self.t) else {}
         return {
             "method": "kinematics",
-            "integrator": f"{len(self.t)} times",
+            "integrator": f"{counted(len(self.t), 'time')}",
             "status": self.status,
             "reason": self.reason,
             "events": [{"t": passage.t, "name": passage.words} for passage in self.passages],
@@ -211,7 +211,8 @@ class Kinematics(MotionTables):
         return plotted(path, lambda: paths({name: self.curve(name) for name in chosen}, self.title))
 
     def __repr__(self) -> str:
-        return f"<Kinematics of {self.mechanism} at {len(self.t)} times{': ' + self.ended if self.ended else ''}>"
+        ended = f": {self.ended}" if self.ended else ""
+        return f"<Kinematics of {self.mechanism} at {counted(len(self.t), 'time')}{ended}>"
 
 
 def driven_motion(

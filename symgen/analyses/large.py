@@ -16,6 +16,7 @@ from symgen.analyses.algebra import ROUNDED, Solver, in_order, level, null_space
 from symgen.analyses.edges import edges
 from symgen.analyses.equilibrium import Equilibrium, not_unique, reduced_squares, stability_of
 from symgen.analyses.modes import Modes
+from symgen.analyses.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
 from symgen.analyses.settle import search
 from symgen.analyses.subject import Yardsticks, inputs_at_start
 from symgen.base.errors import AnalysisError, InputError
@@ -172,6 +173,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
         If no equilibrium is found.
     """
     sparse, y, lam, _ = descriptor_equilibrium(mechanism, settings)
+    refuse_moving_drivers("at equilibrium", sparse.mechanism, sparse.compiled, sparse.p, 0.0)
     motion, mass, rows, stiffness, damping = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.active)
     if not 0 < count < free:
@@ -234,7 +236,10 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         not_unique=not_unique(mechanism, info, share),
         y=y,
         lam=lam,
-        notes=edges(sparse, y),
+        notes=(
+            *note_on_moving_drivers(sparse.mechanism, sparse.compiled, sparse.p, 0.0),
+            *edges(sparse, y),
+        ),
     )
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import json_form
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
-from symgen.base.errors import InputError, SymgenError
+from symgen.base.errors import InputError, SymgenError, counted
 from symgen.describe.evaluate import parameter_values
 from symgen.result.plot import Plot, plotted
 from symgen.result.plots import COLOURS
@@ -80,7 +80,8 @@ class Locus:
     def __repr__(self) -> str:
         first, last = self.values[[0, -1]]
         count = self.branches.shape[1]
-        return f"<Locus: {count} eigenvalues over {self.name} = {first:g} to {last:g}, {len(self.crossings)} crossings>"
+        counts = counted(count, "eigenvalue"), counted(len(self.crossings), "crossing")
+        return f"<Locus: {counts[0]} over {self.name} = {first:g} to {last:g}, {counts[1]}>"
 
     def _repr_html_(self) -> str:
         from symgen.analyses.kinds import in_notebook

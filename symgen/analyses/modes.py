@@ -25,6 +25,7 @@ from symgen.analyses.linearise import eigenvectors, vibration
 from symgen.analyses.reduced import StateTangent, accelerations, tangent
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import Subject
+from symgen.base.errors import counted
 from symgen.compiling.linearised import Evaluated
 
 Array = NDArray[np.float64]
@@ -117,7 +118,7 @@ class Modes:
 
     def __repr__(self) -> str:
         shown = ", ".join(f"{x:.4g}" for x in self.eigenvalues[:4]) + ", ..." * (len(self.eigenvalues) > 4)
-        return f"<Modes: {self.degrees_of_freedom} degrees of freedom, eigenvalues {shown or 'none'} 1/s>"
+        return f"<Modes: {counted(self.degrees_of_freedom, 'degree')} of freedom, eigenvalues {shown or 'none'} 1/s>"
 
     def _repr_html_(self) -> str:
         from symgen.analyses.kinds import in_notebook

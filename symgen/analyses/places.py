@@ -16,6 +16,7 @@ from symgen.analyses.cyclic import steady_motion
 from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_rests, stability_in_motion, value_of
 from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
 from symgen.analyses.modes import Modes, modes_about
+from symgen.analyses.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, named_states
@@ -142,9 +143,18 @@ def subject_at(place: NamedPlace, by: Sequence[str] = ()) -> tuple[Subject, Arra
         rest = rest_of(subject) if place.at == "equilibrium" else steady_motion(subject, place.cyclic)
     if place.at == "steady":
         _refuse_mode(rest.subject, rest.y)
-    elif subject.mode:
-        refuse_fault(rest.subject, rest.y, judged(rest).lam)
+    else:
+        _refuse_moving_drivers(rest)
+        if subject.mode:
+            refuse_fault(rest.subject, rest.y, judged(rest).lam)
     return rest.subject, rest.y
+
+
+def _refuse_moving_drivers(rest: Settled) -> None:
+    """Refuse motions beside a driver that moves, where it leaves any."""
+    subject = rest.subject
+    if tangent(subject, rest.y).size:
+        refuse_moving_drivers("at equilibrium", subject.mechanism, subject.compiled, subject.p, subject.t)
 
 
 def _refuse_mode(subject: Subject, y: Array) -> None:
@@ -197,7 +207,7 @@ def scanned(
     subject = subject_of(mechanism, settings)
     rests = scanned_rests(subject, name, values)
     settled = (Settled(subject.turned(rest.q), rest.y, rest.lam, rest.iterations) for rest in rests)
-    return _with_bands(mechanism, settings, _of_bodies(mechanism, settings, subject, rests), settled)
+    return _annotated(mechanism, settings, _of_bodies(mechanism, settings, subject, rests), settled)
 
 
 def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
@@ -217,13 +227,18 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     settled = rest_of(subject)
     rest = judged(settled)
     refuse_fault(settled.subject, rest.y, rest.lam)
-    return _with_bands(mechanism, settings, _of_bodies(mechanism, settings, subject, (rest,)), (settled,))[0]
+    return _annotated(mechanism, settings, _of_bodies(mechanism, settings, subject, (rest,)), (settled,))[0]
 
 
-def _with_bands(
+def _annotated(
     mechanism: Mechanism, settings: Settings, rests: tuple[Equilibrium, ...], settled: Iterable[Settled]
 ) -> tuple[Equilibrium, ...]:
-    """Return equilibria with the bands in which dry friction holds."""
+    """Return equilibria with a note on drivers that move, and with the bands in which dry friction holds."""
+    settled = tuple(settled)
+    rests = tuple(
+        replace(rest, notes=(*note_on_moving_drivers(x.mechanism, x.compiled, x.p, x.t), *rest.notes))
+        for rest, x in zip(rests, (each.subject for each in settled), strict=True)
+    )
     if not mechanism.frictions:
         return rests
     values = parameter_values(mechanism, settings.parameters)

@@ -13,11 +13,11 @@ ROUNDING = 4e-15
 #: Smallest scale of a column of a matrix, as a fraction of the largest number of the matrix.
 BESIDE = 1e-2
 #: Smallest scales of numbers of these units.
-OWN_SIZE = {"rad": 1.0, "deg": 1.0}
+OWN_SIZE = {"rad": 1.0, "deg": 1.0, "1": 1.0}
 
 
 def scale_of(values: Iterable[float], unit: str = "") -> float:
-    """Return the scale of numbers of one kind: the largest finite magnitude; for angles at least 1.
+    """Return the scale of numbers of one kind: the largest finite magnitude; for angles and cosines at least 1.
 
     Parameters
     ----------

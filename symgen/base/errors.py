@@ -9,8 +9,12 @@ import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from symgen.base.escapes import printable
+
+if TYPE_CHECKING:
+    from symgen.vocabulary.quantities import Counted
 
 #: Characters at most of a part of a message, such as what was found, of the place it begins with, whose names come from
 #: files, and of a text that it repeats in quotes.
@@ -151,6 +155,12 @@ def fitting(count: int, most: int) -> int:
 def counted(n: int, one: str, many: str = "") -> str:
     """Return a count with its noun: 1 run, 3 runs."""
     return f"{n} {one if n == 1 else many or one + 's'}"
+
+
+def sizes_of(sized: Counted) -> str:
+    """Return sizes with their nouns: 3 coordinates, 3 velocities, 1 constraint row."""
+    velocities = counted(sized.nv, "velocity", "velocities")
+    return f"{counted(sized.nq, 'coordinate')}, {velocities}, {counted(sized.m, 'constraint row')}"
 
 
 def nearest(word: str, candidates: Iterable[str]) -> str:

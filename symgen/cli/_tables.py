@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from symgen.base.digits import column, digits, scale_of
-from symgen.base.errors import fitting
+from symgen.base.errors import counted, fitting
 
 if TYPE_CHECKING:
     from symgen.ensemble.sweep_study import Sweep
@@ -109,17 +109,13 @@ def show_quantities(quantities: Mapping[str, Mapping[str, Any]], tables: Iterabl
 
     Rounding is shown as 0 beside what `tables` of the same motion have of that unit; for a moment, force times length.
     """
-    from symgen.result.labelled import unit_scales
+    from symgen.result.labelled import common_scales
 
-    rows, scales = list[tuple[str, ...]](), dict[str, float]()
-    for table in tables:
-        for unit, size in unit_scales(table).items():
-            scales[unit] = max(size, scales.get(unit, 0.0))
-    scales["N m"] = max(scales.get("N m", 0.0), scales.get("N", 0.0) * scales.get("m", 0.0))
+    rows, scales = list[tuple[str, ...]](), common_scales(tables)
     for name, entry in quantities.items():
         values = [entry[key] for key in ("final", "min", "max")]
         scale = scale_of((x for x in values if x is not None), entry["unit"])
-        scale = max(scale, scales.get(entry["unit"], 0.0))
+        scale = max(scale, scales.get(entry["unit"], 0.0), entry.get("scale", 0.0))
         rows.append((name, *("" if x is None else digits(x, scale) for x in values), entry["unit"]))
     headings = ("quantity", "final", "smallest", "largest", "unit")
     show_rows(console(), headings, rows, left=("quantity", "unit"))
@@ -291,7 +287,7 @@ def show_stress(study: Stress) -> None:
     from symgen.study.stress.stress_rows import LEGEND, Map
 
     out = console()
-    out.print(f"{', '.join(study.models)}: {len(study.rows)} cells")
+    out.print(f"{', '.join(study.models)}: {counted(len(study.rows), 'cell')}")
     shown = Map.of(study)
     if shown.rows:
         headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families))
@@ -319,7 +315,7 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
     lines = [
         ("mechanism", facts["mechanism"]),
         ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
-        *(("varies", f"{name}: {len(x)} values from {x.min():.6g} to {x.max():.6g}") for name, x in axes),
+        *(("varies", f"{name}: {counted(len(x), 'value')} from {x.min():.6g} to {x.max():.6g}") for name, x in axes),
         ("runs", f"{len(study)} in {study.seconds:.3g} s{rate}"),
         *(("status", f"{status}: {count}") for status, count in study.counts.items() if count),
         *(("reason", f"{count} x {reason}") for reason, count in study.reasons()),

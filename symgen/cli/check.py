@@ -68,7 +68,8 @@ def command(
     parts = (("bodies", "body", "bodies"), ("joints", "joint", ""), ("forces", "force", ""))
     click.echo("  " + ", ".join(counted(sizes[of], one, many) for of, one, many in parts))
     click.echo(
-        f"  {sizes['coordinates']} coordinates, {counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
+        f"  {counted(sizes['coordinates'], 'coordinate')}, "
+        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
     )
     click.echo(f"  {counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):

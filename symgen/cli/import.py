@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from symgen.base.errors import counted
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option
 
@@ -16,7 +17,12 @@ from symgen.cli._options import examples, json_option
     epilog=examples("symgen import arm.urdf", "symgen import quadruped.xml --floating -o quadruped.toml"),
 )
 @click.argument("file")
-@click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml by default, - for standard output.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="File to write; NAME.toml by default, with --json none; - for standard output.",
+)
 @click.option("--floating", is_flag=True, help="Leave the base free where the file does not fix it to the ground.")
 @click.option("--stops", is_flag=True, help="Write limits of joints as stops without restitution.")
 @json_option
@@ -32,6 +38,8 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     from symgen.describe.mesh_files import with_mesh_folder
     from symgen.describe.validate import validate
 
+    if as_json and output == "-":
+        raise InputError("--json", "a file to write (-o FILE), or none", "-o -", "standard output takes one of both")
     path = Path(file)
     name = format_of(path)
     if name is None:
@@ -49,14 +57,19 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     if output == "-":
         click.echo("".join(f"# {line}\n" for line in lines) + to_toml(raw), nl=False)
         return OK
-    check_writable("-o", target)
-    write_whole(target, "".join(f"# {line}\n" for line in lines) + to_toml(raw), replace=False)
+    if output is not None or not as_json:
+        check_writable("-o", target)
+        write_whole(target, "".join(f"# {line}\n" for line in lines) + to_toml(raw), replace=False)
     if as_json:
         left_out = [{"what": x.what, "where": x.where, "why": x.why, "moves": x.moves} for x in read.left_out]
         counts = {"bodies": len(mechanism.bodies), "joints": len(mechanism.joints), "inputs": len(mechanism.inputs)}
-        write_json({"file": str(target), "format": read.format, **counts, "left_out": left_out})
+        write_json(
+            {"file": None if output is None else str(target), "format": read.format, **counts, "left_out": left_out}
+        )
         return OK
-    click.echo(f"wrote {target}: {len(mechanism.bodies)} bodies, {len(mechanism.joints)} joints")
+    click.echo(
+        f"wrote {target}: {counted(len(mechanism.bodies), 'body', 'bodies')}, {counted(len(mechanism.joints), 'joint')}"
+    )
     for line in lines:
         click.echo(line)
     return OK

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted
 from symgen.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops
 from symgen.compiling.side import module_beside
 from symgen.describe.mechanism import Mechanism, Topology
@@ -93,7 +93,8 @@ def choose_coordinates(mechanism: Mechanism, coordinates: str, shape: str) -> Ta
     inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
     tree = len(state_names(mechanism, topology)[1])
     left = sum(len(joint.rows) for joint in mechanism.joints if joint.name not in inside)
-    counts = f"{tree} velocities and {left} rows in joint coordinates, {own} and {rows} in absolute ones"
+    velocities = counted(tree, "velocity", "velocities")
+    counts = f"{velocities} and {counted(left, 'row')} in joint coordinates, {own} and {rows} in absolute ones"
     if tree + left < own + rows:
         return Taken("joint", counts)
     return Taken("absolute", counts)
@@ -160,7 +161,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
             refuse_loops(mechanism)
         return Taken("straight", "loops have no states of a file, no rotors and no rows that may be off")
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
-    size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
+    size = f"{counted(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")
     straight = coordinates <= LARGEST_STRAIGHT and not _looped_is_sooner(mechanism, choice, evaluations)
     if shape == "auto" and straight and coordinates <= LARGEST_DENSE:

@@ -109,6 +109,11 @@ def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) ->
     """
     if not mechanism.has_massless:
         return choice
+    if any(friction.pressed for friction in mechanism.frictions):
+        name = next(body.name for body in mechanism.bodies if body.massless)
+        expected = "a mass and moments of inertia above 0, as friction depends on the reaction of a joint"
+        hint = "'friction = { sliding = BOUND }' has a bound of its own"
+        raise InputError(f"bodies.{name}", expected, "one that is 0", hint)
     if choice.method.needs_regular_mass(choice.options):
         raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
     return choice.with_options(solver="augmented") if free and "solver" in choice.options else choice

@@ -267,6 +267,8 @@ class _Reader:
         reading = None if readings is None else readings.find(path, self.where)
         if reading is not None:
             return reading
+        if readings is not None and len(path) == 2 and path[1] in readings.speeds_of(owner):
+            raise self.fail(f"'{text}', a velocity")
         names = (*own, *(() if readings is None else readings.names_of(owner, self.where)))
         what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' does not have"
         listed = f"it has {', '.join(names)}" if names else "it has nothing to read"

@@ -227,6 +227,11 @@ class Readings:
         """Return whether a force has this name."""
         return name in self._context.forces
 
+    def speeds_of(self, owner: str) -> tuple[str, ...]:
+        """Return the velocities of a body; none of what is no body."""
+        body = self._context.bodies.get(owner)
+        return () if body is None else body.speeds
+
     def names_of(self, owner: str, where: str) -> tuple[str, ...]:
         """Return the readings of a body, joint or force besides a body's own coordinates."""
         if owner in self._context.bodies:

@@ -256,7 +256,7 @@ class Recipe:
     @cached_property
     def digest(self) -> str:
         """Digest of all this, the same in every process."""
-        spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name not in ("times", "compares")}
+        spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name not in ("times", "in_place")}
         text = json.dumps(
             [
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),

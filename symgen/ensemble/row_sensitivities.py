@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.free_numbers import with_numbers
 from symgen.base import arguments
-from symgen.base.errors import InputError, SymgenError, nearest
+from symgen.base.errors import InputError, SymgenError, counted, nearest
 from symgen.base.files import check_path, need, write_whole
 from symgen.describe.lifted import lifted
 from symgen.ensemble.row_quantities import of_dimension, of_quantities
@@ -59,7 +59,7 @@ class RowSensitivities:
     reason: NDArray[np.object_]
 
     def __repr__(self) -> str:
-        return f"<Sensitivities of {len(self.sweep)} rows to {', '.join(self.names)}>"
+        return f"<Sensitivities of {counted(len(self.sweep), 'row')} to {', '.join(self.names)}>"
 
     def __getitem__(self, name: str) -> Array:
         """Return the derivatives of a quantity over the grid and time, shape (*grid, times, n).

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import structs
 from numpy.typing import ArrayLike
 
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, counted, nearest
 from symgen.base.plugins import loaded_files
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
@@ -95,7 +95,7 @@ class Ensemble:
     notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        return f"<Ensemble of {self.model.name}: {len(self)} runs with {self.plan.choice.method.name}>"
+        return f"<Ensemble of {self.model.name}: {counted(len(self), 'run')} with {self.plan.choice.method.name}>"
 
     def __len__(self) -> int:
         return len(self.grid)

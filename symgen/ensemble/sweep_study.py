@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.base.arguments import path as argument_path
 from symgen.base.arguments import shown, text, whole, words
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, counted, nearest
 from symgen.base.files import check_path, headed, need, write_csv, write_whole
 from symgen.base.version import __version__
 from symgen.ensemble.names import Names
@@ -76,12 +76,14 @@ class Sweep:
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items() if count)
-        return f"<Sweep of {self.ensemble.model.name}: {len(self)} runs, {counts}>"
+        return f"<Sweep of {self.ensemble.model.name}: {counted(len(self), 'run')}, {counts}>"
 
     def _repr_html_(self) -> str:
         facts = [("mechanism", self.ensemble.model.name), ("runs", str(len(self)))]
         for axis in self.ensemble.grid.axes:
-            facts += [(name, f"{len(x)} values from {x.min():g} to {x.max():g}") for name, x in axis.values.items()]
+            facts += [
+                (name, f"{counted(len(x), 'value')} from {x.min():g} to {x.max():g}") for name, x in axis.values.items()
+            ]
         names = [q.name for q in self.ensemble.recipe.quantities]
         facts.append(("quantities", ", ".join(names[:8]) + ", ..." * (len(names) > 8)))
         facts += [(status, str(count)) for status, count in self.counts.items() if count]

@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import sizes_of
 from symgen.ir.numerics import SKIP
 from symgen.ir.program import BY_PIVOTS, MODE_NUMBERS, SCALES, STATUS
 from symgen.vocabulary.infos import Info, LawInfo
@@ -73,7 +74,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     fixed: tuple[tuple[tuple[int, ...], tuple[int, ...]], ...] = ()
 
     def __repr__(self) -> str:
-        return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
+        return f"<ModelInfo of {self.name}: {sizes_of(self)}>"
 
     @property
     def work(self) -> int:
@@ -141,8 +142,7 @@ class CompiledModel(ABC):
 
     def __repr__(self) -> str:
         info = self.info
-        sizes = f"{info.nq} coordinates, {info.nv} velocities, {info.m} rows"
-        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {sizes}>"
+        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {sizes_of(info)}>"
 
     @abstractmethod
     def scratch(self) -> Array:

@@ -191,8 +191,8 @@ class RunSpec:
         Times at which inputs jump, and their values from then on; the first one has the values at the start.
     events : Watched or None
         Switching functions: events, and ends of adaptive steps.
-    compares : bool
-        Whether constant implicit steps solve equations in which formulas compare the state.
+    in_place : str
+        What to write in place of formulas that jump with the state; empty without such formulas.
     """
 
     until: float
@@ -213,7 +213,7 @@ class RunSpec:
     duration: float | None = None
     stops: tuple[Stop, ...] = ()
     events: Watched | None = None
-    compares: bool = False
+    in_place: str = ""
 
     @property
     def velocity_limit(self) -> float:

@@ -25,9 +25,16 @@ def shortened(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def prose(text: str) -> str:
+    """Return a sentence of the code as a page shows it: words in backticks as code, powers and transposes raised."""
+    shown = re.sub(r"(`+)(.+?)\1", r"<code>\2</code>", escape(text, quote=False))
+    raised = re.sub(r"(?<=[\w)])\^(-?\d+|[T+])(?![\w])", r"<sup>\1</sup>", shown)
+    return raised.replace("<sup>-", "<sup>−")
+
+
 def small(text: str) -> str:
     """Return a remark."""
-    return f'<p class="small">{escape(text)}</p>'
+    return f'<p class="small">{prose(text)}</p>'
 
 
 def section(ident: str, title: str, parts: Iterable[str]) -> str:
@@ -37,7 +44,7 @@ def section(ident: str, title: str, parts: Iterable[str]) -> str:
 
 def fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked: bool = False) -> str:
     """Return a folded part; `head` is HTML where `marked`, or has MathML in it."""
-    text = head if marked or "<math" in head else escape(head, quote=False)
+    text = head if marked or "<math" in head else prose(head)
     name = f' id="{attribute(ident)}"' if ident else ""
     start = f"<details{name}{' open' if is_open else ''}><summary>{text}</summary>"
     return f'{start}<div class="fold">{inside}</div></details>'

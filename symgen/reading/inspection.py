@@ -69,7 +69,7 @@ class Inspection:
     def __repr__(self) -> str:
         sizes = self.facts["sizes"]
         return (
-            f"<Inspection of {self.mechanism.name}: {sizes['coordinates']} coordinates, "
+            f"<Inspection of {self.mechanism.name}: {counted(sizes['coordinates'], 'coordinate')}, "
             f"{counted(sizes['rows'], 'row')}, {counted(self.facts['degrees_of_freedom'], 'degree')} of freedom>"
         )
 
@@ -365,7 +365,7 @@ def as_text(facts: dict[str, Any]) -> str:
 
     lines.append(f"{facts['mechanism']}: {facts['title']}")
     lines.append(
-        f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, "
+        f"{counted(sizes['coordinates'], 'coordinate')}, {counted(sizes['velocities'], 'velocity', 'velocities')}, "
         f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}, "
         f"{counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start"
     )
@@ -376,7 +376,7 @@ def as_text(facts: dict[str, Any]) -> str:
         kinds[name.rpartition("_")[0]] += count
     kernels = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
     lines.append(f"shape: {shape['shape']}, as {shape['reason']}")
-    lines.append(f"as loops: {len(shape['kernels'])} kernels for {kernels}")
+    lines.append(f"as loops: {counted(len(shape['kernels']), 'kernel')} for {kernels}")
     if "tree" in facts:
         cut = ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
         lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {cut}")
@@ -420,7 +420,7 @@ def as_text(facts: dict[str, Any]) -> str:
     lines += [f"gamma[{name}] = {gamma}" for name, gamma in facts["gamma_by_terms"].items()]
     section("Mass matrix M")
     lines += [f"M[{', '.join(b['velocities'])}] = {_matrix(b['matrix'])}" for b in facts["mass"]]
-    section("Forces f: M v' + D^T lambda = f")
+    section("Forces f: M v' + D^T lambda = f" if facts["rows"] else "Forces f: M v' = f")
     lines += [f"f[{name}] = {force}" for name, force in facts["forces_by_terms"].items()]
     if facts["terms"]:
         section("Shared terms of gamma and f")

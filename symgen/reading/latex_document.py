@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, nearest, sizes_of
 from symgen.base.escapes import latex_text
 from symgen.reading.boxes import latex
 from symgen.reading.row_words import row_words
@@ -91,13 +91,13 @@ def document(
     parts = [text for part in chosen for text in sections[part]]
     parts += _section("Shared terms", _lines(sheet.shared(sheet.nodes(chosen))))
     if "law" in content:
-        parts += _law(law)
+        parts += _law(law) if e.m else []
     if "left-out" in content and e.omissions:
         items = [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
         parts += _section("Left out", [r"\begin{itemize}", *items, r"\end{itemize}"])
     if whole:
         return "\n".join([*_head(mechanism, sheet), *parts, r"\end{document}"]) + "\n"
-    notes = [f"{mechanism.name}: {e.nq} coordinates, {e.nv} velocities, {e.m} rows; numbers have six digits"]
+    notes = [f"{mechanism.name}: {sizes_of(e)}; numbers have six digits"]
     notes += [f"left out: {o.what}: {o.why}" for o in e.omissions]
     texts = [*(f"% {note}" for note in notes), *(text.replace(r"\section*", r"\paragraph") for text in parts)]
     return "\n".join(texts) + "\n"
@@ -114,9 +114,11 @@ def _head(mechanism: Mechanism, sheet: Sheet) -> list[str]:
         r"\author{}\date{}",
         r"\begin{document}",
         r"\maketitle",
-        rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {e.nq} coordinates, {e.nv} "
-        rf"velocities, {e.m} constraint rows. Its motion follows from",
-        r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]",
+        rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {sizes_of(e)}. "
+        rf"Its motion follows from",
+        r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]"
+        if e.m
+        else r"\[ M \dot v = f, \qquad \dot q = N v. \]",
         *(rf"\par {_words(k)} has no row: it prescribes {_words(what)}." for k, what in sheet.prescribed().items()),
         *([rf"\par Nonholonomic, conditions on velocities without $\Phi$: {free}."] if free else []),
         r"\par Numbers are rounded to six digits.",

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from symgen import catalogue
+from symgen.base.errors import counted
 from symgen.base.escapes import printable
 from symgen.emit.printer import ElementAccess
 from symgen.ir.program import Target
@@ -130,7 +131,7 @@ def file_listing(text: str, places: Mapping[str, int], joints: Container[str]) -
         name, own = back.get(number, ""), escape(printable(line.expandtabs(4)))  # what turns text around is seen
         link = f'  <a href="#rows-{attribute(name)}">rows</a>'
         lines.append(f'<span id="file-{number}">{own}{link}</span>' if name in joints else own)
-    return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
+    return [fold(f"{counted(len(lines), 'line')}", f"<pre>{chr(10).join(lines)}</pre>")]
 
 
 def code_listing(source: str, parts: Mapping[str, str], back: Mapping[int, Computed]) -> list[str]:
@@ -153,8 +154,8 @@ def code_listing(source: str, parts: Mapping[str, str], back: Mapping[int, Compu
         else:
             link = f'<a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
             lines.append(f'<span id="line-{number}">{escape(line.partition("  # ")[0])}  {link}</span>')
-    listings = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
+    listings = [fold(f"module model, {counted(len(lines), 'line')}", f"<pre>{chr(10).join(lines)}</pre>")]
     for stem, text in parts.items():
-        head = f"module {escape(stem)}, {text.count(chr(10))} lines"
+        head = f"module {escape(stem)}, {counted(text.count(chr(10)), 'line')}"
         listings.append(fold(head, f"<pre>{escape(text)}</pre>"))
     return listings

@@ -10,7 +10,7 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted, sizes_of
 from symgen.base.escapes import script_json
 from symgen.compiling.closing import law_at_start
 from symgen.drawing import sketch
@@ -30,6 +30,7 @@ from symgen.reading.html import (
     of_factor,
     of_jacobian,
     picture,
+    prose,
     section,
     shortened,
     small,
@@ -161,19 +162,19 @@ class EquationPage:
         e, method, joints = self.e, self.choice.method.name, self.mechanism.joints
         title = self.whole.title or self.whole.name
         kind = "bodies" if self.mechanism.topology is None else "the joints of a tree"
-        sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
+        sizes = f"{sizes_of(e)}, {counted(len(e.parameters), 'parameter')}"
         rates = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
         body = [
             f"<h1>{escape(title)}</h1>",
             f"<p>{escape(self.whole.name)}, in coordinates of {kind}: {sizes}. Method {escape(method)}.</p>",
-            *(f'<p class="small">{escape(fact)}</p>' for fact in self.facts),
+            *(small(fact) for fact in self.facts),
             self._navigation(),
+            section("motion", "Equations of motion", self._motion()),
             section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', small(_SKETCH)]),
             section("topology", "Topology", self._topology()),
             section("coordinates", "Coordinates", self._coordinates()),
             section("rows", "Joints and their rows", [self._joint(j, listed is not None) for j in joints]),
             section("patterns", "Patterns", self._patterns()),
-            section("motion", "Equations of motion", self._motion()),
             section("law", f"The law of {method}, as solved", self._law()),
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
@@ -201,7 +202,7 @@ class EquationPage:
     # -- sections --------------------------------------------------------------------------------------------------
 
     def _navigation(self) -> str:
-        names = "sketch topology coordinates rows patterns motion law operations left-out file code".split()
+        names = "motion sketch topology coordinates rows patterns law operations left-out file code".split()
         return "<nav>" + " ".join(f'<a href="#{k}">{k.replace("-", " ")}</a>' for k in names) + "</nav>"
 
     def _sketch(self) -> str:
@@ -213,7 +214,7 @@ class EquationPage:
             between = " and ".join(dict.fromkeys(joint.bodies))
             link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        parts = [fold(f"{len(self.mechanism.joints)} joints", html_table(lines), len(lines) <= 13)]
+        parts = [fold(f"{counted(len(self.mechanism.joints), 'joint')}", html_table(lines), len(lines) <= 13)]
         if self.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
@@ -268,7 +269,8 @@ class EquationPage:
         parts.append(equations(self.sheet.jacobian(joint.name)))
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
-        head = f"<b>{escape(joint.name)}</b>: {names}, {len(rows)} rows, {g.operations(nodes)} operations"
+        sizes = f"{counted(len(rows), 'row')}, {counted(g.operations(nodes), 'operation')}"
+        head = f"<b>{escape(joint.name)}</b>: {names}, {sizes}"
         return fold(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
 
     def _lines_of(self, name: str) -> str:
@@ -294,7 +296,8 @@ class EquationPage:
 
     def _motion(self) -> list[str]:
         sheet = self.sheet
-        folds = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
+        written = _MOTION if self.e.m else _FREE_MOTION
+        folds = [f'<div class="equation">{math(written)}</div>', small("Numbers are rounded to six digits.")]
         if self.e.nv <= _WHOLE:
             folds.append(fold("M and D as matrices", equations(sheet.whole())))
         parts = [
@@ -312,9 +315,14 @@ class EquationPage:
         return folds
 
     def _law(self) -> list[str]:
-        lines = [f"<p>{escape(self.steps.summary)}</p>"]
+        if not self.e.m:
+            alone = (
+                "There are no constraint rows, and the accelerations follow from the forces alone, with every method."
+            )
+            return [f"<p>{alone}</p>", f'<div class="equation">{math(_FREE_MOTION)}</div>']
+        lines = [f"<p>{prose(self.steps.summary)}</p>"]
         for function, purpose, steps in self.steps.parts:
-            lines.append(f"<h3>{escape(function)}: {escape(purpose)}</h3>")
+            lines.append(f"<h3>{escape(function)}: {prose(purpose)}</h3>")
             for step in steps:
                 note = ' <span class="small">solved</span>' if step.solved else ""
                 lines.append(f'<div class="equation">{math(step.box)}{note}</div>')
@@ -333,7 +341,7 @@ class EquationPage:
             lines.append([f'<a href="#rows-{attribute(joint)}">{escape(joint)}</a>', *map(str, counts)])
         blocks = [["function", "what it computes", "operations"]]
         for block in (*self.program.blocks, *self.law.blocks):
-            blocks.append([escape(block.name), escape(block.purpose), str(block.operations)])
+            blocks.append([escape(block.name), prose(block.purpose), str(block.operations)])
         return [
             fold("by joint, each with what it shares within itself", html_table(lines, numbers=4)),
             fold("by emitted function", html_table(blocks, numbers=1), True),
@@ -348,7 +356,7 @@ class EquationPage:
         return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
 
     def _left_out(self) -> list[str]:
-        items = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
+        items = [f"<li>{prose(o.what)}: {prose(o.why)}</li>" for o in self.e.omissions]
         return (
             [fold(f"{len(items)} things", f"<ul>{''.join(items)}</ul>", len(items) <= 8)]
             if items
@@ -359,6 +367,7 @@ class EquationPage:
 _OFFERED = "Scripts find it at work: window.symgen.rates(t, y, p) returns the rates of a state; y0 is the start's."
 _POWER = "energies, and the power of forces without potential; b v' + c is that of drivers without rows"
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
+_FREE_MOTION = row(name("M"), dotted(name("v")), sign("="), name("f"))
 _MOTION = row(
     *(name("M"), dotted(name("v")), sign("+"), transposed(name("D")), name("lambda"), sign("="), name("f"), sign(",")),
     *(name("D"), dotted(name("v")), sign("="), name("gamma")),

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import sympy as sp
 
 from symgen.base import arguments
-from symgen.base.errors import InputError, nearest
+from symgen.base.errors import InputError, counted, nearest, sizes_of
 from symgen.describe.evaluate import parameter_values
 from symgen.formulate.formulate import formulate
 from symgen.reading import boxes
+from symgen.reading.free_modes import free_modes
 from symgen.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, functions, nodes_of
 from symgen.reading.structure import shared_terms, structure
 from symgen.reading.symbolic import Boxed, Symbolic
@@ -98,6 +99,15 @@ class SymbolicEquations:
     turned = _Lazy[Mapping[str, sp.Symbol]](
         "Symbols of angles as they were last, for measures that count turns: these are on the nearest branch.",
         lambda e: e._symbols("winding"),
+    )
+    states = _Lazy[Mapping[str, sp.Symbol]]("Symbols of the states of the file, by name.", lambda e: e._symbols("z"))
+    modes = _Lazy[Mapping[str, sp.Symbol]](
+        "Symbols of the numbers of rows that may be off (dry friction, stops), by name: ``A.friction.sign`` is the "
+        "sign of the rate in motion, 0 at rest; ``held`` is 1 where the row is in force.",
+        lambda e: e._symbols("modes"),
+    )
+    joint_rates = _Lazy[Mapping[str, sp.Expr]](
+        "Rates of the coordinates of joints, by the names of the coordinates.", lambda e: e._joint_rates()
     )
     # -- quantities ------------------------------------------------------------------------------------------------
 
@@ -198,7 +208,9 @@ class SymbolicEquations:
         return replace(self, values=replaced)
 
     def lambdify(self, *names: str, modules: str | Sequence[Any] = "numpy") -> Callable[..., Any]:
-        """Return a function ``(t, q, v, p=None, turned=None)`` that computes quantities, shared terms once.
+        """Return a function ``(t, q, v, p=None, turned=None, states=None, modes=None)`` that computes quantities.
+
+        Shared terms are computed once.
 
         Parameters
         ----------
@@ -210,8 +222,9 @@ class SymbolicEquations:
         Returns
         -------
         callable
-            Takes the time [s], sequences of q and v, of the parameters, with their values in the file by default, and
-            of `turned`, all 0 by default; gives what `names` say, a tuple where they are several.
+            Takes the time [s] and sequences of q, v, `parameters`, `turned`, `states` and `modes`; gives what `names`
+            say, a tuple where they are several. By default parameters have their values in the file, `turned` and
+            `states` are 0, dry friction slides in the direction of v, stops are open, and joints hold.
         """
         import numpy as np
 
@@ -221,20 +234,30 @@ class SymbolicEquations:
         terms = {symbol: sp.Symbol(f"_term{i}", real=True) for i, symbol in enumerate(definitions)}
         outputs = [shared.quantity(name).xreplace(terms) for name in quantities]
         written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
-        symbols = [self.t, *(list(group.values()) for group in (self.q, self.v, self.parameters, self.turned))]
         tables = functions(self.derived.tables)
         libraries = [tables, *([modules] if isinstance(modules, str) else modules)]
-        compute = sp.lambdify(symbols, outputs, libraries, cse=lambda unchanged: (written, unchanged))
+        compute = sp.lambdify(self.arguments, outputs, libraries, cse=lambda unchanged: (written, unchanged))
         described = list(parameter_values(self.mechanism).values())
+        free = free_modes(self, libraries)
 
-        def computed(t: float, q: Any, v: Any, p: Any = None, turned: Any = None) -> Any:
+        def computed(
+            t: float, q: Any, v: Any, p: Any = None, turned: Any = None, states: Any = None, modes: Any = None
+        ) -> Any:
             """Return the quantities at a state."""
             last = [0.0] * len(self.turned) if turned is None else turned
+            own = [0.0] * len(self.states) if states is None else states
+            values = (t, q, v, described if p is None else p, last, own)
             with np.errstate(all="ignore"):  # both branches of a condition are computed, one of which may be undefined
-                results = compute(t, q, v, described if p is None else p, last)
+                results = compute(*values, free(*values) if modes is None else modes)
             return results[0] if len(quantities) == 1 else tuple(results)
 
         return computed
+
+    @property
+    def arguments(self) -> list[Any]:
+        """Symbols of the arguments of a function of `lambdify`, in their order."""
+        groups = (self.q, self.v, self.parameters, self.turned, self.states, self.modes)
+        return [self.t, *(list(group.values()) for group in groups)]
 
     def law(self, method: str = "direct-correction", **options: str) -> Law:
         """Return the law of a method as the steps that are solved.
@@ -269,6 +292,9 @@ class SymbolicEquations:
 
     def _repr_latex_(self) -> str:
         """Return the plain text for a notebook."""
+        if not self.derived.m:
+            sizes = rf"q \in \mathbb{{R}}^{{{self.derived.nq}}},\ v \in \mathbb{{R}}^{{{self.derived.nv}}}"
+            return rf"$\displaystyle M \dot v = f,\quad \dot q = N v,\quad {sizes}$"
         return (
             r"$\displaystyle M \dot v + D^T \lambda = f,\quad D \dot v = \gamma,\quad \dot q = N v,\quad "
             rf"q \in \mathbb{{R}}^{{{self.derived.nq}}},\ v \in \mathbb{{R}}^{{{self.derived.nv}}},\ "
@@ -278,11 +304,11 @@ class SymbolicEquations:
     def _repr_html_(self) -> str:
         """Return the HTML for a notebook: sizes, and the quantities folded."""
         e = self.derived
-        sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
+        sizes = f"{sizes_of(e)}, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
         for name in self._quantities:
             words, count = QUANTITIES[name], self._size(name)
-            head = f"<summary><code>{name}</code>: {escape(words)}, {count} operations</summary>"
+            head = f"<summary><code>{name}</code>: {escape(words)}, {counted(count, 'operation')}</summary>"
             text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
             parts.append(f"<details>{head}{escape(text)}</details>")
         return "\n".join(parts)
@@ -312,6 +338,10 @@ class SymbolicEquations:
     def _symbols(self, space: str) -> Mapping[str, sp.Symbol]:
         symbols = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
         return MappingProxyType({s.name: s for s in symbols})
+
+    def _joint_rates(self) -> Mapping[str, Any]:
+        written = {x.name: self._put(self._plain.expression(x.rate)) for x in self.derived.joint_coordinates}
+        return MappingProxyType(written)
 
     def _size(self, name: str) -> int:
         return self._written.graph.tree_operations(n for *_, n in self.nodes[name][1])

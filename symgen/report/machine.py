@@ -10,7 +10,7 @@ import numpy as np
 
 from symgen.analyses.kinds import AnalysisTable
 from symgen.analyses.kinds.modes import shown as shown_modes
-from symgen.base.errors import SymgenError, fitting
+from symgen.base.errors import SymgenError, counted, fitting
 from symgen.drawing.drawing import Drawing
 from symgen.report.document import Document, DocumentTable, Picture, Section
 from symgen.report.picture import MOST_BODIES, of_figure
@@ -76,7 +76,7 @@ def _lead(result: Result) -> str:
 
 def _trust(result: Result) -> tuple[str, ...]:
     """Return the outputs behind the largest loads, and reasons for which these may be off."""
-    text = f"Largest absolute values over {len(result.t)} outputs; a peak between two outputs can be higher."
+    text = f"Largest absolute values over {counted(len(result.t), 'output')}; a peak between two outputs can be higher."
     estimate = result.error_estimate
     error = "" if estimate is None else f" A second run puts the error of the motion at about {estimate:.1e} m."
     doubt = "" if result.status == "ok" else f" The run is {result.status}: {result.reason}."

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from symgen.base.errors import counted
 from symgen.report import words
 from symgen.report.document import Document, DocumentTable, Section, TableCell
 from symgen.report.picture import sketched
@@ -171,7 +172,7 @@ def _left_out(study: Stress) -> list[Section]:
 def _cells_section(study: Stress) -> Section:
     """Return all cells of the map, a table for each family."""
     if len(study.rows) > MOST_CELLS:
-        text = f"{len(study.rows)} cells are too many for a page; --csv and --json write them."
+        text = f"{counted(len(study.rows), 'cell')} are too many for a page; --csv and --json write them."
         return Section("All cells", (text,))
     shown = Map.of(study)
     headings = (

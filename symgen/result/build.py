@@ -22,7 +22,7 @@ from symgen.running.continuation import made_of
 from symgen.running.dead_centre import dead_centre_at_end
 from symgen.running.tree import CarriedOutcome
 from symgen.running.undefined import undefined_at_end
-from symgen.runs.events import brought_to_rest, record_of, stopped
+from symgen.runs.events import brought_to_rest, record_of, stopped, struck_at_once
 from symgen.runs.last_state import LastState
 from symgen.runs.simulation import SHOWN
 
@@ -74,7 +74,9 @@ def build_result(
         verdict = replace(verdict, reason=locked)
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *brought_to_rest(outcome), *stopped(outcome)))
+    verdict = replace(
+        verdict, notes=(*notes, *verdict.notes, *brought_to_rest(outcome), *struck_at_once(outcome), *stopped(outcome))
+    )
     derived = (compiled,) if run.tree is None else (compiled, run.compiled)
     states, status = outcome.states, outcome.status_columns
     q, v = info.parts(states)

@@ -134,6 +134,15 @@ def unit_scales(table: Labelled) -> dict[str, float]:
     return scales | {unit: max(x, least_scale(scales, unit)) for unit, x in scales.items()}
 
 
+def common_scales(tables: Iterable[Labelled]) -> dict[str, float]:
+    """Return the scale of the numbers of each unit in tables of one motion, of moments also force times length."""
+    scales = dict[str, float]()
+    for table in tables:
+        for unit, size in unit_scales(table).items():
+            scales[unit] = max(size, scales.get(unit, 0.0))
+    return scales | {unit: max(scales.get(unit, 0.0), least_scale(scales, unit)) for unit in PRODUCTS}
+
+
 #: Units of products: what is nothing beside the product of the scales of its factors is rounding.
 PRODUCTS = {"N m": ("N", "m"), "J": ("N", "m"), "W": ("N", "m/s")}
 

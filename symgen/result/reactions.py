@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.base.errors import counted
 from symgen.describe.evaluate import evaluate
 from symgen.ir.program import MODE_NUMBERS
 from symgen.layout import abi
@@ -223,7 +224,7 @@ class Forces:
     seats: Mapping[str, Seat]
 
     def __repr__(self) -> str:
-        return f"<Forces of {len(self.seats)} joints at {len(self.outcome.times)} outputs>"
+        return f"<Forces of {counted(len(self.seats), 'joint')} at {counted(len(self.outcome.times), 'output')}>"
 
     @property
     def compiled(self) -> CompiledModel:

@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from symgen.base.errors import counted
 from symgen.result.contract import json_value
 from symgen.result.labelled import Labelled, notebook_table
 from symgen.result.result import FAILED
@@ -33,11 +34,14 @@ def lines(result: Result) -> list[tuple[str, str]]:
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
         *([("coordinates", _coordinates(result))] if result.coordinates != "absolute" else []),
         ("status", status_in_words(result)),
-        ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side{together}"),
+        (
+            "steps",
+            f"{result.steps}{rejected}, {counted(result.evaluations, 'evaluation')} of the right-hand side{together}",
+        ),
         ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{derivation}"),
         ("violations", f"position {result.position_violation_max:.3g}, velocity {result.velocity_violation_max:.3g}"),
         ("energy error", f"{result.energy_drift_max:.3g} J"),
-        ("rank", f"{rank.rank} of {rank.rows} rows{dropped}"),
+        ("rank", f"{rank.rank} of {counted(rank.rows, 'row')}{dropped}"),
     ]
     if result.rank_event_count:
         pairs.append(("passages", f"{result.rank_event_count} near singular positions"))

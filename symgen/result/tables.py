@@ -15,7 +15,7 @@ import numpy as np
 
 from symgen.base.arguments import one_of, shown, switch, text, words
 from symgen.base.arguments import path as argument_path
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted
 from symgen.base.files import check_path
 from symgen.compiling.side import compile_side
 from symgen.describe.columns import column_name
@@ -55,7 +55,7 @@ class Measured:
     multipliers: Callable[[], Array]
 
     def __repr__(self) -> str:
-        return f"<Measured of {self.mechanism.name} at {len(self.outcome.times)} outputs>"
+        return f"<Measured of {self.mechanism.name} at {counted(len(self.outcome.times), 'output')}>"
 
     @cached_property
     def signals(self) -> SignalTables:

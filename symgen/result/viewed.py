@@ -191,7 +191,9 @@ def _titled(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str
         else:
             one = len(set(owners)) == 1 and head and table != "outputs"
             before = owners[0] if one else head
-            yield ": ".join(filter(None, (before, meaning))), unit, logarithmic, part
+            alone = table == "outputs" and len(part.names) == 1  # an output says more than its unit: `lost`, no energy
+            what = part.names[0] if alone else meaning
+            yield ": ".join(filter(None, (before, what))), unit, logarithmic, part
 
 
 def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tuple[Live | None, str]:

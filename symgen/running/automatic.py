@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import counted
 from symgen.compiling.choices import choose_shape
 from symgen.compiling.linearised import GROWTH, compile_growth
 from symgen.compiling.pipeline import choose_method
@@ -297,7 +298,7 @@ def stiff_by_steps(run: Prepared, outcome: Outcome) -> tuple[str, ...]:
         slow = outcome.counters["slow_steps"]
         if slow < SLOW * outcome.steps:
             return ()
-        why = f"the iteration of {TOGETHER} converged slowly in {slow} of {outcome.steps} steps"
+        why = f"the iteration of {TOGETHER} converged slowly in {slow} of {counted(outcome.steps, 'step')}"
     else:
         facts = facts_of(run.plan.mechanism, *run.assembled.of_bodies, run.spec.until)
         if facts.stiffness <= STIFF_RATIO:

@@ -20,8 +20,9 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
-from symgen.describe.kinks import discontinuities_of, longest_step
+from symgen.describe.kinks import longest_step
 from symgen.describe.lengths import longest_body
+from symgen.describe.sticking import advice_on_jumps
 from symgen.describe.stops import refuse_bounds
 from symgen.integrators import INTEGRATORS
 from symgen.loops.integrator import adapts
@@ -229,7 +230,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=np.inf if method.correction(choice.options).energy else s.max_energy_error,
         max_attempts=MAX_ATTEMPTS if s.max_attempts is None else s.max_attempts,
-        compares=not adaptive and "ode" not in integrator.forms and any(x.jumps for x in discontinuities_of(mechanism)),
+        in_place=advice_on_jumps(mechanism),
         # not the end of this run: a run that is continued needs the same duration
         duration=None if adaptive else mechanism.defaults.until,
         integrator_parameters={

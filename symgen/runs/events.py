@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -327,13 +328,29 @@ def stopped(outcome: Outcome) -> list[str]:
 
 
 def brought_to_rest(outcome: Outcome) -> list[str]:
-    """Return a note on each stop that impacts have brought to rest, with the time that was left."""
+    """Return a note on each stop that ever faster impacts have brought to rest, with the time that was left.
+
+    A single impact without rebound accumulates nothing: its events say all.
+    """
     return [
         f"impacts of {event.name.rpartition('.')[0]} accumulate at t = {event.t + event.left:.13g} s: "
         f"it rests from t = {event.t:.13g} s on, where {event.left:.3g} s were left"
         for event in outcome.happened
-        if event.left is not None
+        if event.left
     ]
+
+
+def struck_at_once(outcome: Outcome) -> list[str]:
+    """Return a note on the first impact of several stops at once, if any."""
+    hits = [event for event in outcome.happened if event.name.endswith(f".{HIT}") and event.impact is not None]
+    for first, second in pairwise(hits):
+        if first.impact is second.impact:
+            together = [event.name.rpartition(".")[0] for event in hits if event.impact is first.impact]
+            return [
+                f"{' and '.join(together)} strike at once at t = {first.t:.13g} s: by Newton's law each gap opens with "
+                "its restitution times the rate at which it closed, which is not what impacts one after the other do"
+            ]
+    return []
 
 
 def record_of(info: ModelInfo, event: Happening) -> EventRecord:
@@ -346,5 +363,9 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
     signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
     names = [*(row.name for row in info.rows), *impact.imposed]
-    impulses = {name: float(s * x) for name, s, x in zip(names, signs, impact.impulses, strict=True)}
+    closed = (info.rows[i].name for i in info.bounded)
+    stops, impulses = {f"{row.removesuffix('.stop')}.rate": row for row in closed}, dict[str, float]()
+    for name, s, x in zip(names, signs, impact.impulses, strict=True):  # of a closed stop and of one that strikes
+        row = stops.get(name, name)
+        impulses[row] = impulses.get(row, 0.0) + float(s * x)
     return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

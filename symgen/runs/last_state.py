@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.errors import counted
+
 Array = NDArray[np.float64]
 
 #: Settings of runs saved before these were recorded.
@@ -62,7 +64,7 @@ class LastState:
     states: Mapping[str, float] | None = None
 
     def __repr__(self) -> str:
-        return f"<LastState of {self.mechanism} at {self.t:g} s: {len(self.q)} coordinates>"
+        return f"<LastState of {self.mechanism} at {self.t:g} s: {counted(len(self.q), 'coordinate')}>"
 
     @property
     def last_state(self) -> LastState:

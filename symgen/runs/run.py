@@ -36,10 +36,7 @@ Progress = Callable[[float], None]
 CPU_CLOCK = getattr(time, "thread_time", time.perf_counter) if os.name == "posix" else time.perf_counter
 #: Messages for runs without progress, and for runs whose forces or joints compare the state.
 _STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
-_JUMPING = (
-    "formulas compare the state: where one jumps to and fro, as friction by sign(v) does that sticks, no step gets "
-    "across; a steep smooth one in its place, such as tanh(v/1e-3), has motions that radau5 follows"
-)
+_JUMPING = "a formula jumps to and fro with the state, as friction by sign(v) does that sticks, and no step gets across"
 
 
 def integrate(
@@ -256,7 +253,7 @@ def end_reason(
     where = f" at t = {time:.6g} s"
     sentence = abi.REASONS[code]
     phi, drift, length, speed = violations
-    jumps = spec.events is not None and spec.events.jumps
+    jumps, jumping = spec.events is not None and spec.events.jumps, f"{_JUMPING}; {spec.in_place}"
     if code == abi.POSITION:
         return f"{sentence} ({phi:.3g} > {spec.max_violation:g} x {length:.3g}){where}"
     if code == abi.VELOCITY:
@@ -267,10 +264,10 @@ def end_reason(
         more = "at the present rate the rest would take more than" if attempts < spec.max_attempts else "that is all of"
         return (
             f"{sentence}: {attempts} attempts at a step brought it to t = {time:.6g} of {spec.until:g} s, and {more} "
-            f"max_attempts = {spec.max_attempts:g}; {_JUMPING if jumps else _STIFF}"
+            f"max_attempts = {spec.max_attempts:g}; {jumping if jumps else _STIFF}"
         )
-    if (code == abi.TINY_STEP and jumps) or (code == abi.NEWTON and spec.compares):
-        return f"{sentence}{where}; {_JUMPING}"
+    if (code == abi.TINY_STEP and jumps) or (code == abi.NEWTON and not spec.adaptive and spec.in_place):
+        return f"{sentence}{where}; {jumping}"
     if code == abi.ENERGY:
         return f"{sentence} ({spec.max_energy_error:g} of {scale:.3g} J){where}"
     return sentence + where

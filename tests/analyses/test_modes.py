@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.special import roots_laguerre
 from support import bricard
+from support.emitted import mechanism_of
 from sympy.physics.mechanics import LagrangesMethod, ReferenceFrame, dynamicsymbols
 
 import symgen
@@ -119,6 +120,51 @@ def test_four_bar_by_sympy_s_linearizer():
 def test_what_drivers_hold_has_the_empty_system():
     model = symgen.load("driven-four-bar")
     assert model.linearise().states == () and model.modes().degrees_of_freedom == 0
+
+
+CART = {
+    "mechanism": {"name": "cart", "gravity": [0.0, -9.81]},
+    "bodies": {
+        "cart": {"mass": 2.0, "inertia": 0.1, "position": [0.1, 0.0]},
+        "pole": {"mass": 1.0, "inertia": 0.08, "points": {"pin": [-0.5, 0.0]}, "position": [0.1, -0.5]}
+        | {"angle": "-pi/2"},
+    },
+    "joints": {
+        "rail": {"type": "translational", "between": ["ground", "cart"], "at": [[0, 0], "centre"], "axis": [1, 0]},
+        "pin": {"type": "revolute", "between": ["cart", "pole"], "at": ["centre", "pin"]},
+        "motor": {"type": "driver", "joint": "rail", "value": "0.1"},
+    },
+}
+
+
+def driven_cart(value):
+    joints = CART["joints"] | {"motor": CART["joints"]["motor"] | {"value": value}}
+    return symgen.Model(mechanism_of({**CART, "joints": joints}))
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_driver_that_moves_is_named_at_once(coordinates):
+    """A cart that a sine moves: nothing about an equilibrium, in one sentence; the equilibrium itself holds it."""
+    model, settings = driven_cart("0.1 + 0.05*sin(3*t)"), symgen.Settings(coordinates=coordinates)
+    for analysis in (model.modes, model.linearise):
+        with pytest.raises(InputError, match=r"'motor', which moves at t = 0 s by '0.1 \+ 0.05\*sin\(3.0\*t\)'"):
+            analysis(settings)
+    rest = model.equilibrium(settings)
+    assert rest.stability == "stable" and rest.q["cart.x"] == pytest.approx(0.1, abs=1e-12)
+    assert rest.notes == ("motor moves at t = 0 s; the equilibrium holds it there",)
+
+
+@pytest.mark.parametrize("value", ["0.1", "0.1 + 0.2*max(0, t - 1)**3"])
+def test_modes_beside_a_driver_at_rest_are_those_of_the_pole(value):
+    model = driven_cart(value)
+    arm = 1.0 * 0.5**2 + 0.08
+    assert model.modes().frequencies == pytest.approx([np.sqrt(9.81 * 0.5 / arm) / (2 * np.pi)], rel=1e-9)
+    assert model.equilibrium().notes == ()
+
+
+def test_a_few_modes_beside_a_driver_that_moves_are_refused_alike():
+    with pytest.raises(InputError, match="'motor', which moves"):
+        driven_cart("0.1 + 0.05*sin(3*t)").modes(count=1)
 
 
 def test_a_library_that_is_missing_is_named(monkeypatch):

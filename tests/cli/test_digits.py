@@ -84,6 +84,18 @@ def test_tables_of_the_command_show_no_rounding(command: str, capsys: pytest.Cap
     assert re.search(r"\d\.\d{10}", text) and json.loads(text)
 
 
+@pytest.mark.parametrize(
+    ("model", "quantities"), [("stewart-platform", "q"), ("driven-four-bar", "crank.omega,crank.alpha")]
+)
+def test_prescribed_motions_show_no_rounding(model: str, quantities: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Cosines beside 1, and an acceleration that is 0 beside those of the other bodies."""
+    command = ["kinematics", model, "--times", "lin(0,0.5,11)", "--quantity", quantities]
+    assert main(command) == 0
+    assert not ROUNDING.search(capsys.readouterr().out)
+    assert main([*command, "--json"]) == 0
+    assert ROUNDING.search(capsys.readouterr().out)  # data keep all digits
+
+
 def test_notebooks_show_no_rounding_and_the_table_keeps_it() -> None:
     values = np.array([[1.0, 2e-17, 5e-18], [2.0, -1e-16, 1e-17]])
     shown = Labelled(values, ("a.x", "a.y", "a.theta"), ("m", "m", "rad"))

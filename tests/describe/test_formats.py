@@ -122,6 +122,25 @@ def test_mimic_and_a_floating_base(tmp_path: Path) -> None:
     assert (total[-1] - total[0]) / 6 == pytest.approx(-9.81 * 0.3**2 / 2, abs=1e-8)  # the base falls
 
 
+def test_a_joint_that_mimics_with_an_offset_starts_where_its_leader_leaves_it(tmp_path: Path) -> None:
+    """The leader stays at 0, also of a follower of a follower, and nothing is closed by moving."""
+    mass = '<inertial><origin xyz="0.2 0 0"/><mass value="1"/><inertia ixx="0.01" iyy="0.02" izz="0.02"/></inertial>'
+    links = "".join(f'<link name="{name}">{mass}</link>' for name in ("base", "one", "two", "three"))
+    joints = "".join(
+        f'<joint name="{name}" type="{kind}"><parent link="base"/><child link="{child}"/><axis xyz="0 1 0"/>'
+        f'<limit lower="-3" upper="3" effort="1" velocity="1"/>{mimic}</joint>'
+        for name, kind, child, mimic in (
+            ("c", "revolute", "three", '<mimic joint="b" multiplier="2" offset="-0.4"/>'),
+            ("a", "revolute", "one", ""),
+            ("b", "prismatic", "two", '<mimic joint="a" multiplier="0.5" offset="0.1"/>'),
+        )
+    )
+    run = model_of(imported(tmp_path, f'<robot name="three">{links}{joints}</robot>')).simulate(until=0.01)
+    start = {name: run[name][0] for name in ("a.angle", "b.displacement", "c.angle")}
+    assert start == pytest.approx({"a.angle": 0.0, "b.displacement": 0.1, "c.angle": -0.2}, abs=1e-12)
+    assert not any("moved" in note for note in run.notes)
+
+
 @pytest.mark.parametrize("tag", ["loop_joint", "loop"])
 def test_two_dialects_close_a_loop(tmp_path: Path, tag: str) -> None:
     ends = {
@@ -309,6 +328,13 @@ def test_the_command_and_every_other_command(tmp_path: Path, capsys: pytest.Capt
     assert target.read_text(encoding="utf-8").startswith("# left out, and the motion may depend on it: contacts")
     assert load(target).bodies == load(path).bodies
     assert main(["import", str(path), "-o", str(target)]) == 2  # never overwrites
+    asked = (
+        main(["import", str(path), "--json"]),
+        json.loads(capsys.readouterr().out)["file"],
+        [*tmp_path.glob("*.toml")],
+    )
+    assert asked == (0, None, [target])  # JSON alone writes no file
+    assert main(["import", str(path), "--json", "-o", "-"]) == 2
     assert main(["check", str(path)]) == 0
     assert main(["import", str(tmp_path / "arm.step")]) == 2
 

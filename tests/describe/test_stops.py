@@ -55,7 +55,8 @@ def test_a_file_without_stops_is_the_same_as_before() -> None:
         ({"stop": {"least": -1.0}}, "joints.A.stop"),
         ({"stop": 1.0}, "joints.A.stop: expected a table such as { lower = -1.0, upper = 2.0 }, got 1.0"),
         ({"gap": {"gap": "2.0"}}, "stops.rope.gap: expected .*, got one in which nothing moves"),
-        ({"gap": {"gap": "crank.omega"}}, "stops.rope.gap: expected"),
+        ({"gap": {"gap": "crank.omega"}}, "stops.rope.gap: expected .* positions, got 'crank.omega', a velocity"),
+        ({"gap": {"gap": "crank.spin"}}, "got 'spin', which body 'crank' does not have; it has x, y, theta"),
         ({"gap": {"gap": "crank.y", "restitution": 2.0}}, "stops.rope.restitution: expected a value from 0 to 1"),
         ({"gap": {}}, "stops.rope"),
     ],
@@ -85,6 +86,17 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
             refused()
     with pytest.raises(InputError, match="straight code where a file has stops"):
         model.simulate(until=0.1, shape="looped")
+
+
+@pytest.mark.parametrize("method", ["auto", "lagrange"])
+def test_friction_by_a_reaction_names_a_body_without_inertia(method: str) -> None:
+    raw, source = read_raw("four-bar")
+    raw = copy.deepcopy(raw)
+    raw["bodies"]["rocker"]["inertia"] = 0.0
+    raw["joints"]["B"]["friction"] = {"coefficient": 0.1, "radius": 0.02}
+    with pytest.raises(InputError, match=r"bodies.rocker: expected a mass and moments of inertia above 0") as refused:
+        symgen.simulate(validate(raw, source), method=method, until=0.1)
+    assert "lagrange" not in str(refused.value)
 
 
 def test_friction_by_a_reaction_beside_a_stop_is_refused() -> None:

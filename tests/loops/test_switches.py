@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -10,9 +11,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from support.checks import assert_same_motion
+from support.emitted import mechanism_of
 
 import symgen
 from symgen.compiling.events import compile_events
+from symgen.describe.sticking import advice_on_jumps
 from symgen.ensemble.sweep import sweep
 from symgen.layout import abi
 
@@ -313,13 +316,78 @@ def test_friction_that_sticks_says_why_nothing_goes_on(
     stuck = symgen.simulate(file, method=method, integrator=integrator, until=3.0, **settings)
     assert stuck.status == "failed" and abs(stuck.end - end) < 1e-6
     if "step" in settings:
-        newton = "Newton's iteration of an implicit stage did not converge at t = 0.49 s; formulas"
+        newton = "Newton's iteration of an implicit stage did not converge at t = 0.49 s; a formula"
         assert stuck.reason.startswith(newton)
-    assert "such as tanh(v/1e-3), has motions that radau5 follows" in stuck.reason
-    assert "where one jumps to and fro, as friction by sign(v) does that sticks, no step gets across" in stuck.reason
+    assert "jumps to and fro with the state, as friction by sign(v) does that sticks" in stuck.reason
+    assert "the key friction of a joint with that coordinate, in place of the sign of b.vx" in stuck.reason
     file.write_text(text.replace("LAW", "tanh(b.vx/1e-3)"))
     smooth = symgen.simulate(file, method="lagrange", integrator="radau5", until=3.0)
     assert smooth.status == "ok" and abs(smooth["b.x"][-1] - 0.25) < 1e-6
+
+
+RUBBING = """[mechanism]
+name = "rubbing"
+[bodies.b]
+mass = 1.0
+inertia = 0.1
+velocity = [1.0, 0.0]
+[joints.guide]
+type = "translational"
+between = ["ground", "b"]
+at = [[0, 0], "centre"]
+axis = [1, 0]
+"""
+SLIDING = '[forces.f]\ntype = "force"\nbody = "b"\nforce = ["LAW", "0"]\n'
+
+
+@pytest.mark.parametrize(
+    ("law", "read"),
+    [
+        ("-2*sign(b.vx)", "b.vx"),
+        ("-2 if b.vx > 0 else 2", "b.vx"),
+        ("-2*sign(guide.rate)", "guide.rate"),
+    ],
+)
+def test_friction_by_the_sign_of_a_velocity_leads_to_the_key_of_a_joint(folder: Path, law: str, read: str) -> None:
+    """What the sentence says to write runs to the end and rests where the block comes to rest, at 0.25 m."""
+    file = folder / "rubbing.toml"
+    file.write_text(RUBBING + SLIDING.replace("LAW", law))
+    stuck = symgen.simulate(file, until=1.0)
+    key = re.search(
+        r"write '(friction = { sliding = BOUND })' in \[joints.guide\], BOUND in N, in place of", stuck.reason
+    )
+    assert stuck.status == "failed" and key and stuck.reason.endswith(f"the sign of {read}")
+    file.write_text(RUBBING + key[1].replace("BOUND", "2.0"))
+    sticks = symgen.simulate(file, until=1.0)
+    assert sticks.status == "ok" and abs(sticks["b.x"][-1] - 0.25) < 1e-9
+
+
+def test_friction_leads_to_the_joint_whose_rate_it_reads_and_jumps_of_positions_to_smooth_ones() -> None:
+    pins = {
+        "A": {"type": "revolute", "between": ["ground", "crank"], "at": [[0, 0], [-0.5, 0]]},
+        "B": {"type": "revolute", "between": ["crank", "rod"], "at": [[0.5, 0], [-0.5, 0]]},
+    }
+    raw = {
+        "mechanism": {"name": "arms", "gravity": [0.0, 0.0]},
+        "bodies": {
+            "crank": {"mass": 1.0, "inertia": 0.1, "position": [0.5, 0.0]},
+            "rod": {"mass": 1.0, "inertia": 0.1, "position": [1.5, 0.0]},
+        },
+        "joints": pins,
+    }
+
+    def advice(torque: str) -> str:
+        drag = {"drag": {"type": "torque", "body": "rod", "torque": torque}}
+        return advice_on_jumps(mechanism_of({**raw, "forces": drag}))
+
+    assert "in [joints.B], BOUND in N m" in advice("-2*sign(B.rate)")
+    assert "in [joints.B], BOUND in N m" in advice("-2*sign(rod.omega)")
+    assert "in [joints.A], BOUND in N m" in advice("-2*sign(crank.omega)")
+    assert advice("1 if rod.x > 1 else 0").startswith("a steep smooth one in its place, such as tanh(v/1e-3)")
+    assert "a joint with that coordinate, in place of the sign of rod.omega - 2.0" in advice(
+        "1 if rod.omega > 2 else 0"
+    )
+    assert advice("1 - rod.omega") == ""
 
 
 LASH = """[mechanism]

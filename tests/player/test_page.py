@@ -4,6 +4,8 @@ import base64
 import json
 import os
 import re
+import shutil
+import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -300,6 +302,27 @@ def test_rounding_is_no_curve_of_a_plot() -> None:
     angles = PlottedGroup("angle", "rad", ("a.theta",), np.array([[3e-18], [4e-18]]))
     (shown,) = packed(replace(recording, groups=(angles,)), np.arange(2))["groups"]
     assert shown["low"] == [0.0] and shown["span"] == [1.0]
+
+
+def test_an_output_alone_is_titled_by_its_name() -> None:
+    """Energy lost at a stop is a step, and no energy of the motion: the page of the press begins with its opening."""
+    motion = data_of(load("toggle-press").simulate(until=0.1).view().html)["motions"][0]
+    assert [group["title"] for group in motion["groups"][:2]] == ["outputs: opening", "outputs: lost"]
+
+
+def test_sixteen_bits_show_0_where_it_is_0() -> None:
+    """The script of a page reads numbers of 16 bits: what is 0 within half of their spacing is shown as 0."""
+    values = np.array([[-0.13], [0.0], [0.1437]])
+    script = (Path(live.__file__).parent / "web" / "plots.js").read_text(encoding="utf-8")
+    functions = script[script.index("function decoded") : script.index("function ticks")]
+    read = f"console.log(JSON.stringify(Array.from(shortColumns({json.dumps(shorts(values))}, 3)[0])))"
+    node = shutil.which("node")
+    if node is None:  # another machine reads the same script
+        return
+    command = [node, "-e", f"{functions}\n{read}"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    found = json.loads(done.stdout)
+    assert found[1] == 0.0 and found == pytest.approx([-0.13, 0.0, 0.1437], abs=1e-7)
 
 
 def test_points_that_no_joint_ties_are_marked() -> None:

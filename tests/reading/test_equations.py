@@ -19,13 +19,28 @@ from symgen.reading.symbolic_equations import SymbolicEquations
 
 SMALL = ["four-bar", "driven-four-bar", "slider-crank", "pendulum", "heavy-top", "spherical-double-pendulum"]
 SMALL += ["rolling-disc", "free-rigid-body"]
-NAMES = ("Phi", "nu", "D", "gamma", "M", "f", "T", "V", "power")
+NAMES = ("Phi", "nu", "D", "gamma", "N", "M", "f", "T", "V", "power", "b", "c")
 
 
 def within(bound, found, expected, scale=None):
     found, expected = np.asarray(found, dtype=float).ravel(), np.asarray(expected, dtype=float).ravel()
     size = np.abs(expected).max(initial=0.0) if scale is None else scale
     assert np.abs(found - expected).max(initial=0.0) <= bound * max(size, 1e-300), (found, expected)
+
+
+def random_modes(equations, rng):
+    """Numbers of the rows with bounds: the first row is in force, friction of the others slides, stops are open."""
+    of_row = [
+        (1.0, 0.0, 0.0, 0.0) if i == 0 else (0.0, 0.0, rng.choice([-1.0, 1.0]), 0.0)
+        for i in range(len(equations.modes) // 4)
+    ]
+    return [number for row in of_row for number in row]
+
+
+def in_force(equations, modes):
+    """Names of the rows that are in force."""
+    numbers = dict(zip(equations.modes, modes, strict=True))
+    return {row for row in equations.rows if numbers.get(f"{row}.held", 1.0)}
 
 
 def agrees(mechanism, seed=3):
@@ -39,14 +54,16 @@ def agrees(mechanism, seed=3):
         for first, _ in emitted.info.spins:
             q[first : first + 4] /= np.linalg.norm(q[first : first + 4])
     values = symgen.load(mechanism).parameters()
-    expected = emitted.at(0.3, q, v, emitted.parameters(values))
-    numbers = equations.lambdify(*NAMES)(0.3, q, v)
-    phi, nu, d, gamma, m, f, kinetic, potential, power = numbers
+    modes = random_modes(equations, rng)
+    expected = emitted.at(0.3, q, v, emitted.parameters(values), modes=modes)
+    numbers = equations.lambdify(*NAMES)(0.3, q, v, modes=modes)
+    phi, nu, d, gamma, n, m, f, kinetic, potential, power, b, c = numbers
     lengths = np.abs(q).max() + 1.0 + np.abs(expected.phi).max(initial=0.0)
     close(phi, expected.phi, lengths)  # of differences of coordinates
     close(nu, expected.nu)
     close(d, expected.d)
-    close(gamma, expected.gamma)
+    off = [name not in in_force(equations, modes) for name in equations.rows]
+    close(np.where(off, 0.0, np.ravel(gamma)), expected.gamma)  # observed residuals of rows that are off are 0
     close(kinetic, expected.status["kinetic"])
     close(potential, expected.status["potential"], max(1.0, abs(expected.status["potential"])))
     if mechanism.topology is None:
@@ -54,11 +71,11 @@ def agrees(mechanism, seed=3):
     pushed = np.asarray(d).T @ expected.multipliers
     balance = np.asarray(m) @ expected.acceleration + pushed
     close(balance, f, max(np.abs(f).max(initial=0.0), np.abs(pushed).max(initial=0.0), 1.0))
-    if equations.derived.driving is not None:  # drivers of prescribed coordinates work too
-        assert abs(expected.power) > 0.0
-        return
-    work = power - expected.multipliers @ np.asarray(nu).ravel()
-    close(work, expected.power, max(1.0, abs(power), np.abs(expected.multipliers).max(initial=0.0)))
+    close(np.asarray(n) @ v, expected.rates)
+    driven = (np.asarray(b) @ expected.acceleration).item() + float(c)  # drivers of prescribed coordinates work too
+    assert (equations.derived.driving is None) == (driven == 0.0)
+    work = power + driven - expected.multipliers @ np.asarray(nu).ravel()
+    close(work, expected.power, max(1.0, abs(power), abs(driven), np.abs(expected.multipliers).max(initial=0.0)))
 
 
 @pytest.mark.parametrize("name", SMALL)
@@ -78,10 +95,46 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", [name for name in catalogue.all_names() if not load(name).bounded])
+@pytest.mark.parametrize("name", catalogue.all_names())
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load(name)
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load(name).bounded])
+def test_numbers_of_mechanisms_with_dry_friction_and_stops(name, coordinates):
+    mechanism = load(name)
+    agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_dry_friction_slides_in_the_direction_of_the_velocities_by_default(coordinates):
+    e = symgen.load("dry-four-bar").equations_in(coordinates)
+    compute, rng = e.lambdify("f"), np.random.default_rng(2)
+    q, v = rng.uniform(-1.0, 1.0, len(e.q)), rng.uniform(-1.0, 1.0, len(e.v))
+    rates = [rate.subs(dict(zip(e.v.values(), v, strict=True))) for rate in e.joint_rates.values()]
+    signs = {
+        f"{name.partition('.')[0]}.friction.sign": np.sign(float(x)) for name, x in zip("ABCD", rates, strict=True)
+    }
+    within(0.0, compute(0.0, q, v), compute(0.0, q, v, modes=[signs.get(name, 0.0) for name in e.modes]))
+    still, torque = compute(0.0, q, 0 * v), symgen.load("dry-four-bar").parameters()["torque"]
+    assert np.abs(compute(0.0, q, v) - compute(0.0, q, v, modes=[0.0] * 16)).max() > 0.5 * torque
+    assert np.abs(still - compute(0.0, q, 0 * v, modes=[0.0] * 16)).max() == 0.0
+
+
+def test_states_of_the_file_are_arguments():
+    mechanism = mechanism_of(
+        {
+            "mechanism": {"name": "loaded", "gravity": [0.0, 0.0]},
+            "states": {"charge": {"start": 0.5, "rate": "-charge"}},
+            "bodies": {"block": {"mass": 2.0, "inertia": 0.1}},
+            "forces": {"pull": {"type": "force", "body": "block", "force": ["3*charge", "0"]}},
+        }
+    )
+    compute = SymbolicEquations(mechanism).lambdify("f")
+    assert compute(0.0, [0.0] * 3, [0.0] * 3)[0, 0] == 0.0
+    assert compute(0.0, [0.0] * 3, [0.0] * 3, states=[0.5])[0, 0] == 1.5
 
 
 def test_shared_terms_of_a_free_body_are_not_called_as_its_velocities_are():

@@ -5,13 +5,14 @@ from html.parser import HTMLParser
 
 import pytest
 
+import symgen
 from symgen.cli import main
 from symgen.describe import load
 from symgen.formulate.formulate import formulate
 from symgen.lower.model import lower_model
 from symgen.native.compiler import interpreted
 from symgen.reading import page as pages
-from symgen.reading.html import of_factor
+from symgen.reading.html import of_factor, prose
 
 #: Elements without an end.
 VOID = {"meta", "link"}
@@ -82,6 +83,40 @@ def test_everything_that_was_promised_is_there(four_bar):
     assert text.count("<svg") >= 3  # the sketch and two patterns
     assert '<mtable class="tall">' in text and "the mechanism is planar" in text
     assert "gyroscopic terms" in text
+
+
+def test_the_equations_of_motion_come_first_and_are_typeset(four_bar):
+    text, _ = four_bar
+    assert text.index("<math>") < text.index('id="sketch"') < text.index('id="topology"')
+    assert "D G D<sup>T</sup>" in text and "D G D^T in" not in text.partition('<section id="file">')[0]
+
+
+def test_powers_and_backticks_of_sentences_are_typeset():
+    shown = prose("`direct` solves M^-1 D^T and D^+ where ``a < b``, with x^2 in [m/s^2]")
+    assert shown == (
+        "<code>direct</code> solves M<sup>−1</sup> D<sup>T</sup> and D<sup>+</sup> where <code>a &lt; b</code>, "
+        "with x<sup>2</sup> in [m/s<sup>2</sup>]"
+    )
+
+
+def test_a_tree_without_rows_shows_no_multipliers(tmp_path, capsys):
+    """A pendulum on a pin in joint coordinates: M v' = f is all there is, on the page, as LaTeX and as text."""
+    path = tmp_path / "rod.toml"
+    path.write_text(
+        '[mechanism]\nname = "rod"\ngravity = [0, -9.81]\n[bodies.a]\nmass = 2.0\ninertia = 1.0\n[joints.j]\n'
+        'type = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], [0.5, 0]]\n'
+    )
+    text, _ = page_of(path, tmp_path, "--coordinates", "joint")
+    equations = text[text.index('id="motion"') : text.index('id="operations"')]
+    assert "There are no constraint rows" in equations and "\u03bb" not in equations
+    assert "1 coordinate, 1 velocity, 0 constraint rows" in text
+    e = symgen.load(path).equations_in("joint")
+    assert r"M \dot v = f" in e._repr_latex_() and "lambda" not in e._repr_latex_()
+    assert "1 coordinate, 1 velocity, 0 constraint rows" in e._repr_html_()
+    for options in ((), ("--format", "latex", "--document")):
+        capsys.readouterr()
+        assert main(["inspect", str(path), "--coordinates", "joint", *options]) == 0
+        assert "lambda" not in capsys.readouterr().out
 
 
 def test_joint_coordinates_have_their_tree(tmp_path):

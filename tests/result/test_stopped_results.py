@@ -38,7 +38,7 @@ def test_a_result_names_impacts_and_is_kept_whole(coordinates: str, tmp_path: Pa
     first = result.events[0]
     assert (first.name, result.events[-1].name) == ("floor.hit", "floor.rest")
     assert first.v_after["ball.vy"] == pytest.approx(0.5 * speed, rel=1e-9)
-    assert first.impulses["floor.rate"] == pytest.approx(2.0 * 1.5 * speed, rel=1e-9)
+    assert first.impulses["floor.stop"] == pytest.approx(2.0 * 1.5 * speed, rel=1e-9)
     assert first.work == pytest.approx(-2.0 * 9.81 * 0.75, rel=1e-9)
     assert result.outputs["floor.force"][-1] == pytest.approx(2.0 * 9.81, rel=1e-12)
     assert np.allclose(result["rail.F"], 0.0, atol=1e-12)  # the floor is no joint

@@ -274,6 +274,30 @@ def test_outputs_and_the_verdict_name_stops() -> None:
     assert note.startswith("impacts of floor accumulate at t = 2.5586339")
 
 
+@pytest.mark.parametrize("text", [BALL.replace("0.7", "0.0"), ROPE])
+def test_an_impact_without_rebound_accumulates_nothing(text: str) -> None:
+    """A ball that stays down and a rope that gets tight: events, and no note on times of 0 s."""
+    result = symgen.load(described(text)).simulate(until=2.5)
+    assert [event.name.rpartition(".")[2] for event in result.events][-2:] == ["hit", "rest"]
+    assert result.notes == ()
+
+
+def test_stops_that_strike_at_once_say_what_newton_s_law_does() -> None:
+    """Three balls on a rail, two of them in touch: by Newton's law all gaps open at once, no cradle."""
+    balls = "".join(
+        f'[bodies.{name}]\ntype = "point"\nmass = 1.0\nposition = [{x}, 0.0]\nvelocity = [{v}, 0.0]\n'
+        f'[joints.rail_{name}]\ntype = "rows"\nrows = [{{ position = "{name}.y" }}]\n'
+        for name, x, v in (("a", 0.0, 1.0), ("b", 2.0, 0.0), ("c", 3.0, 0.0))
+    )
+    gaps = "".join(f'[stops.{x}{y}]\ngap = "{y}.x - {x}.x - 1"\nrestitution = 1.0\n' for x, y in ("ab", "bc"))
+    result = symgen.load(described(f'[mechanism]\nname = "cradle"\n{balls}{gaps}')).simulate(until=2.0)
+    np.testing.assert_allclose([result[f"{x}.vx"][-1] for x in "abc"], [-1 / 3, 2 / 3, 2 / 3], atol=1e-12)
+    (note,) = [note for note in result.notes if "at once" in note]
+    assert note.startswith("ab and bc strike at once at t = 1 s: by Newton's law each gap opens")
+    alone = symgen.load(described(BALL)).simulate(until=2.0)
+    assert not any("at once" in note for note in alone.notes)
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

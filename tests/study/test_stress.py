@@ -12,6 +12,7 @@ import symgen
 from symgen.base.errors import InputError, SimulationError
 from symgen.result.points import Points
 from symgen.study.journal import Journal
+from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import reference
 from symgen.study.references.solvers import fastest_modes
@@ -44,6 +45,65 @@ def test_compiled_equations_are_the_interpreted_ones():
     assert apart < 1e-9
     assert apart < 10.0 * (found.estimated_error + other.estimated_error)
     assert found.estimated_error < 1e-9
+
+
+def test_compiled_slopes_are_differences_of_the_interpreted_rates():
+    mechanism = Base.of("slider-crank").stressed
+    values = {**symgen.load(mechanism).parameters(), "stress_stiffness": 300.0, "stress_damping": 2.0}
+    equations, plain = CompiledEquations(mechanism, values), IndependentEquations(mechanism, values)
+    q, v = start_of(symgen.load(mechanism), values)
+    y = equations.project(0.0, np.concatenate([q, v + 0.3]))
+    plain.project(0.0, y)
+    found, expected = equations.slopes(0.1, y), plain.slopes(0.1, y)
+    assert np.abs(expected).max() > 100.0
+    np.testing.assert_allclose(found, expected, atol=1e-7 * np.abs(expected).max())
+
+
+CART = """
+[mechanism]
+name = "cart"
+gravity = [0.0, -9.81]
+[run]
+until = 0.4
+[bodies.cart]
+mass = 2.0
+inertia = 0.1
+position = [0.1, 0.0]
+[bodies.pole]
+mass = 1.0
+inertia = 0.08
+points = { pin = [-0.5, 0.0] }
+position = ["0.1 + 0.5*sin(0.4)", "-0.5*cos(0.4)"]
+angle = "0.4 - pi/2"
+[joints.rail]
+type = "translational"
+between = ["ground", "cart"]
+at = [[0.0, 0.0], "centre"]
+axis = [1.0, 0.0]
+[joints.pin]
+type = "revolute"
+between = ["cart", "pole"]
+at = ["centre", "pin"]
+[joints.motor]
+type = "driver"
+joint = "rail"
+value = "0.1 + 0.05*sin(3*t)"
+"""
+
+
+def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path, monkeypatch, capfd):
+    """Steps, parameters and starts are arguments of the code of one formulation."""
+    monkeypatch.setenv("SYMGEN_COMPILER", "explain")
+    monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
+    (tmp_path / "cart.toml").write_text(CART)
+    level = levels_of("stiffness", Base.of(tmp_path / "cart.toml"), True)[1]
+    known = compute_cell(CellReference(level))
+    assert compute_cell(RunTask(level, "lagrange", "rk4", known))["outcome"] in ("ok", "diverged")
+    assert "compiled in" in capfd.readouterr().err
+    found = compute_cell(LimitTask(level, "lagrange", "rk4", known))
+    assert 1e-4 < found["accurate_step"] <= found["stable_step"] < 0.01
+    compiled = [line.split()[0] for line in capfd.readouterr().err.splitlines() if "compiled in" in line]
+    assert len(compiled) == len(set(compiled)) < 10, compiled
 
 
 def test_a_stiff_motion_has_a_reference_too():

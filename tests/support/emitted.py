@@ -48,6 +48,7 @@ class Numbers:
     pivots: np.ndarray
     status: dict[str, float]
     masses: np.ndarray
+    rates: np.ndarray | None = None
     acceleration: np.ndarray | None = None
     multipliers: np.ndarray | None = None
     power: float = 0.0
@@ -155,10 +156,12 @@ class Emitted:
             d[row, column] = constant if slot is None else values[slot]
         return d
 
-    def at(self, t: float, q, v, p: np.ndarray, law: bool = True) -> Numbers:
-        """Evaluate every function at one state."""
+    def at(self, t: float, q, v, p: np.ndarray, law: bool = True, modes=()) -> Numbers:
+        """Evaluate every function at one state, in modes of rows that may be off."""
         info, w, iw = self.info, self.scratch(), np.zeros(len(COUNTERS), dtype=np.int64)
-        y = np.concatenate([q, v, [0.0]])
+        if len(modes):
+            self.section(w, "modes")[:] = modes
+        y = np.concatenate([q, v, np.zeros(info.ny - info.nq - info.nv)])
         rate, out = np.zeros(len(y)), np.zeros(max(1, info.m + 2 * len(info.joint_coordinates)))
         self.call(self.model, "geometry", t, y, p, w)
         kept = {n: self.section(w, n).copy() for n in ("residual", "nu", "pivot")}
@@ -180,7 +183,8 @@ class Emitted:
         )
         if law:
             self.call(self.law, "rhs", t, y, p, w, iw, rate)
+            found.rates = rate[: info.nq].copy()
             found.acceleration = rate[info.nq : info.nq + info.nv].copy()
             found.multipliers = self.section(w, "multipliers").copy()
-            found.power = float(rate[-1])
+            found.power = float(rate[info.nq + info.nv])
         return found

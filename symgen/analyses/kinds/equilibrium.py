@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from symgen.analyses.kinds import STATE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_of
 from symgen.base.digits import digits, scale_of
-from symgen.base.errors import InputError, fitting
+from symgen.base.errors import InputError, counted, fitting
 from symgen.base.keywords import StateKeywords
 from symgen.base.settings import Settings
 
@@ -125,7 +125,7 @@ def shown(result: Equilibrium) -> Iterator[str | AnalysisTable]:
     """Yield the lines of an equilibrium."""
     squares = ", ".join([f"{x:.6g}" for x in result.omega_squared[:8]] + ["..."] * (len(result.omega_squared) > 8))
     yield f"{result.stability}; omega^2 [1/s^2]: {squares or 'nothing can move'}"
-    yield f"  {result.iterations} steps, largest force that is not balanced {result.residual:.3g}"
+    yield f"  {counted(result.iterations, 'step')}, largest force that is not balanced {result.residual:.3g}"
     if result.not_unique:
         yield f"  reactions are not unique at {', '.join(result.not_unique)}"
     for title, values in (("coordinate", result.q), ("state", result.states), ("multiplier", result.multipliers)):

@@ -19,7 +19,7 @@ from symgen.analyses.kinds import (
     settings_of,
 )
 from symgen.base.digits import digits, scale_of
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted
 from symgen.base.keywords import DrivenKeywords
 from symgen.base.settings import Settings, flag, is_set
 
@@ -113,7 +113,7 @@ def command(
 
 def _shown(result: Inverse) -> Iterator[str | AnalysisTable]:
     """Yield the sizes of each actuator: its largest effort and when, root mean square, peak power and energy."""
-    yield f"{result.mechanism}: efforts at {len(result.t)} times"
+    yield f"{result.mechanism}: efforts at {counted(len(result.t), 'time')}"
     columns = {"largest": "max", "rms": "rms", "unit": "unit", "at [s]": "at"}
     columns |= {"peak power [W]": "peak_power", "energy [J]": "energy"}
     entries = result.summary()

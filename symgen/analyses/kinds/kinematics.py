@@ -16,6 +16,7 @@ from symgen.analyses.kinds import (
     of_tables,
     settings_of,
 )
+from symgen.base.errors import counted
 from symgen.base.keywords import DrivenKeywords
 from symgen.base.settings import Settings
 
@@ -74,15 +75,19 @@ def command(
 
     For example: symgen kinematics driven-four-bar --times "lin(0, 1, 361)" --transmission C --save motion.csv
     """
+    from symgen.result.labelled import PRODUCTS, common_scales
     from symgen.result.summary import extremes
 
     check_over(over, plot)
     result = kinematics(load(), times, settings, transmission)
     result.along(over or "t")
     shown = extremes(result.select(quantities) if quantities else result.whole(("q",))) if len(result.t) else {}
+    loads = any(entry["unit"] in PRODUCTS or entry["unit"] == "N" for entry in shown.values())
+    scales = common_scales((result.q, result.v, result.a, *((result.lam,) if loads else ())))
+    scaled = {name: {**entry, "scale": scales.get(entry["unit"], 0.0)} for name, entry in shown.items()}
     return AnalysisOutput(
         result.to_json() | ({"quantities": shown} if quantities else {}),
-        (f"{result.mechanism}: {len(result.t)} times, {result.steps} steps", shown),
+        (f"{result.mechanism}: {counted(len(result.t), 'time')}, {counted(result.steps, 'step')}", scaled),
         result.notes,
         result.ended,
         {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -175,6 +176,16 @@ class Robot:
 
 #: What drives a joint: its name and unit.
 _EFFORTS: dict[str, tuple[str, str]] = {"revolute": ("torque", "N m"), "translational": ("force", "N")}
+
+
+def follow(followers: list[Follower], connections: Mapping[str, Connection]) -> None:
+    """Set the values at the start of joints that follow others, whose own values stay; rings are left as they are."""
+    waiting = {f.joint: f for f in followers if f.of is not None}
+    while ready := [f for f in waiting.values() if f.of not in waiting]:
+        for f in ready:
+            leader = connections[str(f.of)].value
+            connections[f.joint].value = sum(c * leader**k for k, c in enumerate(f.polynomial))
+            del waiting[f.joint]
 
 
 def actuators_of(connections: list[Connection], followers: list[Follower]) -> list[Actuator]:

@@ -18,6 +18,7 @@ from symgen.describe.formats._robot import (
     Link,
     Robot,
     actuators_of,
+    follow,
     turned_inertia,
 )
 from symgen.describe.formats._xml import colour_of, decimal, frame_of_origin, triple
@@ -92,12 +93,13 @@ class _Reader(RobotReader):
         names = [c.name for _, c in joints]
         if twice := next((name for name in names if names.count(name) > 1), None):
             raise InputError(f"{self.source}: joint", "a name used once", f"{quoted(twice)} twice")
+        followers = [f for e, c in joints if (f := self._mimic(e, c, names)) is not None]
+        follow(followers, {c.name: c for _, c in joints})
         roots = self._place(links, joints)
         connections = [c for _, c in joints]
         for root in roots:
             if not self.floating:
                 connections.insert(0, Connection(f"base of {root}", "fixed", GROUND, root))
-        followers = [f for e, c in joints if (f := self._mimic(e, c, names)) is not None]
         self._leave_out(joints)
         return Robot(
             self.tree.get("name", "robot"),

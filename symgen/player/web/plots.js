@@ -13,9 +13,14 @@ function floatColumns(text, count) {
   return Array.from({ length: count ? all.length / count : 0 }, (_, i) => all.subarray(i * count, (i + 1) * count));
 }
 
+// Numbers of 16 bits between the smallest and the largest one: the number nearest to 0 stands for 0 itself.
 function shortColumns(part, count) {
   const all = new Uint16Array(decoded(part.data));
-  return part.low.map((low, i) => Float64Array.from(all.subarray(i * count, (i + 1) * count), (x) => (x === 65535 ? NaN : low + (x / 65534) * part.span[i])));
+  const value = (x, low, span) => {
+    const number = low + (x / 65534) * span;
+    return Math.abs(number) < 0.5 * span / 65534 ? 0 : number;
+  };
+  return part.low.map((low, i) => Float64Array.from(all.subarray(i * count, (i + 1) * count), (x) => (x === 65535 ? NaN : value(x, low, part.span[i]))));
 }
 
 function ticks(low, high, most) {

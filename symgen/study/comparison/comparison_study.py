@@ -11,7 +11,7 @@ from statistics import median
 from typing import TYPE_CHECKING, Any, cast, overload
 
 from symgen.base.arguments import one_of, words
-from symgen.base.errors import InputError
+from symgen.base.errors import InputError, counted
 from symgen.base.files import check_writable, headed, write_csv
 from symgen.result.contract import json_value
 from symgen.result.labelled import notebook_table
@@ -90,7 +90,8 @@ class Study:
 
     def __repr__(self) -> str:
         methods = len({row.label for row in self.rows})
-        return f"<Study of {self.mechanism}, {self.until:g} s: {len(self.rows)} rows of {methods} methods; {self.how}>"
+        counts = f"{counted(len(self.rows), 'row')} of {counted(methods, 'method')}"
+        return f"<Study of {self.mechanism}, {self.until:g} s: {counts}; {self.how}>"
 
     def _repr_html_(self) -> str:
         headings = (

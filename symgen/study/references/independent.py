@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
+from symgen.study.references.differences import difference_jacobian
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas
 
 if TYPE_CHECKING:
@@ -170,6 +171,10 @@ class IndependentEquations:
             u, values, w = self._independent(scaled)
             change = w.T @ ((u.T @ missing) / values)
         return np.concatenate([v, root @ (free + change)])
+
+    def slopes(self, t: float, y: Array) -> Array:
+        """Return the Jacobian of the rates by central differences, shape (2 n, 2 n)."""
+        return difference_jacobian(self.rate, t, y)
 
     @property
     def row_names(self) -> tuple[str, ...]:

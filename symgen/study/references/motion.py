@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import SimulationError
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
+from symgen.study.references.differences import difference_steps
 from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.least_squares import compiled, minimum_norm
 from symgen.study.references.reference import Reference
@@ -52,6 +53,7 @@ _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[:
 #: equations(t, q, v, p, out).
 EQUATIONS = types.FunctionType(types.int64(_F8, _A, _A, _A, _A))
 _RATE = types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A)
+_SLOPES = types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A, types.float64[:, ::1])
 _EXTRAPOLATE = types.int64(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _F8, _F8, _A, _A, _I8, _I)
 
 
@@ -88,7 +90,7 @@ class CompiledEquations(IndependentEquations):
         """Return (v, v'), as `IndependentEquations.rate` does."""
         rates = np.empty(2 * self.n)
         _for_all(_rate, _RATE)(
-            self._function,
+            self._address,
             self._index,
             self.m,
             self.n,
@@ -100,10 +102,25 @@ class CompiledEquations(IndependentEquations):
         )
         return rates
 
+    def slopes(self, t: float, y: Array) -> Array:
+        """Return the Jacobian of the rates, as `IndependentEquations.slopes` does, in one compiled call."""
+        found = np.empty((2 * self.n, 2 * self.n))
+        _for_all(_slopes, _SLOPES)(
+            *(self._address, self._index, self.m, self.n, self.mass, self.values, float(t)),
+            *(np.ascontiguousarray(y), difference_steps(y), found),
+        )
+        return found
+
     @property
     def budget(self) -> int:
         """Evaluation limit of an integration by extrapolation."""
         return int(BUDGET * min(1.0, (FEW / self.n) ** 2) / (DEPENDENT if self.dependent else 1))
+
+    @cached_property
+    def _address(self) -> Any:
+        """The equations as an argument of compiled functions: of a function itself Numba looks it up at every call."""
+        function: Any = self._function
+        return types.CompileResultWAP(function.get_compile_result(EQUATIONS.signature))
 
     @cached_property
     def _index(self) -> Any:
@@ -130,7 +147,7 @@ class CompiledEquations(IndependentEquations):
         """
         y = y.copy()
         code = _for_all(_extrapolate, _EXTRAPOLATE)(
-            *(self._function, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
+            *(self._address, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
             *(self.budget, used),
         )
         if code == 1:
@@ -235,6 +252,31 @@ def _rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
+def _slopes(
+    function: Any,
+    index: Any,
+    m: int,
+    n: int,
+    mass: Any,
+    p: Any,
+    t: float,
+    y: Any,
+    steps: Any,
+    slopes: Any,
+) -> None:
+    """Set ``slopes`` to the central differences of the rates, a column for each component of the state."""
+    moved, above, below = y.copy(), np.empty(2 * n), np.empty(2 * n)
+    for j in range(2 * n):
+        moved[j] = y[j] + steps[j]
+        _rate(function, index, m, n, mass, p, t, moved, above)
+        moved[j] = y[j] - steps[j]
+        _rate(function, index, m, n, mass, p, t, moved, below)
+        moved[j] = y[j]
+        for i in range(2 * n):
+            slopes[i, j] = (above[i] - below[i]) / (2.0 * steps[j])
+
+
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _extrapolate(
     function: Any,
     index: Any,
@@ -305,8 +347,13 @@ def _extrapolate(
 
 @cache
 def _for_all(function: Any, signature: Any) -> Any:
-    """Return a function compiled for equations of any mechanism, called by address."""
-    return numba.njit(signature, nogil=True, error_model="numpy", fastmath={"contract"})(function.py_func)
+    """Return a function compiled for equations of any mechanism, called by address.
+
+    It is the machine code itself: the choice among signatures, of which there is one, takes longer than a rate.
+    """
+    make = numba.njit(signature, nogil=True, error_model="numpy", fastmath={"contract"})
+    (compiled_once,) = make(function.py_func).overloads.values()
+    return compiled_once.entry_point
 
 
 # -- a motion ----------------------------------------------------------------------------------------------------------

@@ -134,12 +134,12 @@ def by_steps(
     make: Any = getattr(scipy.integrate, scheme.name)  # SciPy's types lack arrays and infinity as tolerances
     compares = compares_state(equations.mechanism) and scheme.step is None
     longest = min(longest_of(equations, times), float(times[-1]) / LOOKED_AT if compares and len(times) else np.inf)
-    rate = limited(equations, scheme.most)
+    rate = Limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "max_step": longest}
     if scheme.step is not None:  # no error exceeds an infinite tolerance, so that every step is the largest allowed
         more = {"atol": np.inf, "max_step": scheme.step}
     elif scheme.name == "Radau":
-        more["jac"] = lambda t, y: difference_jacobian(rate, t, y)
+        more["jac"] = rate.slopes
     # each jump of a force takes some tiny steps as well
     patience = MORE_PATIENCE if compares else PATIENCE
 
@@ -197,10 +197,10 @@ def in_one_go(equations: IndependentEquations, y: Array, times: Array, scheme: S
 
     solve: Any = solve_ivp  # SciPy's types lack arrays of tolerances
     scale, compares = np.maximum(np.abs(y), 1.0), compares_state(equations.mechanism)
-    bound, rate = longest_of(equations, times), limited(equations, scheme.most)
+    bound, rate = longest_of(equations, times), Limited(equations, scheme.most)
     more: dict[str, Any] = {"rtol": scheme.rtol, "atol": scheme.rtol * scale, "dense_output": compares}
     if scheme.name == "BDF":
-        more["jac"] = lambda t, y: difference_jacobian(rate, t, y)
+        more["jac"] = rate.slopes
 
     def part(first: float, y: Array, times: Array) -> Array:
         if times[-1] <= first:
@@ -231,18 +231,34 @@ def finite_at(t: float) -> Iterator[None]:
         raise CollapsedError(t) from error
 
 
-def limited(equations: IndependentEquations, most: float) -> Callable[[float, Array], Array]:
-    """Return the rates of equations as a function with a limit of evaluations."""
-    calls = 0
+class Limited:
+    """Rates of equations, and their Jacobian, within a limit of evaluations.
 
-    def rate(t: float, y: Array) -> Array:
-        nonlocal calls
-        calls += 1
-        if calls > most:
-            raise OverBudgetError(f"the reference takes more than {most:g} evaluations")
-        return equations.rate(t, y)
+    Parameters
+    ----------
+    equations : IndependentEquations
+        The equations.
+    most : float
+        Largest number of evaluations; a Jacobian counts as those that its differences take.
+    """
 
-    return rate
+    def __init__(self, equations: IndependentEquations, most: float) -> None:
+        self._equations, self._most, self._calls = equations, most, 0
+
+    def __call__(self, t: float, y: Array) -> Array:
+        """Return the rates."""
+        self._count(1)
+        return self._equations.rate(t, y)
+
+    def slopes(self, t: float, y: Array) -> Array:
+        """Return the Jacobian of the rates."""
+        self._count(2 * len(y))
+        return self._equations.slopes(t, y)
+
+    def _count(self, more: int) -> None:
+        self._calls += more
+        if self._calls > self._most:
+            raise OverBudgetError(f"the reference takes more than {self._most:g} evaluations")
 
 
 def unseen_in(
@@ -258,19 +274,6 @@ def unseen_in(
     along = [equations.rate(t, motion(t)) for t in (middle + half * nodes).tolist()]
     change = motion(last) - motion(first) - half * (weights @ np.array(along))
     return float(np.max(np.abs(change) / scale))
-
-
-def difference_jacobian(rate: Callable[[float, Array], Array], t: float, y: Array) -> Array:
-    """Return the Jacobian of rates by central differences, shape (2 n, 2 n).
-
-    SciPy's own differences enlarge the step of a coordinate that no rate depends on, at every call, until it overflows.
-    """
-    steps = 1e-6 * np.maximum(1.0, np.abs(y))
-    columns = [
-        (rate(t, y + step * unit) - rate(t, y - step * unit)) / (2.0 * step)
-        for step, unit in zip(steps, np.eye(len(y)), strict=True)
-    ]
-    return np.column_stack(columns)
 
 
 #: Parts that are shorter than this part of the end lead from one side of a jump to the other.
@@ -338,7 +341,7 @@ def is_stiff(equations: CompiledEquations, y: Array, until: float) -> bool:
 
 def fastest_modes(equations: CompiledEquations, y: Array) -> tuple[float, float]:
     """Return the fastest decay and the fastest growth of the linearised equations at a state [1/s]."""
-    slopes = difference_jacobian(equations.rate, 0.0, y)
+    slopes = equations.slopes(0.0, y)
     if not np.all(np.isfinite(slopes)):
         return 0.0, 0.0
     real = np.linalg.eigvals(slopes).real

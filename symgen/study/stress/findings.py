@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from symgen.base.errors import counted
 from symgen.running.automatic import AUTO
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
 from symgen.study.stress.stress_rows import Map, map_rows, plane_rows, shares_of_models
@@ -45,7 +46,7 @@ def _counted(study: Stress) -> Iterator[str]:
         return
     planes = len(study.rows) - len(rows)
     beside = f", beside {planes} cells of planes" if planes else ""
-    yield f"Of {len(rows)} cells of the map {_outcomes(rows)}{beside}."
+    yield f"Of {counted(len(rows), 'cell')} of the map {_outcomes(rows)}{beside}."
     if study.unusable:
         cases = [f"{family} {case} on {model}" for model, family, case, _ in study.unusable[:3]]
         cases += ["..."] * (len(study.unusable) > len(cases))

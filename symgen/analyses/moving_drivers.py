@@ -1,0 +1,82 @@
+"""Drivers that move at the time of an analysis: beside them nothing rests."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.breaks.in_time import InTime
+from symgen.describe.formula_text import to_text
+from symgen.describe.mechanism import Mechanism
+from symgen.vocabulary.expressions import Expr, names_in
+from symgen.vocabulary.measures import Holonomic
+
+if TYPE_CHECKING:
+    from symgen.layout.compiled import CompiledModel
+
+Array = NDArray[np.float64]
+
+#: A rate is a difference over this part of the run; it counts above this part of the mean speed of the run.
+_NEAR, _SLOW = 1e-6, 1e-5
+_SAMPLES = 33
+
+
+def moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Array, t: float) -> dict[str, str]:
+    """Return the drivers that move at a time, by name, with their formulas.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With inputs in their places.
+    compiled, p
+        Its compiled model and the parameters.
+    t : float
+        Time [s].
+    """
+    formulas = {name: e for name, e in _values(mechanism) if "t" in names_in(e)}
+    names = (q.name for q in compiled.info.parameters)
+    in_time = InTime(mechanism, dict(zip(names, map(float, p), strict=False)))
+    moving = (name for name, e in formulas.items() if _moves(in_time, e, t, mechanism.defaults.until))
+    return {name: to_text(formulas[name]) for name in moving}
+
+
+def _values(mechanism: Mechanism) -> Iterator[tuple[str, Expr]]:
+    """Yield drivers with their formulas: rows, and coordinates of a tree that they prescribe."""
+    for joint in mechanism.joints:
+        if joint.kind == "driver":
+            yield from ((joint.name, row.value) for row in joint.rows if isinstance(row, Holonomic))
+    if mechanism.topology is not None:
+        yield from ((x.driver, x.value) for x in mechanism.topology.prescribed)
+
+
+def _moves(in_time: InTime, e: Expr, t: float, until: float) -> bool:
+    """Return whether the rate of a formula is not 0; False where it is undefined."""
+    h = _NEAR * until
+    rate = (in_time.at(e, t + h) - in_time.at(e, t - h)) / (2.0 * h)
+    samples = [in_time.at(e, t + until * k / (_SAMPLES - 1)) for k in range(_SAMPLES)]
+    return abs(rate) > _SLOW * (max(samples) - min(samples)) / until
+
+
+def refuse_moving_drivers(where: str, mechanism: Mechanism, compiled: CompiledModel, p: Array, t: float) -> None:
+    """Refuse motions about an equilibrium beside which a driver moves.
+
+    Raises
+    ------
+    InputError
+        With the driver and its formula.
+    """
+    for name, formula in moving_drivers(mechanism, compiled, p, t).items():
+        expected = "drivers at rest, as the motions asked for are those about an equilibrium"
+        got = f"driver '{name}', which moves at t = {t:g} s by '{formula}'"
+        raise InputError(where, expected, got, "give it a constant value, or ask for a steady motion")
+
+
+def note_on_moving_drivers(mechanism: Mechanism, compiled: CompiledModel, p: Array, t: float) -> tuple[str, ...]:
+    """Return a sentence about drivers that move and are held in an equilibrium; none without such drivers."""
+    moving = moving_drivers(mechanism, compiled, p, t)
+    verb, them = ("moves", "it") if len(moving) == 1 else ("move", "them")
+    return (f"{', '.join(moving)} {verb} at t = {t:g} s; the equilibrium holds {them} there",) if moving else ()
