@@ -49,6 +49,12 @@ def holding_margin(matrix: Array, needed: Array, bounds: tuple[Array, Array]) ->
     """
     lower, upper = bounds
     k = len(lower)
+    if len(matrix) == 1:  # one freedom: what all of them together hold at most, in both directions
+        row, size = matrix[0], float(np.abs(matrix[0]).sum())
+        with np.errstate(invalid="ignore"):
+            most = float(np.where(row == 0.0, 0.0, np.maximum(row * lower, row * upper)).sum())
+            least = float(np.where(row == 0.0, 0.0, np.minimum(row * lower, row * upper)).sum())
+        return min(most - float(needed[0]), float(needed[0]) - least) / size
     rows, right = [], []
     for i in range(k):
         if math.isfinite(upper[i]):
