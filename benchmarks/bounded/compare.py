@@ -159,14 +159,28 @@ def _reference(mechanism: Drawn, times: Array) -> Reference:
     growth = 1.0
     for sign in (1.0, -1.0):
         v = mechanism.v * (1.0 + sign * DISTURBANCE)
-        u = mechanism.u
-        if not tree.closures:  # on the side of the stops where they are open
-            u = u + sign * DISTURBANCE * np.array([0.0 if _at_a_bound(mechanism, k) else 1.0 for k in range(tree.n)])
+        u = _displaced(mechanism, sign * DISTURBANCE)
         changed = distance(places(mechanism, motion), places(mechanism, run(u, v, 1e-12)))
         growth = max(growth, changed / DISTURBANCE)
     if growth > GROWS:
         raise Unusable(f"disturbances grow {growth:.2g} times")
     return Reference(mechanism, times, places(mechanism, motion), growth, motion.events)
+
+
+def _displaced(mechanism: Drawn, size: float) -> Array:
+    """Return the coordinates of a start that is a little beside; what lies on a stop stays there."""
+    tree, u = mechanism.tree, mechanism.u
+    still = np.array([0.0 if _at_a_bound(mechanism, k) else 1.0 for k in range(tree.n)])
+    if tree.closures:
+        if not still.all():
+            return u
+        slopes = tree.closed(tree.at(0.0, u, mechanism.v))[1]
+        still -= np.linalg.pinv(slopes) @ (slopes @ still)
+    u = u + size * still
+    for _ in range(3 if tree.closures else 0):
+        gaps, slopes, _ = tree.closed(tree.at(0.0, u, mechanism.v))
+        u = u - np.linalg.pinv(slopes) @ gaps
+    return u
 
 
 def _at_a_bound(mechanism: Drawn, k: int) -> bool:

@@ -2,7 +2,7 @@
 
     python -m benchmarks.bounded.machines [press] [bucket] [--rows 301] [--only dop853]
 
-A row leaves where the weights on it and the growing force balance, at a time that is linear in the parameter: its second
+A row leaves where weights and the growing force balance, at a time that is linear in the parameter: its second
 differences over the parameter are rounding. Machines with dry friction in their pins leave later, as linearly.
 """
 

@@ -55,6 +55,10 @@ class Link:
         About the centre of mass.
     force, frequency, phase : Array, float, float
         The force ``force * sin(frequency t + phase)`` acts on the centre of mass.
+    torque : Array
+        A torque on the body that swings like it.
+    stiffness : float
+        Of a spring along the coordinate, without force where this is 0.
     """
 
     parent: int
@@ -68,6 +72,8 @@ class Link:
     force: Array = field(default_factory=lambda: np.zeros(3))
     frequency: float = 0.0
     phase: float = 0.0
+    torque: Array = field(default_factory=lambda: np.zeros(3))
+    stiffness: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,8 +229,11 @@ class Tree:
                 mass += link.mass * (along.T @ along)
                 push = link.mass * (self.gravity - state.bias[k])
                 if link.frequency:
-                    push = push + link.force * np.sin(link.frequency * state.t + link.phase)
+                    swing = np.sin(link.frequency * state.t + link.phase)
+                    push = push + link.force * swing
+                    force += state.spin_slopes[k].T @ (link.torque * swing)
                 force += along.T @ push
+            force[k] -= link.stiffness * state.u[k]
             if link.inertia.any():
                 about, frame, spin = state.spin_slopes[k], state.turns[k], state.spins[k]
                 inertia = frame @ link.inertia @ frame.T
