@@ -62,6 +62,7 @@ class _Draft:
     bodies: dict[str, int] = field(default_factory=dict)
     features: set[str] = field(default_factory=set)
     light: bool = False
+    share: float = 0.5
 
     # -- numbers -------------------------------------------------------------------------------------------------------
 
@@ -218,14 +219,14 @@ class _Draft:
         """Give a coordinate friction, stops or both, and return what the file says of it."""
         keys: dict[str, Any] = {}
         numbers: dict[str, Any] = {}
-        if self.chance(0.55):
+        if self.chance(self.share):
             sliding = float(f"{load * 10 ** self.rng.uniform(-1.3, 0.3):.4g}")
             static = float(f"{sliding * float(self.rng.choice([1.0, 1.0, 1.3])):.6g}")
             keys["friction"] = {"sliding": sliding, "static": static}
             numbers |= {"sliding": sliding, "static": static}
             if self.chance(0.15):
                 keys["friction"]["viscous"] = numbers["viscous"] = float(f"{0.05 * load:.4g}")
-        if self.chance(0.5):
+        if self.chance(self.share):
             stop: dict[str, Any] = {"restitution": float(self.rng.choice([0.0, 0.0, 0.3, 0.5, 0.8, 1.0]))}
             size = 0.4 if slide else 1.0
             if self.chance(0.8):
@@ -254,7 +255,7 @@ def drawn(kind: str, seed: int) -> Drawn:
     rng = np.random.default_rng([KINDS.index(kind), seed])
     draft = _Draft(rng, kind.startswith("spatial"))
     loop = kind.endswith("loop")
-    moving, draft.light = draft.chance(0.75), draft.chance(0.3)
+    moving, draft.light, draft.share = draft.chance(0.75), draft.chance(0.3), 0.9 if draft.chance(0.4) else 0.5
     count = int(rng.integers(3, 5)) if loop and not draft.spatial else int(rng.integers(1, 5))
     if loop and draft.spatial:
         count = int(rng.integers(2, 5))
