@@ -101,7 +101,9 @@ def off(model: Any, method: str, integrator: str, right: dict[str, Array], step:
     settings: dict[str, Any] = {"step": step}
     if adaptive(integrator):
         settings = {"rtol": RTOL, "atol": 1e-2 * RTOL}
-    run = model.simulate(method=method, integrator=integrator, times=TIMES, until=1.2, verify=False, **settings)
+    run = model.simulate(
+        method=method, integrator=integrator, times=TIMES, until=1.2, verify=method == "energy-projection", **settings
+    )
     count = len(run.t)
     error = max(float(np.abs(run[name] - values[:count]).max()) for name, values in right.items())
     return str(run.status), error if run.status != "ok" or count == len(TIMES) else math.inf, str(run.reason or "")

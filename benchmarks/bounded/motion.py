@@ -16,7 +16,7 @@ from benchmarks.bounded.rows import Bounded
 from benchmarks.bounded.tree import Array, Tree
 
 #: Values of functions at each step, and steps before the first of these in which what has just begun is looked at.
-SAMPLES, EARLY = 10, 30
+SAMPLES, EARLY = 10, 14
 LONGEST = 0.04
 #: A function that begins at zero counts once it is above this; it must not fall to minus a thousand times this before.
 ARMED = 1e-14

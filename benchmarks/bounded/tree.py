@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -114,11 +115,10 @@ class Moving:
     drift: float = 0.0
 
 
-class State:
-    """Positions and rates of all bodies in one state."""
+class Bodies:
+    """Positions and rates of all bodies: by number, what `State` has by the same names."""
 
-    def __init__(self, tree: Tree, t: float, u: Array, v: Array) -> None:
-        self.t, self.u, self.v = t, u, v
+    def __init__(self, tree: Tree, u: Array, v: Array) -> None:
         n = len(tree.links)
         self.turns: list[Array] = []
         self.places: list[Array] = []
@@ -166,6 +166,53 @@ class State:
                 + cross(own_spinning, back)
                 + cross(own_spin, cross(own_spin, back))
             )
+
+
+class State:
+    """One state, whose bodies are looked at where something asks for them."""
+
+    def __init__(self, tree: Tree, t: float, u: Array, v: Array) -> None:
+        self.tree, self.t, self.u, self.v = tree, t, u, v
+
+    @cached_property
+    def bodies(self) -> Bodies:
+        """Positions and rates of all bodies."""
+        return Bodies(self.tree, self.u, self.v)
+
+    @property
+    def turns(self) -> list[Array]:
+        """Rotation matrices from bodies to the ground."""
+        return self.bodies.turns
+
+    @property
+    def places(self) -> list[Array]:
+        """Centres of mass."""
+        return self.bodies.places
+
+    @property
+    def slopes(self) -> list[Array]:
+        """Derivatives of the centres' velocities by the rates."""
+        return self.bodies.slopes
+
+    @property
+    def spins(self) -> list[Array]:
+        """Angular velocities in ground axes."""
+        return self.bodies.spins
+
+    @property
+    def spin_slopes(self) -> list[Array]:
+        """Derivatives of angular velocities by the rates."""
+        return self.bodies.spin_slopes
+
+    @property
+    def bias(self) -> list[Array]:
+        """Accelerations of the centres where those of all coordinates are 0."""
+        return self.bodies.bias
+
+    @property
+    def spin_bias(self) -> list[Array]:
+        """Angular accelerations where those of all coordinates are 0."""
+        return self.bodies.spin_bias
 
     def point(self, point: Point) -> Moving:
         """Return where a point is."""
