@@ -2,6 +2,7 @@
 
     python -m benchmarks.bounded --count 30 --seed 1 --output out/bounded.jsonl
     python -m benchmarks.bounded --one chain/17 --runs default,dop853
+    python -m benchmarks.bounded --one hard/chain-two-stops
     python -m benchmarks.bounded --write chain/17 > chain.toml
     python -m benchmarks.bounded --show out/bounded.jsonl
 
@@ -23,6 +24,7 @@ from typing import Any
 
 from rich.table import Table
 
+from benchmarks.bounded.chains import HARD, hard
 from benchmarks.bounded.compare import ROWS, RUNS, UNTIL, examined
 from benchmarks.bounded.draw import KINDS, drawn
 from benchmarks.mechanisms.toml import text
@@ -36,7 +38,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=5, help="mechanisms of each kind")
     parser.add_argument("--seed", type=int, default=1, help="number of the first mechanism of each kind")
-    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument(
+        "--kinds", default=",".join(["hard", *KINDS]), help="of random mechanisms, or hard for five chains"
+    )
     parser.add_argument("--runs", default=",".join([*RUNS, ROWS]))
     parser.add_argument("--until", type=float, default=UNTIL)
     parser.add_argument("--one", metavar="KIND/SEED", help="a single mechanism")
@@ -50,12 +54,10 @@ def main() -> int:
         return 0
     if options.show:
         return summary(_lines(options.show))
-    jobs = [
-        (kind, seed) for kind in options.kinds.split(",") for seed in range(options.seed, options.seed + options.count)
-    ]
+    numbers = [str(seed) for seed in range(options.seed, options.seed + options.count)]
+    jobs = [(kind, seed) for kind in options.kinds.split(",") for seed in (HARD if kind == "hard" else numbers)]
     if options.one:
-        kind, seed = options.one.split("/")
-        jobs = [(kind, int(seed))]
+        jobs = [options.one.split("/")]
     lines = _lines(options.output) if options.output else []
     done = {(line["kind"], line["seed"]) for line in lines}
     for kind, seed in jobs:
@@ -76,9 +78,10 @@ def _lines(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines() if line.strip()]
 
 
-def _line(kind: str, seed: int, runs: tuple[str, ...], until: float) -> dict[str, Any]:
+def _line(kind: str, seed: str, runs: tuple[str, ...], until: float) -> dict[str, Any]:
     """Return what is kept of a mechanism."""
-    mechanism, against, verdicts = examined(kind, seed, runs, until)
+    mechanism = hard(seed) if kind == "hard" else drawn(kind, int(seed))
+    against, verdicts = examined(mechanism, runs, HARD[seed] if kind == "hard" else until)
     line: dict[str, Any] = {"kind": kind, "seed": seed, "features": sorted(mechanism.features)}
     if isinstance(against, str):
         return {**line, "unusable": against}

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.bounded.draw import Drawn, drawn, planar_angle
+from benchmarks.bounded.draw import Drawn, planar_angle
 from benchmarks.bounded.motion import Event, Motion, Simulation, Unusable
 from benchmarks.bounded.tree import Array
 from benchmarks.mechanisms.toml import text
@@ -20,8 +20,8 @@ from benchmarks.plain.turning import rotation
 UNTIL, OUTPUTS = 2.0, 20
 #: Size of the disturbance by which it is told how disturbances grow, and the largest growth that is of use.
 DISTURBANCE, GROWS = 1e-8, 300.0
-#: Largest difference of two simulations of different tolerance.
-OWN = 1e-9
+#: Largest difference of two simulations of different tolerance, times the growth.
+OWN = 3e-10
 #: Closures whose smallest singular value comes below this are too near a singular position.
 NARROW = 0.05
 #: What a run may be off by, times the growth: at the usual tolerances, and at tight ones.
@@ -154,8 +154,6 @@ def _reference(mechanism: Drawn, times: Array) -> Reference:
     if motion.narrowest < NARROW:
         raise Unusable(f"a singular position: {motion.narrowest:.2g}")
     own = distance(places(mechanism, motion), places(mechanism, run(mechanism.u, mechanism.v, 1e-10)))
-    if own > OWN:
-        raise Unusable(f"two tolerances differ by {own:.2g}")
     growth = 1.0
     for sign in (1.0, -1.0):
         v = mechanism.v * (1.0 + sign * DISTURBANCE)
@@ -164,6 +162,8 @@ def _reference(mechanism: Drawn, times: Array) -> Reference:
         growth = max(growth, changed / DISTURBANCE)
     if growth > GROWS:
         raise Unusable(f"disturbances grow {growth:.2g} times")
+    if own > OWN * growth:
+        raise Unusable(f"two tolerances differ by {own:.2g}, disturbances grow {growth:.2g} times")
     return Reference(mechanism, times, places(mechanism, motion), growth, motion.events)
 
 
@@ -292,19 +292,16 @@ def swept(against: Reference, path: Path) -> Verdict:
     return verdict
 
 
-def examined(
-    kind: str, seed: int, runs: tuple[str, ...], until: float = UNTIL
-) -> tuple[Drawn, Reference | str, list[Verdict]]:
-    """Return a mechanism, its reference or why there is none, and the verdicts of runs."""
-    mechanism = drawn(kind, seed)
+def examined(mechanism: Drawn, runs: tuple[str, ...], until: float = UNTIL) -> tuple[Reference | str, list[Verdict]]:
+    """Return the reference of a mechanism, or why there is none, and the verdicts of runs."""
     try:
         against = reference(mechanism, until)
     except Unusable as error:
-        return mechanism, str(error), []
+        return str(error), []
     verdicts = []
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "drawn.toml"
         path.write_text(text(mechanism.raw), encoding="utf-8")
         for name in runs:
             verdicts.append(swept(against, path) if name == ROWS else compared(RUNS[name], against, path))
-    return mechanism, against, verdicts
+    return against, verdicts
