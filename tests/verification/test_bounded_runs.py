@@ -15,12 +15,17 @@ from symgen.describe.validate import validate
 
 #: Kinds of runs, and mechanisms that have them all.
 ALL, SOME = (*RUNS, ROWS), ("dop853", ROWS)
-FEW = [("chain", 2, ALL), ("loop", 2, SOME), ("spatial-chain", 2, SOME), ("spatial-loop", 2, SOME)]
+FEW = [
+    ("chain", 2, ("default", "joint", "lagrange")),
+    ("loop", 2, SOME),
+    ("spatial-chain", 2, SOME),
+    ("spatial-loop", 2, SOME),
+]
 
 
 @pytest.mark.parametrize(("kind", "seed", "runs"), FEW)
 def test_random_mechanisms(kind: str, seed: int, runs: tuple[str, ...]) -> None:
-    against, verdicts = examined(drawn(kind, seed), runs, 0.5)
+    against, verdicts = examined(drawn(kind, seed), runs, 0.3)
     assert isinstance(against, Reference)
     assert len(verdicts) == len(runs)
     assert [v for v in verdicts if v.outcome not in ("right", "coarse", "sentence")] == []
@@ -41,7 +46,7 @@ def test_hard_chains(name: str, run: str) -> None:
 
 @cache
 def simulated(name: str) -> Reference:
-    return reference(hard(name), 1.0)
+    return reference(hard(name), 0.8)
 
 
 @pytest.mark.slow
