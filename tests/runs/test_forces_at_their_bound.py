@@ -1,0 +1,21 @@
+"""Forces that are exactly at their bound at a start, behind a reset or `set`, or where an input jumps: closed forms."""
+
+import pytest
+
+from benchmarks.bounded.margins import RUNS, Case, cases, examined
+
+CASES = list(cases())
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
+def test_what_is_at_its_bound_moves_at_once_or_never(case: Case) -> None:
+    outcome, error, reason = examined(case, RUNS["dop853"])
+    assert (outcome, reason) == ("right", ""), error
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("run", [name for name in RUNS if name != "dop853"])
+@pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
+def test_what_is_at_its_bound_in_all_kinds_of_runs(case: Case, run: str) -> None:
+    outcome, error, reason = examined(case, RUNS[run])
+    assert (outcome, reason) == ("right", ""), error

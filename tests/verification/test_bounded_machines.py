@@ -1,0 +1,25 @@
+"""Machines that leave their stops: no row fails, and all leave at times that are linear in what varies."""
+
+import pytest
+
+from benchmarks.bounded.machines import MACHINES, SETTINGS, examined
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", MACHINES)
+def test_rows_leave_at_one_smooth_time(name: str, coordinates: str) -> None:
+    found = examined(MACHINES[name], False, coordinates, SETTINGS["dop853"], 61, 10)
+    assert (dict(found.statuses), found.never) == ({"ok": 61}, 0)
+    assert found.differences < 1e-12
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("integrator", SETTINGS)
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("dry", [False, True], ids=["smooth", "dry"])
+@pytest.mark.parametrize("name", MACHINES)
+def test_all_rows_leave(name: str, dry: bool, coordinates: str, integrator: str) -> None:
+    rows = 301 if integrator != "radau5" else 60
+    found = examined(MACHINES[name], dry, coordinates, SETTINGS[integrator], rows, 60)
+    assert (set(found.statuses), found.never) == ({"ok"}, 0)
+    assert found.differences < 1e-9
