@@ -10,6 +10,7 @@ import msgspec
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.memory import uncollected
+from symgen.base.units import unit_of
 from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.columns import check_columns
 from symgen.describe.evaluate import evaluate, evaluation_order
@@ -42,9 +43,10 @@ from symgen.describe.mechanism import (
     Rotor,
     StateVariable,
 )
-from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
+from symgen.describe.names import check_identifier, check_mechanism_name, line
 from symgen.describe.origins import keep_origin
-from symgen.describe.parser import FormulaNames, parse
+from symgen.describe.own_units import check_single, parameter_value
+from symgen.describe.parser import FormulaNames
 from symgen.describe.scope import Context, Scope
 from symgen.describe.sections import (
     NAMED,
@@ -61,7 +63,7 @@ from symgen.describe.smooth_friction import with_smooth_friction
 from symgen.describe.stops import check_stops, read_gap, read_limits, with_stop_outputs
 from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
-from symgen.vocabulary.expressions import ONE, call, names_in
+from symgen.vocabulary.expressions import ONE, call
 from symgen.vocabulary.measures import GROUND, Marker
 
 if TYPE_CHECKING:
@@ -262,27 +264,19 @@ class _Validator:
 
     def parameter(self, section: str, name: str, raw: object, allowed: FormulaNames) -> Parameter:
         """Return a parameter or an input; one with a formula of others has no value yet."""
-        where, unit, note = self.where(f"{section}.{name}"), "", ""
+        where, text, note = self.where(f"{section}.{name}"), "", ""
         value: float | str
         if not isinstance(raw, Mapping):
             value = read_value(Scalar, raw, where)
         elif section == "inputs":
             content = read_table(InputSection, raw, where)
-            value, unit, note = content.default, content.unit, content.note
+            value, text, note = content.default, content.unit, content.note
         else:
             table = read_table(ParameterSection, raw, where)
-            value, unit, note = table.value, table.unit, table.note
-        formula = None
-        if isinstance(value, str):
-            expression = parse(value, allowed, where)
-            if any(names_in(expression)):
-                value, formula = 0.0, expression
-            else:
-                value = evaluate(expression, {}, where)
-        if not math.isfinite(value):
-            raise InputError(where, "a finite number", str(value))
-        unit, note = check_unit(unit, f"{where}.unit"), line(note)
-        return Parameter(name, float(value), unit, note, formula, section == "inputs")
+            value, text, note = table.value, table.unit, table.note
+        number, formula, unit = parameter_value(value, text, allowed, where)
+        shown = "" if unit.is_si else unit.text
+        return Parameter(name, number, unit.si, line(note), formula, section == "inputs", shown)
 
     def table(self, name: str, raw: object) -> Table:
         where = self.where(f"tables.{name}")
@@ -319,8 +313,13 @@ class _Validator:
     def state(self, name: str, raw: object) -> StateVariable:
         where, scope = self.where(f"states.{name}"), self.scope("states", name)
         section = read_table(StateSection, raw, where)
+        unit = unit_of(section.unit, f"{where}.unit")
+        if not unit.is_si:
+            hint = f'a start may have one of its own: "5 {unit.text}"'
+            raise InputError(f"{where}.unit", f"an SI unit such as {unit.si}, as formulas are", quoted(unit.text), hint)
+        scope.coordinates = {name: unit.si}
         start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
-        return StateVariable(name, start, rate, check_unit(section.unit, f"{where}.unit"))
+        return StateVariable(name, start, rate, unit.text)
 
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")
@@ -328,8 +327,11 @@ class _Validator:
             section, key = read_table(OutputSection, raw, where), "value"
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
-        value = self.scope("outputs", name).of_motion(key, section.value)
-        return Output(name, value, check_unit(section.unit, f"{where}.unit"))
+        scope = self.scope("outputs", name)
+        value = scope.of_motion(key, section.value)
+        unit = unit_of(section.unit, f"{where}.unit")
+        check_single(scope, value, unit)
+        return Output(name, value, unit.text)
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 
@@ -365,6 +367,7 @@ class _Validator:
         scope.check_space(struct.SPACES)
         section = read_table(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
         joint = section.build(scope)
+        scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
         if at is not None:
             point = at[0] if hasattr(section, "between") else at
