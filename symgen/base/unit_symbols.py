@@ -156,6 +156,8 @@ COMMON = (
     *("MN", "Nm", "J", "kJ", "W", "kW", "Pa", "kPa", "MPa", "GPa", "bar", "Hz", "A", "V", "K", "in", "ft", "lb", "lbf"),
     "psi",
 )
+#: What units there are besides those of the SI, in short.
+OTHERS = "with prefixes such as k and m, and deg, rev, rpm, min, h, bar, L, t, in, ft, lb, lbf, psi and the like"
 #: SI unit of a quantity -> further units of it that hints name.
 ALIKE: Mapping[str, str] = {
     "m": "m, mm, cm, km, in",

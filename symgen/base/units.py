@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.base.unit_symbols import ALIKE, BASES, COMMON, DERIVED, MEANT, SPELLINGS, SYMBOLS
+from symgen.base.unit_symbols import ALIKE, COMMON, DERIVED, MEANT, OTHERS, SPELLINGS, SYMBOLS
 
 #: Characters of a unit, largest power, and characters of a text that is compared with numbers.
 LONGEST_UNIT, LARGEST_POWER, LONGEST_AMOUNT = 40, 12, 80
@@ -41,7 +41,7 @@ class Unit:
     factor : Fraction
         SI units in one of these.
     exponents : tuple of (str, int)
-        Exponents of base units; the radian is one of them.
+        Exponents of base units, in the order of the text; the radian is one of them.
     cycles : bool
         Whether it counts cycles (Hz), which angular velocities are not measured in.
     """
@@ -137,7 +137,9 @@ def _hint(part: str, text: str, brief: bool) -> str:
     folded = {name.casefold(): name for name in reversed([*COMMON, *SYMBOLS])}
     same = folded.get(part.casefold())
     near = f"did you mean '{same}'?" if same else nearest(part, COMMON)
-    return what.removesuffix(", ") if brief and not near.startswith("did") else what + near
+    if near.startswith("did"):
+        return what + near
+    return what.removesuffix(", ") if brief else f"{what}units are those of the SI, {OTHERS}"
 
 
 @dataclass(frozen=True)
@@ -152,7 +154,9 @@ class _Part:
     def times(self, other: _Part, sign: str) -> _Part:
         """Return the product with another, or where `sign` is a slash the quotient."""
         way = -1 if sign == "/" else 1
-        exponents = Counter({base: self.exponents[base] + way * other.exponents[base] for base in BASES})
+        exponents = Counter(self.exponents)
+        for base, exponent in other.exponents.items():
+            exponents[base] += way * exponent
         si = f"({other.si})" if sign == "/" and _COMPOSED.search(other.si) else other.si
         return _Part(self.factor * other.factor**way, exponents, f"{self.si}{sign}{si}", self.cycles or other.cycles)
 
@@ -186,7 +190,7 @@ class _Reader:
                 return self.rest()
         except _NoUnit as error:
             return str(error)
-        exponents = tuple((base, part.exponents[base]) for base in BASES if part.exponents[base])
+        exponents = tuple((base, power) for base, power in part.exponents.items() if power)
         return Unit(self.text, self.text if part.factor == 1 else part.si, part.factor, exponents, part.cycles)
 
     def rest(self) -> str:
@@ -290,6 +294,15 @@ def read_amount(text: str) -> Amount | None:
     if match is None or _WORD_OF_FORMULA.match(match["unit"] or ""):
         return None
     return Amount(float(match["number"]), (match["unit"] or "").strip())
+
+
+def si_hint(value: object) -> str:
+    """Return a hint with the number in SI units, where a text is a number with a unit in place of a number."""
+    amount = read_amount(value) if isinstance(value, str) else None
+    unit = read_unit(amount.unit) if amount is not None and amount.unit else None
+    if amount is None or not isinstance(unit, Unit):
+        return ""
+    return f"numbers are in SI units here: {unit.to_si(amount.number)!r}"
 
 
 def finite(value: float, where: str) -> float:
