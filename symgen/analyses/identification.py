@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from symgen.result.sensitivities import place_of
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
+    from symgen.base.units import Unit
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
 
@@ -59,6 +60,8 @@ class Fit:
         The run with the fitted values.
     residuals : Array
         Model less data over the scale of each quantity, all quantities one after the other.
+    written : mapping of str to Unit
+        Units of the file of those parameters to which it gives another than the SI unit.
     """
 
     parameters: Mapping[str, float]
@@ -72,6 +75,7 @@ class Fit:
     runs: int
     result: Result
     residuals: Array
+    written: Mapping[str, Unit] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return "<Fit: " + ", ".join(f"{name} = {x:.6g}" for name, x in self.parameters.items()) + ">"
@@ -321,4 +325,5 @@ def _fit(task: Identification, solution: Any) -> Fit:
         runs=task.free.runs,
         result=result,
         residuals=residuals,
+        written={p.name: p.own_unit for p in task.free.mechanism.parameters if p.shown},
     )

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.units import si_hint
 
 T = TypeVar("T")
 
@@ -56,7 +57,8 @@ def number(where: str, value: object, *, positive: bool = False) -> float:
     except (TypeError, ValueError, OverflowError):
         result = math.nan
     if not math.isfinite(result) or (positive and not result > 0.0):
-        raise InputError(where, "a finite number above 0" if positive else "a finite number", shown(value))
+        expected = "a finite number above 0" if positive else "a finite number"
+        raise InputError(where, expected, shown(value), si_hint(value))
     return result
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import Any
 
 import click
 
@@ -18,15 +19,12 @@ from symgen.cli._options import (
     differ,
     examples,
     json_option,
+    numbers_in_si,
     output_file,
     setting_options,
     tell,
     time_list,
 )
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 #: Kinds of options that are files to write.
 FILES = ("plot", "tables")
@@ -47,6 +45,7 @@ def command_of(name: str) -> click.Command:
     def run(model: str, as_json: bool, **values: Any) -> int:
         from symgen.api import load
 
+        values = {name: _in_si(name, value, model) for name, value in values.items()}
         settings = Settings(**{o.name: values.pop(o.name) for o in analysis.options if o.is_setting})
         differ({o.name: values[o.argument] for o in analysis.options if o.kind in FILES})
         output = analysis.command(lambda: load(model), settings, **values)
@@ -99,7 +98,28 @@ def _read(option: Option, value: Any) -> Any:
     return value
 
 
-def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
+@dataclass(frozen=True)
+class _Range:
+    """Values of something that varies, as typed: option, name and text."""
+
+    flag: str
+    name: str
+    text: str
+
+
+def _in_si(name: str, value: Any, model: str) -> Any:
+    """Return the value of an option with its numbers in SI units."""
+    if not isinstance(value, _Range):
+        return numbers_in_si(f"--{name}", value, (model,))
+    from symgen.describe.load import load
+    from symgen.describe.typed_units import units_of_number
+    from symgen.ensemble.axes import axis_values
+
+    units = units_of_number(load(model), value.name)
+    return value.name, axis_values(value.text, f"{value.flag} {value.name}", units)
+
+
+def _range(flag: str, text: str) -> _Range:
     """Return name and values of a word such as ``crank.theta=lin(0,6.28,25)``.
 
     Raises
@@ -112,7 +132,8 @@ def _range(flag: str, text: str) -> tuple[str, NDArray[np.float64]]:
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():
         raise InputError(flag, "NAME=VALUES, such as crank.theta=lin(0,6.28,25)", quoted(text))
-    return name.strip(), axis_values(values.strip(), f"{flag} {name.strip()}")
+    axis_values(values.strip(), f"{flag} {name.strip()}")
+    return _Range(flag, name.strip(), values.strip())
 
 
 def _show(item: str | AnalysisTable | Mapping[str, Mapping[str, Any]]) -> None:

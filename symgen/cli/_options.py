@@ -6,6 +6,7 @@ import math
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import wraps
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,6 +16,7 @@ from symgen.analyses.kinds import check_over
 from symgen.base import arguments
 from symgen.base.errors import InputError, quoted
 from symgen.base.settings import about, default, flag
+from symgen.base.units import read_amount
 from symgen.cli import in_options
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -46,11 +48,64 @@ def setting_options(
     """
 
     def decorate(function: F) -> F:
+        if not TYPED.isdisjoint(names):
+            function = _in_units_of_file(function)
         for name in reversed(names):
             function = _option(name, (text or {}).get(name), (otherwise or {}).get(name))(function)
         return function
 
     return decorate
+
+
+#: Settings whose numbers are typed in the units of the file.
+TYPED = frozenset({"parameters", "start"})
+
+
+def _in_units_of_file(function: F) -> F:
+    """Return a command that has its typed numbers in SI units."""
+
+    @wraps(function)
+    def command(*args: Any, **values: Any) -> Any:
+        for name in sorted(TYPED & values.keys()):
+            values[name] = numbers_in_si(flag(name), values[name], _models(values))
+        return function(*args, **values)
+
+    return command  # type: ignore[return-value]  # takes and returns the same
+
+
+def _models(values: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the models of a command: its argument, several, or that of a saved result."""
+    named = values.get("described") or values.get("model") or values.get("what")
+    return tuple(values["models"]) if "models" in values else (named,) if isinstance(named, str) else ()
+
+
+def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
+    """Return numbers by name in SI units: as typed, those of parameters are in the unit of the file.
+
+    Parameters
+    ----------
+    option, numbers : str, mapping
+        The option and its numbers; anything else than typed numbers is returned as it is.
+    models : sequence of str
+        Models as typed; a name means the same unit in all that have it.
+
+    Raises
+    ------
+    InputError
+        If a unit is none, or none of the quantity, or models have different ones for a name.
+    """
+    from symgen.describe.typed_units import Typed, in_si
+
+    if not isinstance(numbers, Mapping) or not any(isinstance(x, Typed) for x in numbers.values()):
+        return numbers
+    from symgen.describe.load import load
+
+    found = [in_si(load(model), numbers, option) for model in models if not model.lower().endswith(".nc")]
+    for other in found[1:]:
+        name = next((name for name, x in other.items() if x != found[0][name]), None)
+        if name is not None:
+            raise InputError(f"{option} {name}", "one unit in all files", "several", "type the unit behind the number")
+    return found[0] if found else {name: float(x) for name, x in numbers.items()}
 
 
 def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
@@ -172,7 +227,7 @@ def pairs(option: str, texts: Sequence[str], form: str = "NAME=VALUE") -> dict[s
 
 
 def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
-    """Return the numbers of ``NAME=VALUE`` words by name.
+    """Return the numbers of ``NAME=VALUE`` words by name, as typed, see `numbers_in_si`.
 
     Raises
     ------
@@ -180,7 +235,17 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
         If a word has another form, a name repeats or a value is not a finite number.
     """
     texts_by_name = pairs(option, texts)
-    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in texts_by_name.items()}
+    return {name: _typed(f"{option} {name}", value) for name, value in texts_by_name.items()}
+
+
+def _typed(where: str, text: str) -> float:
+    """Return a finite number that may have a unit."""
+    from symgen.describe.typed_units import Typed
+
+    amount = read_amount(text)
+    if amount is None or not math.isfinite(amount.number):
+        return _number(where, "a finite number", text)
+    return Typed.of(amount)
 
 
 def _number(where: str, expected: str, text: str, above: float = -math.inf) -> float:

@@ -15,6 +15,9 @@ from symgen.base.digits import column, digits, scale_of
 from symgen.base.errors import counted, fitting
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from symgen.ensemble.sweep_study import Sweep
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
@@ -312,10 +315,16 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
     steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
     rate = f", {len(study) / study.seconds:.3g} runs a second" if study.seconds > 0.0 and not study.interrupted else ""
     axes = [item for axis in ensemble.grid.axes for item in axis.values.items()]
+
+    def ends(name: str, x: NDArray[np.float64]) -> str:
+        if (unit := study.written.get(name)) is None:
+            return f"{x.min():.6g} to {x.max():.6g}"
+        return f"{unit.of_si(float(x.min())):.6g} to {unit.of_si(float(x.max())):.6g} {unit.text}"
+
     lines = [
         ("mechanism", facts["mechanism"]),
         ("method", f"{facts['method']}, {facts['integrator']}, {steps}, until {facts['until']:g} s"),
-        *(("varies", f"{name}: {counted(len(x), 'value')} from {x.min():.6g} to {x.max():.6g}") for name, x in axes),
+        *(("varies", f"{name}: {counted(len(x), 'value')} from {ends(name, x)}") for name, x in axes),
         ("runs", f"{len(study)} in {study.seconds:.3g} s{rate}"),
         *(("status", f"{status}: {count}") for status, count in study.counts.items() if count),
         *(("reason", f"{count} x {reason}") for reason, count in study.reasons()),

@@ -90,6 +90,7 @@ def identity(mechanism: Mechanism) -> str:
         ", across=()",
         ", speed=None",
         ", stops=()",
+        ", shown=''",
     ):
         text = text.replace(absent, "")
     return hashlib.sha256(text.encode()).hexdigest()

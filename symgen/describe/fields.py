@@ -14,6 +14,7 @@ import msgspec
 from msgspec import Meta
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.units import si_hint
 
 Text = Annotated[str, Meta(description="a text")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
@@ -209,7 +210,8 @@ def read_value(type_: Any, value: object, where: str) -> Any:
             for key, item in value.items():
                 read_value(items, item, f"{where}.{key}")
         path = _AT.search(str(error))
-        raise InputError(where, describe_type(type_), words_of(_follow(value, path.group(1) if path else ""))) from None
+        part = _follow(value, path.group(1) if path else "")
+        raise InputError(where, describe_type(type_), words_of(part), si_hint(part)) from None
 
 
 def _items(type_: Any) -> Any:

@@ -20,6 +20,7 @@ import msgspec
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.files import check_rows
+from symgen.base.units import SI, Unit, read_amount, unit_of
 from symgen.describe.mechanism import Mechanism, Parameter
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import Readings
@@ -113,7 +114,8 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
     InputError
         If a name is not an input, or its value has none of these forms.
     """
-    inputs = {p.name: p.value for p in mechanism.parameters if p.input}
+    declared = {p.name: p for p in mechanism.parameters if p.input}
+    inputs = {name: p.value for name, p in declared.items()}
     numbers, samples, curves, formulas = dict[str, float](), dict[str, Data](), dict[str, Data](), dict[str, Expr]()
     words: dict[str, str | float] = dict(inputs)
     tables, jumps = list(mechanism.tables), list[Jump]()
@@ -122,13 +124,15 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
         if name not in inputs:
             hint = nearest(name, inputs) if inputs else "it declares none, in a section [inputs]"
             raise InputError(where, f"an input of {mechanism.name}", "none of that name", hint)
-        data = data_of(where, value)
+        own = declared[name].own_unit
+        data = data_of(where, value, own)
         if data is None and not isinstance(value, str):
             numbers[name] = words[name] = arguments.number(where, value)
         elif data is None:
-            number = _number(value)
+            number = _number(value, where, declared[name])
             if number is None:
-                formulas[name], words[name] = parse(value, _names(mechanism), where), value
+                formula, words[name] = parse(value, _names(mechanism), where), value
+                formulas[name] = formula if own.is_si else call("mul", Number(float(own.factor)), formula)
             else:
                 numbers[name] = words[name] = arguments.number(where, number)
         else:
@@ -170,7 +174,11 @@ def replaced(value: T, by: Callable[[Name], Expr]) -> T:
     return value
 
 
-def _number(text: str) -> float | None:
+def _number(text: str, where: str, parameter: Parameter) -> float | None:
+    """Return the number that a text is in SI units: without a unit it is in that of the file; None for a formula."""
+    amount = read_amount(text)
+    if amount is not None:
+        return amount.in_si(where, parameter.unit, parameter.shown)
     try:
         return float(text)
     except ValueError:
@@ -241,7 +249,7 @@ INTERPOLATIONS = ("hold", "linear", "cubic", "pchip")
 LARGEST_FILE = 50_000_000
 _FILE = re.compile(r"(?P<file>.+\.csv):(?P<column>[^:]+)(?::(?P<how>[^:]*))?", re.IGNORECASE)
 _WORDS = re.compile(rf".* \(({'|'.join(INTERPOLATIONS)})\)", re.DOTALL)
-_HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:\[[^\]]*\]\s*)?")
+_HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\]\s*)?")
 
 
 @dataclass(frozen=True)
@@ -276,13 +284,15 @@ class Data:
         return self.u[max(0, bisect_right(self.t, time) - 1)]
 
 
-def data_of(where: str, value: object) -> Data | None:
-    """Return the data of an input, None where it is a number or a formula.
+def data_of(where: str, value: object, unit: Unit = SI) -> Data | None:
+    """Return the data of an input in SI units, None where it is a number or a formula.
 
     Parameters
     ----------
     where : str
         The input, for the message.
+    unit : Unit
+        Unit of a column of a file whose heading has none; times and values of Python are in SI units.
     value : object
         ``"FILE.csv:COLUMN"`` or ``"FILE.csv:COLUMN:INTERPOLATION"``; a pair of times and values; or a mapping with the
         keys ``t`` and ``u``, or ``file`` and ``column``, and with ``interpolation``, which is linear by default.
@@ -294,9 +304,9 @@ def data_of(where: str, value: object) -> Data | None:
     """
     if isinstance(value, str):
         match = _FILE.fullmatch(value.strip())
-        return None if match is None else _read(where, match["file"], match["column"].strip(), match["how"])
+        return None if match is None else _read(where, match["file"], match["column"].strip(), match["how"], unit)
     if isinstance(value, Mapping):
-        return _of_mapping(where, value)
+        return _of_mapping(where, value, unit)
     if isinstance(value, list | tuple) or len(getattr(value, "shape", "")) > 0:
         pair = [*value]  # type: ignore[misc]  # an array of dimensions can be walked through
         if len(pair) != 2:
@@ -305,7 +315,7 @@ def data_of(where: str, value: object) -> Data | None:
     return None
 
 
-def _of_mapping(where: str, value: Mapping[Any, Any]) -> Data:
+def _of_mapping(where: str, value: Mapping[Any, Any], unit: Unit) -> Data:
     keys = ("t", "u", "file", "column", "interpolation")
     entries = arguments.mapping(where, value, "t and u, or file and column, and interpolation")
     for key in entries:
@@ -318,11 +328,11 @@ def _of_mapping(where: str, value: Mapping[Any, Any]) -> Data:
     if "t" in entries:
         return _checked(where, entries["t"], entries["u"], how, "")
     file = arguments.path(f"{where} file", entries["file"])
-    return _read(where, str(file), arguments.text(f"{where} column", entries["column"]), how)
+    return _read(where, str(file), arguments.text(f"{where} column", entries["column"]), how, unit)
 
 
-def _read(where: str, file: str, column: str, how: str | None) -> Data:
-    """Return a column of a file, over its column ``t`` or ``time``, or its first one."""
+def _read(where: str, file: str, column: str, how: str | None, unit: Unit) -> Data:
+    """Return a column of a file, over its column ``t`` or ``time``, or its first one, in SI units."""
     how = arguments.one_of(f"{where} interpolation", how or "linear", INTERPOLATIONS)
     path = Path(file)
     try:
@@ -337,7 +347,8 @@ def _read(where: str, file: str, column: str, how: str | None) -> Data:
         rows = [row for row in csv.reader(content.decode("utf-8-sig").splitlines()) if any(map(str.strip, row))]
     except (UnicodeDecodeError, csv.Error):
         raise InputError(f"{where}: {path.name}", "a CSV file in UTF-8", "something else") from None
-    headings = [match["name"] if (match := _HEADING.fullmatch(cell)) else cell for cell in rows[0]] if rows else []
+    matches = [_HEADING.fullmatch(cell) for cell in rows[0]] if rows else []
+    headings = [match["name"] if match else cell for match, cell in zip(matches, rows[0] if rows else (), strict=True)]
     if column not in headings:
         raise InputError(f"{where}: {path.name}", "a column of the file", quoted(column), nearest(column, headings))
     check_rows(f"{where}: {path.name}", headings, rows[1:])
@@ -346,7 +357,10 @@ def _read(where: str, file: str, column: str, how: str | None) -> Data:
     if place == times:
         raise InputError(f"{where}: {path.name}", "a column beside that of the times", quoted(column))
     t, u = ([_cell(f"{where}: {path.name}", row, i, k) for k, row in enumerate(rows[1:], 2)] for i in (times, place))
-    return _checked(where, t, u, how, f"{file}:{column}")
+    units = [(m["unit"] or "").strip() if (m := matches[i]) else "" for i in (times, place)]
+    of_time = unit_of(units[0], f"{where}: {path.name}", quantity="s") if units[0] else SI
+    own = unit_of(units[1], f"{where}: {path.name}", quantity=unit.si) if units[1] and unit.si else unit
+    return _checked(where, [*map(of_time.to_si, t)], [*map(own.to_si, u)], how, f"{file}:{column}")
 
 
 def _cell(where: str, row: list[str], index: int, line: int) -> float:

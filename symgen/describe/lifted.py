@@ -5,35 +5,20 @@ Only numbers that are named become parameters, so that code of other runs stays 
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.kinds import FORCES, JOINTS
+from symgen.describe.key_units import unit_of_key
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.names import LONGEST
 from symgen.describe.origins import Origin, origin_of
-from symgen.describe.schema import described
 from symgen.describe.validate import validate
 
 #: Sections whose numbers have paths; those of parameters, inputs and starts have names.
 SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", "stops")
-#: Units by the key of a body, or of the mechanism.
-_UNITS = {
-    "gravity": "m/s^2",
-    "mass": "kg",
-    "inertia": "kg m^2",
-    "centre_of_mass": "m",
-    "points": "m",
-    "position": "m",
-    "angle": "rad",
-    "velocity": "m/s",
-    "angular_velocity": "rad/s",
-}
-
 #: Keys and indices from the file to a number.
 Path = tuple[str | int, ...]
 
@@ -156,22 +141,9 @@ def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> 
 
 def _unit(raw: Mapping[str, Any], path: Path) -> str:
     """Return the unit of a number; empty where the texts on its table have none, or one for each of several."""
-    section, key = path[0], str(path[1] if path[0] == "mechanism" else path[2] if len(path) > 2 else "")
-    if section in ("joints", "forces"):
-        kinds, kind = JOINTS if section == "joints" else FORCES, raw[section][path[1]].get("type")
-        return "m" if key == "at" else _units_of(kinds.get(str(kind), section)).get(key, "")
-    return _UNITS.get(key, "") if section in ("mechanism", "bodies") else ""
-
-
-@functools.cache
-def _units_of(kind: type[Any]) -> dict[str, str]:
-    """Return the units of keys of a joint or a force, as the texts on its keys have these in brackets."""
-    units = dict[str, str]()
-    for names, text in re.findall(r"^(\w+(?:, \w+)*) : .*\n((?:    .*\n?)+)", described(kind), re.MULTILINE):
-        keys, own = names.split(", "), re.findall(r"\[([^\]]+)\]", text)
-        if len(keys) == len(own) and not any(" or " in unit or " with " in unit for unit in own):
-            units |= dict(zip(keys, own, strict=True))
-    return units
+    section, key = str(path[0]), str(path[1] if path[0] == "mechanism" else path[2] if len(path) > 2 else "")
+    kind = str(raw[section][path[1]].get("type")) if section in ("joints", "forces") else ""
+    return unit_of_key(section, key, kind)
 
 
 def _put(value: Any, path: Path, new: str) -> Any:

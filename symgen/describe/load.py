@@ -19,6 +19,7 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.origins import Source, errors_in
+from symgen.describe.own_units import in_si
 from symgen.describe.parser import LONGEST_TEXT
 from symgen.describe.validate import DEEPEST, validate
 
@@ -52,7 +53,7 @@ def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None =
         ``"four-bar"``, ``"n-four-bar:40"`` or the path of a file: TOML, or of another program's format
         (`symgen.describe.formats`), read with a fixed base.
     parameters : mapping of str to float, optional
-        Values in place of the defaults of some parameters; dependent quantities are checked with these.
+        Values in SI units in place of the defaults of some parameters; dependent quantities are checked with these.
 
     Raises
     ------
@@ -71,7 +72,7 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
     raw : mapping
         The description, not yet validated.
     values : mapping of str to float
-        New values; an unknown name is an error.
+        New values in SI units; an unknown name is an error.
     source : str
         File name or other origin, for messages.
     """
@@ -82,8 +83,7 @@ def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source:
             got = f"the unknown parameter {quoted(name)}"
             hint = nearest(name, entries) or "it has no parameters"
             raise InputError(f"{source}: parameters", "the name of a parameter", got, hint)
-        before = entries[name]
-        entries[name] = {**before, "value": value} if isinstance(before, Mapping) else value
+        entries[name] = in_si(entries[name], value)
     return {**raw, "parameters": entries}
 
 

@@ -9,6 +9,7 @@ import msgspec
 
 from symgen.base.arguments import shown
 from symgen.base.errors import InputError, nearest
+from symgen.base.units import Unit, known
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
@@ -41,8 +42,8 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     """A named number that stays adjustable at run time (``p`` of the emitted functions).
 
     One with a `formula` follows the parameters in it, unless it is set to a number itself; `value` is its value
-    with their defaults. An `input` is a number that comes from outside: it may change during a run, so it stands in
-    functions of state alone.
+    with their defaults, in SI units as `unit` is. An `input` is a number that comes from outside: it may change during
+    a run, so it stands in functions of state alone.
     """
 
     name: str
@@ -52,6 +53,16 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     note: str = msgspec.field(default_factory=str)
     formula: Expr | None = None
     input: bool = False
+    shown: str = ""  # unit in which the file gives it and people read it, where that is not `unit`
+
+    @property
+    def own_unit(self) -> Unit:
+        """The unit of the file."""
+        return known(self.shown or self.unit)
+
+    def as_written(self, value: float) -> tuple[float, str]:
+        """Return a value of it, in SI units, as a number in the unit of the file, and this unit."""
+        return (self.own_unit.of_si(value), self.shown) if self.shown else (value, self.unit)
 
 
 class Body(msgspec.Struct, frozen=True):

@@ -19,7 +19,6 @@ INTEGRAL = "integral"
 #: Names with a meaning of their own: `s` and `rate` are the placeholders of an effort.
 RESERVED = frozenset({"ground", "t", "pi", "s", "rate"}) | CALLABLE
 LONGEST = 64
-LONGEST_UNIT = 40
 
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -48,13 +47,6 @@ def check_identifier(name: str, where: str, what: str) -> str:
             where, f"{named} that has no meaning of its own", quoted(name), f"{why}'{name}_' is free", name
         )
     return name
-
-
-def check_unit(unit: str, where: str) -> str:
-    """Return `unit` if it is a unit as people write it, on one line; else raise `InputError`."""
-    if len(unit) > LONGEST_UNIT or not unit.isprintable():
-        raise InputError(where, f"a unit such as 'kg m^2', at most {LONGEST_UNIT} characters on one line", quoted(unit))
-    return unit
 
 
 def check_mechanism_name(name: str, where: str) -> str:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 import msgspec
 
-from symgen.base.errors import InputError
 from symgen.describe.collected import Errors
 from symgen.describe.evaluate import evaluate, evaluation_order
 from symgen.describe.fields import Scalar, read_table, read_value
 from symgen.describe.mechanism import Parameter
-from symgen.describe.names import check_unit, line
-from symgen.describe.parser import FormulaNames, parse
+from symgen.describe.names import line
+from symgen.describe.own_units import parameter_value
+from symgen.describe.parser import FormulaNames
 from symgen.describe.sections import InputSection, ParameterSection
 from symgen.vocabulary.expressions import names_in
 
@@ -78,24 +77,16 @@ class Parameters:
 
     def parameter(self, section: str, name: str, raw: object) -> Parameter:
         """Return a parameter or an input; one with a formula of others has no value yet."""
-        where, unit, note = self.where(section, name), "", ""
+        where, text, note = self.where(section, name), "", ""
         value: float | str
         if not isinstance(raw, Mapping):
             value = read_value(Scalar, raw, where)
         elif section == "inputs":
             content = read_table(InputSection, raw, where)
-            value, unit, note = content.default, content.unit, content.note
+            value, text, note = content.default, content.unit, content.note
         else:
             table = read_table(ParameterSection, raw, where)
-            value, unit, note = table.value, table.unit, table.note
-        formula = None
-        if isinstance(value, str):
-            expression = parse(value, self.names, where)
-            if any(names_in(expression)):
-                value, formula = 0.0, expression
-            else:
-                value = evaluate(expression, {}, where)
-        if not math.isfinite(value):
-            raise InputError(where, "a finite number", str(value))
-        unit, note = check_unit(unit, f"{where}.unit"), line(note)
-        return Parameter(name, float(value), unit, note, formula, section == "inputs")
+            value, text, note = table.value, table.unit, table.note
+        number, formula, unit = parameter_value(value, text, self.names, where)
+        shown = "" if unit.is_si else unit.text
+        return Parameter(name, number, unit.si, line(note), formula, section == "inputs", shown)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.units import Unit, read_unit
 from symgen.describe.names import CALLABLE, INTEGRAL
 from symgen.vocabulary.expressions import (
     FUNCTIONS,
@@ -45,8 +46,8 @@ _TOKEN = re.compile(
       | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
     re.VERBOSE,
 )
-#: A number followed by a unit.
-_WITH_UNIT = re.compile(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*([cmk]?m(/s)?|km/h|k?g|ms|min|k?N ?m?|(rad|deg)(/s)?|°|rpm)\s*")
+#: A number followed by a word, which may be a unit.
+_WITH_UNIT = re.compile(r"(?<![A-Za-z0-9_])[0-9.]+(?:[eE][-+]?[0-9]+)?\s*([A-Za-z%°]+)")
 #: The number of a beam's node between dots, which Python's grammar does not allow.
 _NODE = re.compile(r"(?<=[A-Za-z0-9_])\.([0-9]+)(?=\.[A-Za-z])")
 _WORDS = frozenset({"and", "or", "not", "if", "else"})
@@ -388,5 +389,7 @@ def _depth(expression: Expr) -> int:
 
 
 def _units(text: str) -> str:
-    """Return a hint where a text is a number with a unit."""
-    return "numbers are in SI units, written without them" if _WITH_UNIT.fullmatch(text) else ""
+    """Return a hint where a number in a formula has a unit."""
+    words = (match[1] for match in _WITH_UNIT.finditer(text))
+    unit = next((word for word in words if isinstance(read_unit(word), Unit)), "")
+    return f"a formula has no units, its numbers are in SI units: make the number in {unit} a parameter" if unit else ""

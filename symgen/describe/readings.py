@@ -250,19 +250,22 @@ class Readings:
         where : str
             File and key, for messages about joints that are resolved on the way.
         """
+        entry = self.entry(path, where)
+        return None if entry is None else entry[0]
+
+    def entry(self, path: tuple[str, ...], where: str) -> tuple[Reading, str] | None:
+        """Return the meaning of a dotted name, see `find`, with its unit."""
         owner, *words = path
         if (name := ".".join(path)) in self._losses:
-            return self._losses[name]
+            return self._losses[name], "J"
         if owner not in self._context.bodies:
-            entry = self._of_element(owner, where).get(".".join(words))
-        elif len(words) == 2 and words[0] in self._context.points[owner]:
-            entry = self._of_point(owner, words[0]).get(words[1])
-        elif len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
+            return self._of_element(owner, where).get(".".join(words))
+        if len(words) == 2 and words[0] in self._context.points[owner]:
+            return self._of_point(owner, words[0]).get(words[1])
+        if len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
             axis = axes(owner, 3)[AXES.index(words[0])]
-            entry = of_axis(f"{owner}.{words[0]}", axis).get(words[1])
-        else:
-            entry = None
-        return None if entry is None else entry[0]
+            return of_axis(f"{owner}.{words[0]}", axis).get(words[1])
+        return None
 
     def _of_point(self, body: str, point: str) -> Table:
         marker = Marker(body, self._context.points[body][point])

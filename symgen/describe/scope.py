@@ -11,8 +11,10 @@ from functools import cached_property
 import msgspec
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.units import read_amount
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import words_of
+from symgen.describe.key_units import quantity_of
 from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
@@ -126,6 +128,8 @@ class Scope:
 
     def __init__(self, context: Context, path: str, name: str = "", kind: str = "") -> None:
         self.context, self.path, self.name, self.kind = context, path, name, kind
+        #: Coordinates of the joint with their units, once it is resolved.
+        self.coordinates: Mapping[str, str] = {}
 
     @property
     def spatial(self) -> bool:
@@ -399,6 +403,10 @@ class Scope:
 
     def _expression(self, key: str, value: float | str, names: FormulaNames, conditions: bool = False) -> Expr:
         if isinstance(value, str):
+            amount = read_amount(value)
+            if amount is not None and amount.unit and amount.unit not in names.plain:
+                quantity = quantity_of(self.path, key, self.kind, self.coordinates)
+                return Number(amount.in_si(self.where(key), quantity))
             return parse(value, names, self.where(key), conditions)
         if not math.isfinite(value):
             raise self.error(key, "a finite number", str(value))

@@ -81,7 +81,9 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     ----------
     value : float or str
         The default; a formula of other parameters is worked out anew where these are changed.
-    unit, note : str
+    unit : str
+        Unit of a number, such as ``"mm"``; SI by default. In formulas every name stands for its value in SI units.
+    note : str
         For people.
     """
 
@@ -97,7 +99,9 @@ class InputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     ----------
     default : float or str
         What it is where a run is given nothing else; a formula may use parameters.
-    unit, note : str
+    unit : str
+        Unit of the number, and of what a run is given as text or in a file; SI by default.
+    note : str
         For people.
     """
 
@@ -116,7 +120,7 @@ class StateSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     start : scalar
         Its value where a run begins; 0 by default.
     unit : str
-        For people.
+        Its SI unit, for people.
     """
 
     rate: StateFunction
@@ -153,7 +157,7 @@ class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     value : function of the motion
         An expression of t, parameters, body coordinates, points, joint coordinates, forces and accelerations.
     unit : str
-        For people.
+        Unit of the number that the formula gives.
     """
 
     value: OutputFunction

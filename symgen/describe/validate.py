@@ -10,6 +10,7 @@ import msgspec
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.memory import uncollected
+from symgen.base.units import unit_of
 from symgen.describe.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.collected import Errors, Incomplete
 from symgen.describe.columns import check_columns
@@ -44,9 +45,10 @@ from symgen.describe.mechanism import (
     StateVariable,
     Vec,
 )
-from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
+from symgen.describe.names import check_identifier, check_mechanism_name, line
 from symgen.describe.numbers import read_defaults, read_points
 from symgen.describe.origins import errors_in, keep_origin
+from symgen.describe.own_units import check_single
 from symgen.describe.parameters import Parameters
 from symgen.describe.scope import Context, Scope
 from symgen.describe.sections import (
@@ -321,8 +323,13 @@ class _Validator:
     def state(self, name: str, raw: object) -> StateVariable:
         where, scope = self.where(f"states.{name}"), self.scope("states", name)
         section = read_table(StateSection, raw, where)
+        unit = unit_of(section.unit, f"{where}.unit")
+        if not unit.is_si:
+            hint = f'a start may have one of its own: "5 {unit.text}"'
+            raise InputError(f"{where}.unit", f"an SI unit such as {unit.si}, as formulas are", quoted(unit.text), hint)
+        scope.coordinates = {name: unit.si}
         start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
-        return StateVariable(name, start, rate, check_unit(section.unit, f"{where}.unit"))
+        return StateVariable(name, start, rate, unit.text)
 
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")
@@ -330,8 +337,11 @@ class _Validator:
             section, key = read_table(OutputSection, raw, where), "value"
         else:
             section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
-        value = self.scope("outputs", name).of_motion(key, section.value)
-        return Output(name, value, check_unit(section.unit, f"{where}.unit"))
+        scope = self.scope("outputs", name)
+        value = scope.of_motion(key, section.value)
+        unit = unit_of(section.unit, f"{where}.unit")
+        check_single(scope, value, unit)
+        return Output(name, value, unit.text)
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 
@@ -377,6 +387,7 @@ class _Validator:
         scope.check_space(struct.SPACES)
         section = read_table(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
         joint = section.build(scope)
+        scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
         if at is not None:
             point = at[0] if hasattr(section, "between") else at

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from symgen.base.arguments import shown
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.memory import require
+from symgen.base.units import read_amount
 
 Array = NDArray[np.float64]
 
@@ -125,15 +126,22 @@ _WORDS: Mapping[str, tuple[Callable[..., Array], int | None, str]] = {
 }
 
 
-def axis_values(text: str, where: str) -> Array:
-    """Return the values that a text such as ``lin(1, 3, 21)`` stands for.
+#: Words whose last arguments are a number of values, and a seed.
+_COUNTS = {"lin": 1, "log": 1, "uniform": 2}
+
+
+def axis_values(text: str, where: str, units: tuple[str, str] | None = None) -> Array:
+    """Return the values that a text such as ``lin(1, 3, 21)`` stands for, in SI units.
 
     Parameters
     ----------
     text : str
-        ``lin(a, b, n)``, ``log(a, b, n)``, ``values(a, b, ...)`` or ``uniform(a, b, n, seed)``.
+        ``lin(a, b, n)``, ``log(a, b, n)``, ``values(a, b, ...)`` or ``uniform(a, b, n, seed)``; values may have units.
     where : str
         For the message.
+    units : (str, str), optional
+        SI unit of the quantity, empty if it is not known, and the unit of numbers without one; without `units` the
+        text is only checked.
 
     Raises
     ------
@@ -148,13 +156,24 @@ def axis_values(text: str, where: str) -> Array:
     if word not in _WORDS:
         raise InputError(where, expected, quoted(word), nearest(word, _WORDS))
     build, arity, form = _WORDS[word]
-    numbers = [_number(part, where) for part in match[2].split(",")]
+    parts = match[2].split(",")
+    last = len(parts) - _COUNTS.get(word, 0)
+    numbers = [_value(part, where, units) if i < last else _number(part, where) for i, part in enumerate(parts)]
     if arity is not None and len(numbers) != arity:
         raise InputError(where, form, f"{len(numbers)} numbers")
     try:
         return build(*numbers)
     except InputError as error:
         raise InputError(where, f"{form} with {error.expected}", error.got) from None
+
+
+def _value(text: str, where: str, units: tuple[str, str] | None) -> float:
+    """Return a number that may have a unit in SI units."""
+    amount = read_amount(text)
+    if amount is None or not math.isfinite(amount.number):
+        return _number(text, where)
+    quantity, usual = units or ("", "")
+    return amount.in_si(where, quantity, usual)
 
 
 def _number(text: str, where: str) -> float:
@@ -164,7 +183,10 @@ def _number(text: str, where: str) -> float:
 
 
 def make_grid(
-    vary: Mapping[str, ArrayLike | str], runs: Mapping[str, ArrayLike | str], starts: Sequence[str] = ()
+    vary: Mapping[str, ArrayLike | str],
+    runs: Mapping[str, ArrayLike | str],
+    starts: Sequence[str] = (),
+    units: Callable[[str], tuple[str, str]] = lambda name: ("", ""),
 ) -> Grid:
     """Return the grid of every combination of `vary`, times the runs whose values are listed together.
 
@@ -176,6 +198,8 @@ def make_grid(
         Name -> values of one length: the dimension ``run``.
     starts : sequence of str
         Names of coordinates and velocities; their dimensions are called ``crank.theta(0)``.
+    units : callable
+        Of a name, the SI unit of the quantity and the unit of numbers in texts; numbers in arrays are in SI units.
 
     Raises
     ------
@@ -184,7 +208,7 @@ def make_grid(
     """
     axes = []
     if runs:
-        together = {name: _values(name, written) for name, written in runs.items()}
+        together = {name: _values(name, written, units(name)) for name, written in runs.items()}
         lengths = {name: len(written) for name, written in together.items()}
         if len(set(lengths.values())) > 1:
             sizes = ", ".join(f"{length} for {name}" for name, length in lengths.items())
@@ -193,7 +217,7 @@ def make_grid(
     for name, written in vary.items():
         if name in runs:
             raise InputError(name, "one way of varying it", "two")
-        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values(name, written)}))
+        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values(name, written, units(name))}))
     if not axes:
         raise InputError("sweep", "something that varies", "nothing")
     grid = Grid(tuple(axes))
@@ -203,9 +227,9 @@ def make_grid(
     return grid
 
 
-def _values(name: str, written: ArrayLike | str) -> Array:
+def _values(name: str, written: ArrayLike | str, units: tuple[str, str]) -> Array:
     if isinstance(written, str):
-        return axis_values(written, name)
+        return axis_values(written, name, units)
     try:
         plain = np.asarray(written)
         if plain.dtype.kind in "bc":

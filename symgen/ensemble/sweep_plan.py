@@ -26,6 +26,7 @@ from symgen.describe.events import RECORD
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
+from symgen.describe.typed_units import units_of_number
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.chunks import Rows, make_rows
 from symgen.ensemble.driving import Driving, read_by_motions
@@ -220,7 +221,7 @@ def make_ensemble(
     options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
     names = replace(Names.of(mechanism), options=options)
     names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
-    grid = make_grid(vary, runs, names.starts)
+    grid = make_grid(vary, runs, names.starts, lambda name: units_of_number(mechanism, name))
     _check_method(plan.choice.method, grid)
     moving = read_by_motions(mechanism, grid.names)
     if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one

@@ -51,6 +51,7 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
         ends = f"dark: {lines[0][0]}; light: {lines[-1][0]}"
         axes[0].set_title(ends, fontsize=8, loc="left")
     units = {"t": "s"} | sweep.units() | {name: signal.unit for name, signal in signals.items()}
+    units |= {name: unit.text for name, unit in sweep.written.items()}
     axes[-1].set_xlabel(label(over, units[over]))
     return figure
 

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.base.units import Unit
     from symgen.ensemble.row_sensitivities import RowSensitivities
     from symgen.ensemble.sweep_plan import Ensemble
 
@@ -268,8 +269,8 @@ class Sweep:
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the data set to a NetCDF file (``.nc``), or a CSV file with a line for every run and time.
 
-        Headings of a CSV file carry units: ``crank_mass [kg]``, ``t [s]``, ``crank.theta [rad]``. The file appears
-        whole or not at all.
+        Headings of a CSV file carry units: ``crank_mass [kg]``, ``t [s]``, ``crank.theta [rad]``; parameters that vary
+        have the unit of the mechanism's file there. The file appears whole or not at all.
 
         Raises
         ------
@@ -279,7 +280,7 @@ class Sweep:
         file = argument_path("save", path)
         check_path("save", file, SAVED, "data")
         if file.suffix.lower() == ".csv":
-            return write_csv(file, *table_lines(self))
+            return write_csv(file, *table_lines(self, self.written))
         return write_whole(file, netcdf(self.to_xarray()))
 
     def sensitivities(self, by: Sequence[str]) -> RowSensitivities:
@@ -347,6 +348,12 @@ class Sweep:
         names = Names.of(self.ensemble.model.mechanism)
         return {name: units.get(names.one(name), "") for name in self.ensemble.grid.names}
 
+    @property
+    def written(self) -> dict[str, Unit]:
+        """Units of the file of those parameters that vary to which it gives another than the SI unit."""
+        own = {p.name: p.own_unit for p in self.ensemble.model.mechanism.parameters if p.shown}
+        return {name: own[name] for name in self.ensemble.grid.names if name in own}
+
 
 #: Figures in sentences, which differ from run to run.
 _FIGURES = re.compile(r"\d[\d.e+-]*")
@@ -371,11 +378,16 @@ def _versions() -> dict[str, str]:
     }
 
 
-def table_lines(sweep: Sweep) -> tuple[list[str], Iterator[list[object]]]:
-    """Return the heading of a table with units, and a line for each run and output time; missing numbers are empty."""
-    ensemble, units = sweep.ensemble, sweep.units()
+def table_lines(sweep: Sweep, written: Mapping[str, Unit] | None = None) -> tuple[list[str], Iterator[list[object]]]:
+    """Return the heading of a table with units, and a line for each run and output time; missing numbers are empty.
+
+    What varies is in SI units, unless `written` has others for it.
+    """
+    own = written or {}
+    ensemble, units = sweep.ensemble, sweep.units() | {name: unit.text for name, unit in own.items()}
     times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
     varied = ensemble.grid.values(0, len(sweep))
+    varied |= {name: np.array([unit.of_si(float(x)) for x in varied[name]]) for name, unit in own.items()}
     labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
     names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
     events = {name: sweep.summary[:, at] for name, (at, _) in sweep.events.items()}

@@ -10,6 +10,7 @@ import numpy as np
 
 from symgen.compiling.checked import checked
 from symgen.compiling.printed import Printed, PrintedEvents
+from symgen.describe.mechanism import Parameter
 from symgen.drawing.scene import Array
 from symgen.layout import abi
 from symgen.layout.model_arrays import lengths_of
@@ -193,6 +194,12 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
     }
 
 
+def _written(parameter: Parameter) -> dict[str, Any]:
+    """Return the unit of the file with its factor to SI units, where it is another."""
+    unit = parameter.own_unit
+    return {"shown": {"unit": unit.text, "factor": float(unit.factor)}} if parameter.shown else {}
+
+
 def _drivers(mechanism: Mechanism) -> set[str]:
     """Return the joints that drive."""
     return {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
@@ -234,7 +241,12 @@ def _spec(
         "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
         "events": [event.name for event in mechanism.events],
         "parameters": [
-            {**entry, "follows": bool(own.formula), **({"still": True} if own.name in constants else {})}
+            {
+                **entry,
+                "follows": bool(own.formula),
+                **_written(own),
+                **({"still": True} if own.name in constants else {}),
+            }
             for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],

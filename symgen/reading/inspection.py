@@ -19,6 +19,7 @@ from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.formula_text import to_text
+from symgen.describe.mechanism import Parameter
 from symgen.describe.topology import state_names
 from symgen.formulate.formulate import formulate
 from symgen.lower.looped.instances import instances
@@ -178,7 +179,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
     equations = formulate(mechanism)
     show, words = texts(equations), row_words(mechanism)
     values = parameter_values(whole, settings.parameters)
-    parameters = [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters]
+    parameters = [_parameter(p, values[p.name]) for p in mechanism.parameters]
     facts: dict[str, Any] = {
         "mechanism": whole.name,
         "space": whole.space,
@@ -239,6 +240,13 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
     if with_method:
         facts["method"] = _method(mechanism, equations, choice)
     return facts
+
+
+def _parameter(parameter: Parameter, value: float) -> dict[str, Any]:
+    """Return a parameter with its value in SI units and, where the file has another unit, in that."""
+    number, unit = parameter.as_written(value)
+    written = {"as_written": {"value": number, "unit": unit}} if parameter.shown else {}
+    return {"name": parameter.name, "unit": parameter.unit, "value": value, **written}
 
 
 def _by_terms(mechanism: Mechanism, equations: Equations) -> dict[str, Any]:
@@ -400,7 +408,8 @@ def as_text(facts: dict[str, Any]) -> str:
     lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]
     if facts["parameters"]:
         section("Parameters")
-        lines += [f"{p['name']} = {p['value']:g} [{p['unit']}]" for p in facts["parameters"]]
+        written = [(p["name"], p.get("as_written", p)) for p in facts["parameters"]]
+        lines += [f"{name} = {x['value']:g} [{x['unit']}]" for name, x in written]
     if facts["rows"]:
         space = facts["space"] == "spatial"  # there rows in Euler parameters show little
         section("Rows in words" + ", and by vectors of bodies" * space)

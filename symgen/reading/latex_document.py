@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, nearest, sizes_of
 from symgen.base.escapes import latex_text
+from symgen.describe.own_units import as_written
 from symgen.reading.boxes import latex
 from symgen.reading.row_words import row_words
 from symgen.reading.sheet import LINE, Equation, Sheet
@@ -189,10 +190,12 @@ def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
             r"\begin{longtable}{@{}p{0.3\textwidth}p{0.36\textwidth}p{0.12\textwidth}r@{}}",
         ]
         for quantity in quantities:
-            value = f"{values[quantity.name]:.6g}" if title in ("Parameters", "Inputs") else ""
+            numbers = title in ("Parameters", "Inputs")
+            number, unit = as_written(sheet.mechanism, quantity, values) if numbers else (0.0, quantity.unit)
+            value = f"{number:.6g}" if numbers else ""
             symbol = latex(sheet.writer.symbol(quantity.name))
             meaning = _words(quantity.name + notes.get(quantity.name, ""))
-            lines.append(rf"${symbol}$ & \raggedright {meaning} & {_words(quantity.unit)} & {value} \\")
+            lines.append(rf"${symbol}$ & \raggedright {meaning} & {_words(unit)} & {value} \\")
         lines.append(r"\end{longtable}")
     return lines
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from symgen.base.errors import InputError, counted, sizes_of
 from symgen.base.escapes import script_json
 from symgen.compiling.closing import law_at_start
+from symgen.describe.own_units import as_written
 from symgen.drawing import sketch
 from symgen.emit.emit import emit_law, emit_model
 from symgen.formulate.formulate import formulate
@@ -233,8 +234,11 @@ class EquationPage:
                 lines = [["symbol", "name", "unit", *(["value"] if numbers else [])]]
                 for quantity in quantities:
                     letter = math(self.sheet.writer.symbol(quantity.name))
-                    value = [f"{self.values[quantity.name]:.6g}"] if numbers else []
-                    lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
+                    number, unit = (
+                        as_written(self.mechanism, quantity, self.values) if numbers else (0.0, quantity.unit)
+                    )
+                    value = [f"{number:.6g}"] if numbers else []
+                    lines.append([letter, escape(quantity.name), escape(unit), *value])
                 parts.append(fold(f"{len(quantities)} {title.lower()}", html_table(lines)))
         return parts
 

@@ -55,7 +55,7 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
     along = result.along(over)
     facts = [
         *lines(result),
-        *((f"parameter {name}", f"{value:g}") for name, value in result.parameters.items()),
+        *((f"parameter {name}", _amount(model, name, value)) for name, value in result.parameters.items()),
         ("versions", version_list()),
         ("machine", machine_class()),
     ]
@@ -67,6 +67,13 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
     ]
     title = model.mechanism.title or model.name
     return Document(title, (_lead(result),), tuple(facts), command, tuple(sections))
+
+
+def _amount(model: Model, name: str, value: float) -> str:
+    """Return a parameter's value with its unit, as in the file."""
+    parameter = next((p for p in model.mechanism.parameters if p.name == name), None)
+    number, unit = (value, "") if parameter is None else parameter.as_written(value)
+    return f"{number:g} {unit}".removesuffix(" 1").strip()
 
 
 def _lead(result: Result) -> str:

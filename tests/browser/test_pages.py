@@ -365,7 +365,7 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
 def test_names_of_a_file_stay_text(chromium: Chromium, tmp_path: Path) -> None:
     """A title and a note that would be scripts, and a script's end inside the data."""
     title = "</script><script>window.canary = 1</script><img src=x onerror='window.canary = 2'>"
-    builder = MechanismBuilder("arm", title=title).parameter("m", 1.0, unit="</script><b>", note=title)
+    builder = MechanismBuilder("arm", title=title).parameter("m", 1.0, note=title)
     model = Model(builder.body("a", type="point", mass="m").build())
     path = model.simulate(integrator="rk4", until=0.1, step=0.01).view().save(tmp_path / "page.html")
     chromium.open(path)

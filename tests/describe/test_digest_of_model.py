@@ -80,7 +80,7 @@ SAME = [
 OTHER = [
     ("mechanism.name", "rod-two"),
     ("mechanism.gravity", [0.0, -9.8]),
-    ("parameters.k", {"value": 1.0, "unit": "kN/m", "note": "soft"}),
+    ("parameters.k", {"value": 1.0, "unit": "kg/s^2", "note": "soft"}),
     ("parameters.n", 1.0),
     ("parameters", {"m": 2.0, "k": {"value": 1.0, "unit": "N/m"}}),
     ("tables.f.y", [0.0, 1.5]),

@@ -136,7 +136,7 @@ def test_text_of_a_file_is_text(tmp_path):
     path.write_text(
         '[mechanism]\nname = "evil"\ntitle = "</title><script>alert(1)</script>"\ngravity = [0, -9.81]\n'
         '# </pre><img src=x onerror="alert(2)">\n'
-        '[parameters]\nm = { value = 1.0, unit = "<b>kg</b>" }\n'
+        '[parameters]\nm = { value = 1.0, note = "<b>kg</b>" }\n'
         '[bodies.a]\nmass = "m"\ninertia = 1.0\n[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\n'
         "at = [[0, 0], [0.5, 0]]\n"
     )

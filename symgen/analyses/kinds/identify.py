@@ -9,6 +9,7 @@ from symgen.analyses.kinds import Analysis, AnalysisOutput, AnalysisTable, Optio
 from symgen.base.errors import InputError
 from symgen.base.keywords import RunKeywords, keyword_names
 from symgen.base.settings import Settings
+from symgen.base.units import known
 
 if TYPE_CHECKING:
     from symgen.analyses.free_numbers import Bounds
@@ -190,10 +191,11 @@ def command(
 
 def _shown(fit: Fit) -> Iterator[str | AnalysisTable]:
     """Yield values with errors and intervals, and how far the model is from the data."""
-    rows = [
-        (name, *(f"{v:.6g}" for v in (x, fit.errors[name], *fit.intervals[name])), fit.units[name])
-        for name, x in fit.parameters.items()
-    ]
+    rows = list[tuple[str, ...]]()
+    for name, x in fit.parameters.items():
+        own = fit.written[name] if name in fit.written else known("")
+        values = (own.of_si(float(v)) for v in (x, fit.errors[name], *fit.intervals[name]))
+        rows.append((name, *(f"{v:.6g}" for v in values), own.text if name in fit.written else fit.units[name]))
     headings = ("parameter", "value", "error", "95 % from", "to", "unit")
     yield AnalysisTable(headings, rows, left=("parameter", "unit"))
     yield AnalysisTable(

@@ -374,25 +374,25 @@ let rows = [], ranges = null;
 const element = (tag, text = "", name = "") => Object.assign(document.createElement(tag), { textContent: text, className: name });
 const rounded = (x) => +x.toPrecision(4);
 
-// One parameter: a slider between values with which the mechanism closes, and a field for any number.
+// One parameter: a slider between values with which the mechanism closes, and a field for any number, in the unit of the file.
 function makeRow(parameter, i) {
-  const x = parameter.value, reach = (x === 0 ? [-1, 1] : [0.25 * x, 4 * x]).sort((a, b) => a - b);
-  const box = element("div", "", "slider"), name = element("span", parameter.name), unit = element("span", parameter.unit);
+  const x = parameter.value, own = parameter.shown ?? { unit: parameter.unit, factor: 1 }, reach = (x === 0 ? [-1, 1] : [0.25 * x, 4 * x]).sort((a, b) => a - b);
+  const box = element("div", "", "slider"), name = element("span", parameter.name), unit = element("span", own.unit);
   const input = element("input"), field = element("input");
   name.title = parameter.name;
   Object.assign(input, { type: "range", min: 0, max: 400, step: 1 });
-  Object.assign(field, { type: "number", step: 10 ** (Math.floor(Math.log10(Math.abs(x) || 1)) - 1) });
-  for (const each of [input, field]) each.setAttribute("aria-label", `${parameter.name} ${parameter.unit}`);
+  Object.assign(field, { type: "number", step: 10 ** (Math.floor(Math.log10(Math.abs(x / own.factor) || 1)) - 1) });
+  for (const each of [input, field]) each.setAttribute("aria-label", `${parameter.name} ${own.unit}`);
   input.dataset.name = field.dataset.name = parameter.name;
-  const row = { i, name: parameter.name, unit: parameter.unit, follows: parameter.follows, box, input, field, reach, low: reach[0], high: reach[1] };
+  const row = { i, name: parameter.name, unit: own.unit, follows: parameter.follows, box, input, field, reach, low: reach[0], high: reach[1] };
   const even = () => row.low * row.high > 0; // in equal factors
   const at = (share) => (even() ? row.low * (row.high / row.low) ** share : row.low + share * (row.high - row.low));
   row.show = () => {
     const value = live.p[i];
-    field.value = rounded(value);
+    field.value = rounded(value / own.factor);
     input.value = 400 * (even() ? Math.log(value / row.low) / Math.log(row.high / row.low) : (value - row.low) / (row.high - row.low));
   };
-  row.limits = () => (row.low > reach[0] || row.high < reach[1] ? `It does from ${short(row.low)} to ${short(row.high)} ${row.unit}.` : "");
+  row.limits = () => (row.low > reach[0] || row.high < reach[1] ? `It does from ${short(row.low / own.factor)} to ${short(row.high / own.factor)} ${row.unit}.` : "");
   const take = (value) => {
     live.setParameters([[i, value]]);
     rows.forEach((each) => each !== row && each.show());
@@ -400,11 +400,11 @@ function makeRow(parameter, i) {
   };
   input.addEventListener("input", () => {
     const value = at(input.value / 400);
-    field.value = Math.min(Math.max(rounded(value), row.low), row.high);
-    take(field.valueAsNumber);
+    field.value = Math.min(Math.max(rounded(value / own.factor), row.low / own.factor), row.high / own.factor);
+    take(field.valueAsNumber * own.factor);
   });
   field.addEventListener("change", () => {
-    if (Number.isFinite(field.valueAsNumber)) take(field.valueAsNumber);
+    if (Number.isFinite(field.valueAsNumber)) take(field.valueAsNumber * own.factor);
     row.show();
   });
   box.append(name, input, field, unit);
