@@ -10,6 +10,9 @@ from scipy.optimize import linprog, lsq_linear
 
 from benchmarks.bounded.tree import Array
 
+#: Bounded least squares are solved to this part of the accelerations.
+LACKING = 1e-11
+
 
 class NoForces(Exception):
     """No forces or impulses satisfy the rules."""
@@ -37,9 +40,44 @@ def resting_forces(mass: Array, free: Array, slopes: Array, bias: Array, bounds:
     right = -root.T @ free - np.linalg.lstsq(columns.T, bias, rcond=1e-11)[0]
     lower, upper = bounds
     size = max(1.0, float(np.abs(right).max(initial=0.0)))
-    return np.asarray(
+    found = np.asarray(
         lsq_linear(columns / size, right / size, (lower, upper), method="bvls", tol=1e-16, max_iter=500).x
     )
+    square, alone = columns.T @ columns, slopes @ free + bias
+    if _lacking(square, alone, found, bounds) <= LACKING * size**2:
+        return found
+    tried = _enumerated(square, alone, bounds)
+    better = _lacking(square, alone, tried, bounds) < _lacking(square, alone, found, bounds)
+    return tried if better else found
+
+
+def _lacking(square: Array, alone: Array, forces: Array, bounds: tuple[Array, Array]) -> float:
+    """Return by how much forces miss the rule: by accelerations ``square @ forces + alone``, and by bounds."""
+    lower, upper = bounds
+    moves = square @ forces + alone
+    outer = np.where(forces <= lower, np.maximum(-moves, 0.0), np.maximum(moves, 0.0))
+    free = (forces > lower) & (forces < upper)
+    beyond = np.maximum(np.maximum(lower - forces, forces - upper), 0.0)
+    return float(max(np.abs(np.where(free, moves, outer)).max(), beyond.max()))
+
+
+def _enumerated(square: Array, alone: Array, bounds: tuple[Array, Array]) -> Array:
+    """Return the best of all choices of what is inside, at its lower, or at its upper bound."""
+    lower, upper = bounds
+    best, least = np.clip(np.zeros(len(lower)), lower, upper), math.inf
+    for choice in itertools.product((0, -1, 1), repeat=len(lower)):
+        at = np.array(choice)
+        forces = np.where(at < 0, lower, np.where(at > 0, upper, 0.0))
+        if not np.isfinite(forces).all():
+            continue
+        inside = np.flatnonzero(at == 0)
+        if len(inside):
+            right = -(alone + square @ forces)[inside]
+            forces[inside] = np.linalg.lstsq(square[np.ix_(inside, inside)], right, rcond=1e-11)[0]
+        lacking = _lacking(square, alone, forces, bounds)
+        if lacking < least:
+            best, least = forces, lacking
+    return best
 
 
 def holding_margin(matrix: Array, needed: Array, bounds: tuple[Array, Array]) -> float:
