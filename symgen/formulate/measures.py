@@ -58,9 +58,13 @@ class DerivedMeasure:
     bias: int
     drift: int = Graph.ZERO
 
-    def rate(self, graph: Graph, velocities: tuple[int, ...]) -> int:
-        """Return the node of s' = J v."""
+    def along(self, graph: Graph, velocities: tuple[int, ...]) -> int:
+        """Return the node of J v, the part of s' that velocities make."""
         return graph.total(graph.mul(node, velocities[i]) for i, node in sorted(self.row.items()))
+
+    def rate(self, graph: Graph, velocities: tuple[int, ...]) -> int:
+        """Return the node of s' = J v + drift."""
+        return graph.add(self.along(graph, velocities), self.drift)
 
 
 @dataclass
@@ -154,7 +158,7 @@ class ModelNodes(Formulas):
             return derived.value
         if r.order == 1:
             return derived.rate(g, self.velocities)
-        return g.add(derived.rate(g, self.accelerations), derived.bias)
+        return g.add(derived.along(g, self.accelerations), derived.bias)
 
     @property
     def accelerations(self) -> tuple[int, ...]:
@@ -233,19 +237,20 @@ class ModelNodes(Formulas):
         """Return a measure, or a velocity that is not the rate of one, with the value 0."""
         if isinstance(m, Speed):
             derived = self.speed(m)
-            return DerivedMeasure(self.graph.zero, derived.row, derived.bias)
+            return DerivedMeasure(self.graph.zero, derived.row, derived.bias, derived.drift)
         return self.measure(m)
 
     def _sum(self, m: Sum) -> DerivedMeasure:
         g = self.graph
-        value, bias, row = g.zero, g.zero, dict[int, int]()
+        value, bias, drift, row = g.zero, g.zero, g.zero, dict[int, int]()
         for coefficient, part in m.terms:
             k, derived = self.expression(coefficient), self.measure(part)
             value = g.add(value, g.mul(k, derived.value))
             bias = g.add(bias, g.mul(k, derived.bias))
+            drift = g.add(drift, g.mul(k, derived.drift))
             for i, node in derived.row.items():
                 row[i] = g.add(row.get(i, g.zero), g.mul(k, node))
-        return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias)
+        return DerivedMeasure(value, {i: n for i, n in row.items() if n != g.zero}, bias, drift)
 
     def speed(self, speed: Speed) -> DerivedMeasure:
         """Return the velocity measure of a nonholonomic row; `value` is the kernel's u = J v."""
@@ -287,7 +292,7 @@ class ModelNodes(Formulas):
 
         speed = value if isinstance(m, FormulaSpeed) else along(value)
         factors = jacobian(g, [speed], [("rate", i) for i in range(len(leaves))])[0]
-        drift = g.replaced([speed], {("rate", i): g.zero for i in range(len(leaves))})[0]
+        drift = g.replaced([speed], {("rate", i): leaf.drift for i, leaf in enumerate(derived)})[0]
         at: dict[tuple[str, int], int] = {}
         for i, leaf in enumerate(derived):
             at |= {("value", i): leaf.value, ("rate", i): leaf.rate(g, self.velocities)}
@@ -401,12 +406,14 @@ class Exertion:
 
 def exertion(model: ModelNodes, effort: Effort) -> Exertion:
     """Return the force of an effort."""
-    measure = model.motion(effort.measure)
-    rate = measure.rate(model.graph, model.velocities)
-    zero = model.graph.zero
+    g, measure = model.graph, model.motion(effort.measure)
+    rate = measure.rate(g, model.velocities)
+    zero = g.zero
     conservative, energy = (
         (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
     )
     magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-    total, power = model.graph.add(conservative, magnitude), model.graph.mul(magnitude, rate)
+    total = g.add(conservative, magnitude)
+    # what drifts changes the potential, and the force moves no body by it
+    power = g.sub(g.mul(magnitude, measure.along(g, model.velocities)), g.mul(conservative, measure.drift))
     return Exertion(measure.row, rate, total, power, energy)

@@ -81,7 +81,7 @@ class SideModel(ModelNodes):
             place = self.beside.rows.get(source.row)
             # a row that repeats another one is left out: the other one carries the whole effort
             effort = g.zero if place is None else g.neg(g.input("multipliers", place))
-            return g.mul(effort, self.motion(source.measure).rate(g, self.velocities)) if source.power else effort
+            return g.mul(effort, self.motion(source.measure).along(g, self.velocities)) if source.power else effort
         return super().reading(r)
 
     def place_of_turn(self, m: Measure) -> int:

@@ -21,7 +21,7 @@ from symgen.native import types
 from symgen.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
 from symgen.runs.bounded_rows import CHOICE, DEEP, OTHERS, OUT_OF_RANGE, SAME, TOUCHING, put_off
 from symgen.runs.choice import begin_afresh, choose_modes, follow_modes, measure_margins, read_rows
-from symgen.runs.strikes import STRIKES, find_struck, gather, strike
+from symgen.runs.strikes import STRIKES, find_struck, forget_passed, gather, strike
 
 #: Rows with bounds of all runs, and working memory.
 #: - choice: See `symgen.runs.bounded_rows`.
@@ -60,7 +60,10 @@ def strike_stops(t: float, modes: Any, state: Any) -> int:
     else:
         control[abi.BEGUN], control[abi.KNOWN], control[abi.POINTS], control[abi.REFUSED] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
-    return int(abi.DONE) if read_rows(t, c, state.y, state.p, state.w) == SAME else int(e.NO_MODES)
+    if read_rows(t, c, state.y, state.p, state.w) != SAME:
+        return int(e.NO_MODES)
+    forget_passed(c, state.w)
+    return int(abi.DONE)
 
 
 def forget_modes(model: Any, state: Any) -> None:

@@ -271,6 +271,15 @@ def accelerate_in_force(t: float, c: Any, now: Any, iw: Any) -> None:
     c.accelerations(t, c.y, now.p, c.w, c.rate, c.out)
 
 
+@exact(_N(CHOICE, _A))
+def forget_passed(c: Any, w: Any) -> int:
+    """Forget which coordinates an event has found at rest where the impact at its time has set them in motion."""
+    for i in range(c.dry):
+        if abs(c.speed[i]) > STILL * row_scale(c, w, i, abi.SPEED):
+            c.broken[i] = c.stopped[i] = 0
+    return int(c.dry)
+
+
 #: Types of the functions on the arrays of a run.
 KINDS = {"find_struck": types.FunctionType(_N(_F8, CHOICE, _A, _A, _A, _K, _K))}
 STRIKE = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A))

@@ -164,10 +164,10 @@ class Transitions:
         before = self._modes(w)
         closed = self._is_stop & ((before[:, HELD] != 0.0) | (before[:, LIMIT] != 0.0))
         closed, self._closed = closed if self._closed is None else self._closed, None
-        self._strike()
         for flags, rows in ((c.broken, broken), (c.stopped, stopped), (c.left, left)):
             flags[:] = 0
             flags[list(rows)] = 1
+        self._strike()
         self._take_modes()
         if self._impacts.latest and self._impacts.gather(c):
             self._read()
@@ -232,6 +232,7 @@ class Transitions:
         if code == OTHERS:
             self._impacts.strike(self._choice)
             self._read()
+            compiled_form(strikes.forget_passed)(self._choice, self.simulation.state.w)
 
     # -- numbers of the present state ----------------------------------------------------------------------------------
 
