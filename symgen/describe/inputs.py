@@ -49,6 +49,8 @@ class Jump:
         Value of the switch.
     period : float
         Period of the levels, 0 without one.
+    derivative : int
+        The lowest derivative that may jump there: that of a piecewise polynomial; else 0, whatever it is.
     """
 
     argument: Expr
@@ -56,6 +58,7 @@ class Jump:
     switch: str = ""
     value: Expr = ZERO
     period: float = 0.0
+    derivative: int = 0
 
 
 @dataclass(frozen=True)
