@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -177,9 +177,9 @@ class Foreseen:
                 times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
                 stops = tuple(Stop(t, {}) for t in (0.0, *times)) if times else ()
                 if gaps:
-                    stops = merged(stops, skipping(gaps, (0.0, 0.0), until))
+                    stops = merged(stops, skipping(gaps, gaps, (0.0, 0.0), until))
             else:
-                stops = skipping(sorted({*kinks, *sides, *gaps}), self.grid, until)
+                stops = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
             result = stops, all_kinks and all_sides and all_gaps
             self.latest.clear()  # threads of a sweep do so, too
             self.latest[key] = result
@@ -193,7 +193,9 @@ class Foreseen:
         return [f"{often}: steps do not end there, and may miss what is short"]
 
 
-def skipping(times: Sequence[float], grid: tuple[float, float], until: float) -> tuple[Stop, ...]:
+def skipping(
+    times: Sequence[float], gaps: Container[float], grid: tuple[float, float], until: float
+) -> tuple[Stop, ...]:
     """Return the stops of constant steps at discontinuities.
 
     A step ends just before each, and the next one begins just behind it, so that every stage lies on its side; it ends
@@ -203,6 +205,8 @@ def skipping(times: Sequence[float], grid: tuple[float, float], until: float) ->
     ----------
     times : sequence of float
         Of discontinuities, in their order [s].
+    gaps : container of float
+        Those of gaps.
     grid : (float, float)
         As in `Foreseen`.
     until : float
@@ -210,7 +214,7 @@ def skipping(times: Sequence[float], grid: tuple[float, float], until: float) ->
     """
     (first, step), apart, result = grid, _NEXT_TO * until, list[Stop]()
     for t, following in pairwise((*times, until)):
-        result += [Stop(max(t - apart, 0.0), {}, skips=True), Stop(t + apart, {})]
+        result += [Stop(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Stop(t + apart, {})]
         if step > 0.0:
             steps = (t - first) / step
             point = first + math.ceil(steps) * step

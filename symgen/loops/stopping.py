@@ -34,7 +34,8 @@ _A, _K = types.float64[::1], types.int64[::1]
 #: - head: `ROW`, `ADAPTIVE` and `CHOOSES`.
 #: - rows (shape (rows + 1,)): First stop of each row.
 #: - times: Of stops, in order in each row [s].
-#: - skips (shape (stops,)): 1 for stops behind which a run goes on at the next one, without a step.
+#: - skips (shape (stops,)): 1 for stops behind which a run goes on at the next one, without a step; 2 where rates of
+#:   gaps jump between the two.
 #: - changes (shape (stops + 1,)): First change of each stop.
 #: - places, values: Changes: an index in ``p``, and the value there from then on.
 STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("skips changes places", _K), ("values", _A))
@@ -60,6 +61,12 @@ def has_gap(stops: Any, count: int) -> bool:
     """Whether a run goes on at the next stop, without a step, behind stop number `count` of the present row."""
     at = stops.rows[stops.head[ROW]] + count
     return bool(at < stops.rows[stops.head[ROW] + 1] and stops.skips[at] != 0)
+
+
+def has_struck(stops: Any, count: int) -> bool:
+    """Whether rates of gaps have jumped before stop number `count` of the present row."""
+    at = stops.rows[stops.head[ROW]] + count - 1
+    return bool(count > 0 and stops.skips[at] == 2)
 
 
 def end_in_part(stops: Any, count: int, span: Any, clock: Any) -> float:
@@ -262,7 +269,7 @@ def stops_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[St
         head=np.array([0, int(adaptive), int(bool(compiled.info.bounded))]),
         rows=np.cumsum([0, *map(len, rows)]),
         times=np.array([stop.t for stop in stops], dtype=np.float64),
-        skips=np.array([stop.skips for stop in stops], dtype=np.int64),
+        skips=np.array([stop.skips + stop.strikes for stop in stops], dtype=np.int64),
         changes=np.cumsum([0, *(len(stop.values) for stop in stops)]),
         places=np.array([place for place, _ in changes], dtype=np.int64),
         values=np.array([value for _, value in changes], dtype=np.float64),

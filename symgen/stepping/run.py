@@ -17,6 +17,7 @@ from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps, merged, s
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
+from symgen.describe.inputs import inputs_of_gaps
 from symgen.layout import abi
 from symgen.runs.changes import begin_with_step
 from symgen.runs.events import EventRecord
@@ -244,6 +245,8 @@ class SteppedRun(Readings):
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
             for name, value in values.items()
         }
+        if held := sorted(numbers.keys() & inputs_of_gaps(self._mechanism)):
+            raise InputError(f"set: '{held[0]}'", "an input that moves no stop", f"'{held[0]}', which a gap reads")
         self._advance.recover()
         loop = self._loop
         if self._adaptive:
