@@ -298,9 +298,9 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.reruns.verification import verified
+        from symgen.reruns.verification import part_verified, verified
         from symgen.result.build import build_result
-        from symgen.result.judge import unchecked
+        from symgen.result.judge import is_long, unchecked
         from symgen.runs.timing import timed
         from symgen.store.stats import seconds_in_cache
 
@@ -328,6 +328,8 @@ class Model(Analysed, Shown):
                 words = discretisation(run, outcome, settings)
                 note = "; ".join(x for x in (verification.note, words) if x)
                 verification = replace(verification, note=note or None)
+        elif is_long(run, outcome):
+            verification = part_verified(run, outcome)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
         result = build_result(run, outcome, runs.spread or 0.0, verification)

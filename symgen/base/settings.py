@@ -182,7 +182,7 @@ class Settings:
     verify: bool | None = _switch(
         None,
         "Estimate the error by a second run with finer steps, and settle doubts by it.",
-        otherwise="of the mechanism; adaptive runs with default tolerances of at most 2e8 operations",
+        otherwise="of the mechanism; adaptive runs with default tolerances, of long ones a first part",
     )
     max_violation: float = _number(
         1e-6, "Largest violation of positions and of velocities, as fractions of the mechanism's length and speed."

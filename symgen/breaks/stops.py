@@ -8,7 +8,8 @@ shorter than a step may lie between two stages.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from bisect import bisect_left
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -18,16 +19,20 @@ from symgen.base.errors import InputError
 from symgen.breaks.in_time import MOST_PIECES, InTime, line_of
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import DrivenMechanism, Jump
-from symgen.describe.kinks import jumps_in_time
+from symgen.describe.kinks import jumps_in_time, jumps_of_gaps
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.remembered import remembered
+from symgen.layout.abi import SAME_TIME
 from symgen.loops.run_spec import Stop
 from symgen.vocabulary.expressions import names_in
 
 #: Jumps closer than this fraction of the run are one.
 SAME = 1e-14
-#: Distance from a jump at which a step ends and another begins, as a fraction of the run.
-_BESIDE = 1e-12
+#: Schemes of a lower order end steps where those of this order do.
+LEAST_ORDER = 3
+#: Distance from a jump at which a step ends and another begins, as a fraction of the run; and where constant steps do,
+#: between which no step lies: more than the rounding of stages, and of the time of the jump.
+_BESIDE, _NEXT_TO = 1e-12, 4.0 * 2.0**-52
 
 
 def stops_of(
@@ -84,13 +89,14 @@ def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]
     """Return stops with changes of numbers and stops without in one sequence, one of each two at the same time."""
     if not (stops and kinks):
         return stops or kinks
-    result, apart = list[Stop](), SAME * kinks[-1].t
-    for stop in sorted([*stops, *kinks], key=lambda stop: stop.t):
-        if result and stop.t - result[-1].t <= apart:  # one of the two changes no number
-            result[-1] = Stop(result[-1].t, {**result[-1].values, **stop.values})
+    apart, times, result = SAME * kinks[-1].t, [kink.t for kink in kinks], list(kinks)
+    for stop in stops:
+        at = bisect_left(times, stop.t - apart)
+        if at < len(times) and times[at] <= stop.t + apart:
+            result[at] = replace(result[at], values={**result[at].values, **stop.values})
         else:
             result.append(stop)
-    return tuple(result)
+    return tuple(sorted(result, key=lambda stop: stop.t))
 
 
 def beside(stops: tuple[Stop, ...], times: Sequence[float], until: float) -> tuple[Stop, ...]:
@@ -108,7 +114,8 @@ def beside(stops: tuple[Stop, ...], times: Sequence[float], until: float) -> tup
 class Foreseen:
     """Foreseen discontinuities of the formulas of a mechanism; false without any.
 
-    Their times depend on parameters: the latest result is remembered.
+    Their times depend on parameters: the latest result is remembered. Constant steps go on at the next point of their
+    grid: a step up to it follows each discontinuity.
 
     Attributes
     ----------
@@ -116,6 +123,10 @@ class Foreseen:
         Owner of the tables that formulas may read.
     kinks, sides : tuple of Jump
         From `symgen.describe.kinks.jumps_in_time`.
+    gaps : tuple of Jump
+        From `symgen.describe.kinks.jumps_of_gaps`: a closed stop gives the bodies on it another velocity there.
+    grid : (float, float) or None
+        First point and distance of the grid of constant steps [s], 0 for steps without a grid; None where steps vary.
     latest : dict
         The latest result, by the values on which it depends.
     """
@@ -123,18 +134,20 @@ class Foreseen:
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
+    gaps: tuple[Jump, ...] = ()
+    grid: tuple[float, float] | None = None
     latest: dict[tuple[float, ...], tuple[tuple[Stop, ...], bool]] = field(
         default_factory=dict, repr=False, compare=False
     )
 
     def __bool__(self) -> bool:
         """Whether formulas have such discontinuities."""
-        return bool(self.kinks or self.sides)
+        return bool(self.kinks or self.sides or self.gaps)
 
     @cached_property
     def reads(self) -> frozenset[str]:
         """Names on which the times depend: parameters, and t."""
-        return frozenset(name for jump in (*self.kinks, *self.sides) for name in names_in(jump.argument))
+        return frozenset(name for jump in (*self.kinks, *self.sides, *self.gaps) for name in names_in(jump.argument))
 
     def stops(self, values: Mapping[str, float], until: float) -> tuple[Stop, ...]:
         """Return the stops of a run to `until` [s], at which no number changes; empty for a run in one piece.
@@ -156,46 +169,90 @@ class Foreseen:
         result = self.latest.get(key)
         if result is None:  # compared runs, or runs of a sweep, often agree in these values
             kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
-            sides, all_sides = times_between(self.sides, self.mechanism, values, until)
-            # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
-            beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
-            times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
-            result = tuple(Stop(t, {}) for t in (0.0, *times)) if times else (), all_kinks and all_sides
+            sides, all_sides = times_between(self.sides, self.mechanism, values, until, self.grid is not None)
+            gaps, all_gaps = times_between(self.gaps, self.mechanism, values, until, self.grid is not None)
+            if self.grid is None:
+                # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
+                beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
+                times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
+                stops = tuple(Stop(t, {}) for t in (0.0, *times)) if times else ()
+                if gaps:
+                    stops = merged(stops, skipping(gaps, gaps, (0.0, 0.0), until))
+            else:
+                stops = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
+            result = stops, all_kinks and all_sides and all_gaps
             self.latest.clear()  # threads of a sweep do so, too
             self.latest[key] = result
         return result
 
-    def missed(self, values: Mapping[str, float], until: float, step: float | None) -> list[str]:
-        """Return the sentence about discontinuities that steps of a run may miss: constant ones miss shorter pieces.
+    def missed(self, values: Mapping[str, float], until: float) -> list[str]:
+        """Return the sentence about discontinuities that steps of a run may miss; parameters as for `stops`."""
+        if self._stops(values, until)[1]:
+            return []
+        often = "formulas change, or pass points of tables, more often than can be distinguished"
+        return [f"{often}: steps do not end there, and may miss what is short"]
 
-        Parameters
-        ----------
-        values, until
-            As for `stops`.
-        step : float or None
-            The constant step [s]; None where steps are adaptive.
-        """
-        if not self._stops(values, until)[1]:
-            often = "formulas change, or pass points of tables, more often than can be distinguished"
-            return [f"{often}: steps do not end there, and may miss what is short"]
-        if step is None:
-            return []
-        jumps = [*self.sides, *(kink for kink in self.kinks if kink.levels == (0.0,))]  # not points of tables
-        times, _ = times_between(jumps, self.mechanism, values, until)
-        near = min(pairwise(times), key=lambda pair: pair[1] - pair[0], default=(0.0, step))
-        if near[1] - near[0] >= step:
-            return []
-        what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
-        return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]
+
+def skipping(
+    times: Sequence[float], gaps: Container[float], grid: tuple[float, float], until: float
+) -> tuple[Stop, ...]:
+    """Return the stops of constant steps at discontinuities.
+
+    A step ends just before each, and the next one begins just behind it, so that every stage lies on its side; it ends
+    at the next point of the grid.
+
+    Parameters
+    ----------
+    times : sequence of float
+        Of discontinuities, in their order [s].
+    gaps : container of float
+        Those of gaps.
+    grid : (float, float)
+        As in `Foreseen`.
+    until : float
+        End of the run [s].
+    """
+    (first, step), apart, result = grid, _NEXT_TO * until, list[Stop]()
+    for t, following in pairwise((*times, until)):
+        result += [Stop(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Stop(t + apart, {})]
+        if step > 0.0:
+            steps = (t - first) / step
+            point = first + math.ceil(steps) * step
+            if abs(steps - round(steps)) > SAME_TIME and point < following - SAME_TIME * step:
+                result.append(Stop(point, {}))
+    if result and result[0].t > 0.0:
+        result.insert(0, Stop(0.0, {}))
+    return tuple(result)
+
+
+def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: float | None) -> Foreseen:
+    """Return the discontinuities of formulas of joints, forces, integrals and stops at which constant steps end.
+
+    Where the k-th derivative of a table jumps, a step errs by its power k + 1: below the order of the scheme it counts,
+    as the points of linear tables always do.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    order : int
+        Order of the scheme.
+    first, step : float
+        First point and distance of the grid of steps [s].
+    """
+    kinks, sides, gaps, _ = _passed(mechanism)
+    kinks = tuple(kink for kink in kinks if kink.derivative + 1 < max(order, LEAST_ORDER))
+    return Foreseen(mechanism, kinks, sides, gaps, (first, step or 0.0))
 
 
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
-    """Return the foreseen discontinuities of formulas of joints, forces and integrals of a mechanism, and of events.
+    """Return the foreseen discontinuities of formulas of joints, forces, integrals and stops, and of events.
 
     Steps find an event that is a straight line in t wherever they end; another one may come and go within a step.
     """
     if not events:
-        return Foreseen(mechanism, *_passed(mechanism))
+        kinks, sides, gaps, latest = _passed(mechanism)
+        return Foreseen(mechanism, kinks, sides, gaps, latest=latest)
     timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
     values = parameter_values(mechanism)
     happening = (
@@ -204,16 +261,16 @@ def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
         if "t" in (read := {*names_in(jump.argument)}) and read <= timely and line_of(jump, values) is None
     )
     kinks, sides = jumps_in_time(mechanism, events)
-    return Foreseen(mechanism, kinks, (*sides, *happening))
+    return Foreseen(mechanism, kinks, (*sides, *happening), jumps_of_gaps(mechanism))
 
 
 @remembered
-def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
-    return *jumps_in_time(mechanism), {}
+def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
+    return *jumps_in_time(mechanism), jumps_of_gaps(mechanism), {}
 
 
 def times_between(
-    jumps: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float
+    jumps: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float, at_start: bool = False
 ) -> tuple[tuple[float, ...], bool]:
     """Return the times inside a run at which formulas pass levels, and whether these are all.
 
@@ -227,6 +284,8 @@ def times_between(
         Of all parameters.
     until : float
         End of the run [s].
+    at_start : bool
+        Whether the start counts, if formulas pass levels there.
 
     Returns
     -------
@@ -241,7 +300,7 @@ def times_between(
             crossings.update(formulas.crossings(_unrolled(jump, formulas, until), until))
         except InputError:
             whole = False
-    times = list[float]()
+    times = [0.0] if at_start and min(crossings, default=until) <= apart else list[float]()
     for t in sorted(crossings):
         if t - (times[-1] if times else 0.0) > apart and until - t > apart:
             times.append(t)

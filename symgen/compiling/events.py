@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from symgen.compiling.side import compile_side
 from symgen.describe.formula_text import to_text
 from symgen.describe.friction import bound_in_motion, components, mode_events, rate_of
-from symgen.describe.kinks import Discontinuity, changes_in_time, changing_rows, discontinuities_of
+from symgen.describe.kinks import KINKS, Discontinuity, changes_in_time, changing_rows, discontinuities_of
 from symgen.describe.losses import places_of_losses
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.describe.stops import gap_of, stop_events
@@ -23,8 +23,6 @@ from symgen.vocabulary.expressions import ZERO, Expr
 
 Array = NDArray[np.float64]
 
-#: Order of the derivative of a table that jumps at its points.
-_KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
 #: Sign of the change of a switching function at its event, 0 for both.
 DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
@@ -154,7 +152,7 @@ def switch_of(passed: Discontinuity, rtol: float) -> Switch:
     period = table.x[-1] - table.x[0] if table.periodic else 0.0
     own = table.x[:-1] if table.periodic else table.x
     points = tuple(x for x, size in zip(own, sizes_of_kinks(table.interpolated), strict=False) if size > rtol)
-    return Switch(rtol ** (1.0 / _KINKS[table.interpolation]), points, period if points else 0.0)
+    return Switch(rtol ** (1.0 / KINKS[table.interpolation]), points, period if points else 0.0)
 
 
 def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:

@@ -26,7 +26,8 @@ from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import Readings
 from symgen.describe.scope import Context
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names_in, table_of
+from symgen.vocabulary.expressions import BENT, ZERO, Call, Expr, Name, Number, call, names_in, readings, table_of
+from symgen.vocabulary.measures import FormulaMeasure
 
 T = TypeVar("T")
 #: Parts of a mechanism whose formulas may read inputs.
@@ -50,6 +51,8 @@ class Jump:
         Value of the switch.
     period : float
         Period of the levels, 0 without one.
+    derivative : int
+        The lowest derivative that may jump there: that of a piecewise polynomial; else 0, whatever it is.
     """
 
     argument: Expr
@@ -57,6 +60,7 @@ class Jump:
     switch: str = ""
     value: Expr = ZERO
     period: float = 0.0
+    derivative: int = 0
 
 
 @dataclass(frozen=True)
@@ -145,15 +149,44 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
                     curves[name] = data
                 tables.append(table)
                 formulas[name] = Call(table.function, (Name("t"),))
+    _check_gaps(mechanism, samples, formulas)
     with_tables = msgspec.structs.replace(mechanism, tables=tuple(tables))
     changed = {name: _Switching(with_tables, name, jumps).expression(e) for name, e in formulas.items()}
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
         return DrivenMechanism(mechanism, numbers, samples, curves, (), words, mechanism)
     parts = {part: put(getattr(with_tables, part), changed) for part in _READING}
+    parts["stops"] = put(with_tables.stops, formulas)  # what jumps in them is found there
     parameters, put_in = (*with_tables.parameters, *switches), tuple(changed.items())
     whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, input_formulas=put_in)
     return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), words, with_tables)
+
+
+def _check_gaps(mechanism: Mechanism, samples: Mapping[str, Data], formulas: Mapping[str, Expr]) -> None:
+    """Refuse inputs by which gaps of stops would jump, or depend on more than the time.
+
+    Raises
+    ------
+    InputError
+        With the first of them.
+    """
+    for name in sorted(inputs_of_gaps(mechanism)):
+        expected, hint = f"a number, a formula of t or data between samples, as gaps read {name}", ""
+        if name in samples:
+            raise InputError(f"input '{name}'", expected, "data that are held", "interpolation linear, pchip or cubic")
+        formula = formulas.get(name, ZERO)
+        timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
+        if any(readings(formula)) or not set(names_in(formula)) <= timely:
+            raise InputError(f"input '{name}'", expected, "a formula of the state", hint)
+
+
+def inputs_of_gaps(mechanism: Mechanism) -> set[str]:
+    """Return the inputs that gaps of stops read."""
+    found = set[str]()
+    for stop in mechanism.stops:
+        if isinstance(stop.measure, FormulaMeasure):
+            found |= {*names_in(stop.measure.of)} & {*mechanism.inputs}
+    return found
 
 
 def put(value: T, formulas: Mapping[str, Expr]) -> T:

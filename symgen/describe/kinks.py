@@ -45,6 +45,8 @@ _INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "co
 _COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
 
 
+#: The derivative of a table that jumps at its points.
+KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
 #: Steps for which something may lie hidden are no longer than a run over this.
 PARTS = 1000
 #: Encoded forms of formulas of the time.
@@ -62,14 +64,24 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     whatever their pieces are: of a cubic one the third derivative jumps. Where comparisons and `sign` are passed,
     formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
     """
-    formulas = *integrated(mechanism), tuple(e.when for e in events)
+    return _jumps_in(mechanism, (*integrated(mechanism), mechanism.frictions, tuple(e.when for e in events)))
+
+
+def jumps_of_gaps(mechanism: Mechanism) -> tuple[Jump, ...]:
+    """Return the jumps and kinks in time of the gaps of stops, whose rates jump there."""
+    return sum(_jumps_in(mechanism, (mechanism.stops,)), ())
+
+
+def _jumps_in(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
+    """Return the kinks in time of formulas, and their comparisons."""
     tables, timely = _tables(mechanism), _timely(mechanism)
     kinks, sides = dict[Jump, None](), dict[Jump, None]()
     for e, _ in _calls(*formulas) if _may_pass(formulas) else ():
         if e.function in _COMPARED:
             jump = Jump(compared(e))
         elif (table := tables.get(table_of(e.function) or "")) is not None:
-            jump = Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
+            period = table.x[-1] - table.x[0] if table.periodic else 0.0
+            jump = Jump(e.arguments[0], table.x, period=period, derivative=KINKS.get(table.interpolation, 0))
         else:
             continue
         if "t" in (used := set(names_in(jump.argument))) and used <= timely:

@@ -16,8 +16,13 @@ OPERATORS |= {"both", "either"}
 CALLABLE = frozenset(FUNCTIONS) - OPERATORS | {"piecewise"}
 #: Further function in outputs.
 INTEGRAL = "integral"
-#: Names with a meaning of their own: `s` and `rate` are the placeholders of an effort.
-RESERVED = frozenset({"ground", "t", "pi", "s", "rate"}) | CALLABLE
+#: Names with a meaning of their own.
+RESERVED = frozenset({"ground", "t", "pi"}) | CALLABLE
+#: Names of what an effort acts along and of its rate: what formulas read by its name alone has others. Bodies, joints
+#: and the like are read with a dot, as ``s.x``.
+PLACEHOLDERS = frozenset({"s", "rate"})
+#: What formulas read by its name alone.
+_READ = frozenset({"parameter", "input", "state", "table"})
 LONGEST = 64
 
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -37,12 +42,12 @@ def check_identifier(name: str, where: str, what: str) -> str:
     if not _IDENTIFIER.fullmatch(name):
         hint = ""
         cured = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_0123456789")
-        if cured and not keyword.iskeyword(cured) and cured not in RESERVED:
+        if cured and not keyword.iskeyword(cured) and cured not in RESERVED | PLACEHOLDERS:
             hint = f"for example '{cured}'"
         raise InputError(where, f"{named} of letters, digits and _, a letter first", quoted(name), hint, name)
-    if name in RESERVED or keyword.iskeyword(name):
+    if name in RESERVED or keyword.iskeyword(name) or (name in PLACEHOLDERS and what in _READ):
         of_forces = "formulas of forces mean by 's' what they act along, by 'rate' its rate; "
-        why = of_forces if name in ("s", "rate") else ""
+        why = of_forces if name in PLACEHOLDERS else ""
         raise InputError(
             where, f"{named} that has no meaning of its own", quoted(name), f"{why}'{name}_' is free", name
         )

@@ -305,11 +305,12 @@ class Scope:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.context.times)
 
-    def of_row(self, key: str, value: float | str, speeds: bool) -> Expr:
+    def of_row(self, key: str, value: float | str, speeds: bool, inputs: bool = False) -> Expr:
         """Return an expression of t, parameters and positions, and with `speeds` velocities, with smooth tables.
 
-        It is differentiated twice, so inputs and Euler parameters are excluded.
+        It is differentiated twice, so Euler parameters are excluded, and inputs unless `inputs` says otherwise.
         """
+        own = {name: name for name in self.context.inputs} if inputs else {}
         times, what = self.context.times, "positions and velocities" if speeds else "positions"
         coordinates = {
             name: tuple(c for c in (*body.coordinates, *(body.speeds if speeds else ())) if c[0] != "e")
@@ -317,7 +318,7 @@ class Scope:
         }
         names = FormulaNames(
             f"an expression of t, parameters and {what}",
-            *(times.plain, coordinates, times.tables, times.elsewhere),
+            *({**times.plain, **own}, coordinates, times.tables, frozenset(times.elsewhere) - own.keys()),
             readings=Readings(self.context),
             hints=times.hints,
         )

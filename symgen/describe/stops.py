@@ -57,9 +57,9 @@ class GapSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     Parameters
     ----------
     gap : str
-        An expression of t, parameters, smooth tables, coordinates of bodies, points and axes of them and coordinates of
-        joints, such as ``"2.0 - sqrt(load.x**2 + load.y**2)"``. The force, which only pushes, is along its derivatives
-        by the coordinates.
+        An expression of t, parameters, inputs, smooth tables, coordinates of bodies, points and axes of them and
+        coordinates of joints, such as ``"2.0 - sqrt(load.x**2 + load.y**2)"``. The force, which only pushes, is along
+        its derivatives by the coordinates.
     restitution : scalar
         Rate of the gap after an impact over that before, from 0 to 1; 0 by default.
     """
@@ -84,7 +84,7 @@ def read_gap(scope: Scope, raw: object) -> EndStop:
         With the key that is wrong.
     """
     section = read_table(GapSection, raw, scope.where(""))
-    of = scope.of_row("gap", section.gap, speeds=False)
+    of = scope.of_row("gap", section.gap, speeds=False, inputs=True)
     restitution = _restitution(scope, "restitution", section.restitution)
     return EndStop(scope.name, scope.name, FormulaMeasure(of), ZERO, "rad" if is_angle(of) else "m", restitution)
 

@@ -16,13 +16,14 @@ from symgen.base.errors import InputError, counted, nearest
 from symgen.base.plugins import loaded_files
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import Foreseen, foreseen
+from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps
 from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
 from symgen.describe.digest import identity
 from symgen.describe.evaluate import derived, parameter_values, scalars
 from symgen.describe.events import RECORD
+from symgen.describe.formula_text import to_text
 from symgen.describe.kinks import discontinuities_of
 from symgen.describe.lengths import datum_of
 from symgen.describe.sides import sides_of
@@ -228,11 +229,17 @@ def make_ensemble(
         refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
-    passed_times = foreseen(acting, events)
+    if spec.adaptive:
+        passed_times = foreseen(acting, events)
+    else:
+        passed_times = foreseen_by_steps(acting, plan.integrator.order, 0.0, spec.step)
+    if target != "cpu" and not spec.adaptive:
+        _check_jumps(target, passed_times)
     passed_places = discontinuities_of(acting)
     examined = any(x.holds for x in passed_places)  # rows that may jump, also by constant steps
     looks = (spec.adaptive and bool(passed_places)) or examined
-    driving = Driving(plan.inputs, grid.names, spec.until, passed_times if spec.adaptive else None, moving)
+    ends_steps = spec.adaptive or target == "cpu"
+    driving = Driving(plan.inputs, grid.names, spec.until, passed_times if ends_steps else None, moving)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     targets = targets_of(names, grid.names, plan.holds, compiled.info)
@@ -288,8 +295,7 @@ def make_ensemble(
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
     model = replace(model, mechanism=mechanism)
-    missed, notes = _missed(plan, passed_times, grid)
-    warnings = *plan.warnings, *missed
+    warnings = *plan.warnings, *_missed(plan, passed_times, grid)
     return Ensemble(
         model,
         plan,
@@ -299,7 +305,7 @@ def make_ensemble(
         recipe,
         driving,
         warnings,
-        (*plan.notes, *plan.bound, *notes),
+        (*plan.notes, *plan.bound),
     )
 
 
@@ -320,16 +326,11 @@ def _code(
     )
 
 
-def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return warnings of changes that steps of all runs may miss, or one note where these depend on what varies."""
-    if not passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
-        return plan.missed if passed_times else (), ()
-    if plan.spec.adaptive:
-        return (), ()
-    sentence = (
-        f"formulas change at times that depend on what varies: steps of {plan.spec.step:g} s may miss what is shorter"
-    )
-    return (), (f"{sentence}; adaptive ones do not",)
+def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[str, ...]:
+    """Return warnings of changes that steps of all runs may miss; none where these depend on what varies."""
+    if passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
+        return ()
+    return plan.missed if passed_times else ()
 
 
 def _check_settings(settings: Settings, target: str) -> None:
@@ -366,6 +367,14 @@ def _check_target(target: str, jumps: bool, examined: bool, passed: bool, events
     ):
         if there:
             raise InputError(f"target '{target}'", f"no {what}", "some", hint)
+
+
+def _check_jumps(target: str, times: Foreseen) -> None:
+    """Refuse formulas that jump at known times where no loop ends constant steps there."""
+    if times.sides:
+        text = to_text(times.sides[0].argument)
+        expected = "no formulas that jump at times known beforehand"
+        raise InputError(f"target '{target}'", expected, f"one where {text} passes 0", "leave `target` out")
 
 
 def _events(

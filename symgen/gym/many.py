@@ -259,6 +259,6 @@ def _refuse(prepared: Prepared, simulation: Simulation) -> None:
     if prepared.spec.events is not None or compiled.info.bounded:
         raise InputError(where, "a model without events, stops and dry friction", "one with such", hint)
     if prepared.spec.stops:
-        raise InputError(where, "inputs that do not jump", "one that does", hint)
+        raise InputError(where, "inputs and formulas that do not jump at known times", "one that does", hint)
     if not simulation._copied:
         raise InputError(where, "an explicit integrator", f"'{prepared.plan.settings.integrator}'", hint)

@@ -28,10 +28,16 @@ class Stop:
         The time [s]; that of the first one is the start.
     values : mapping of str to float
         Inputs that change; at the first one all that vary.
+    skips : bool
+        Whether a run goes on at the next stop, without a step between the two.
+    strikes : bool
+        Whether rates of gaps jump there, so that closed end stops may strike.
     """
 
     t: float
     values: Mapping[str, float]
+    skips: bool = False
+    strikes: bool = False
 
 
 @dataclass(frozen=True)

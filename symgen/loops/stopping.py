@@ -34,9 +34,11 @@ _A, _K = types.float64[::1], types.int64[::1]
 #: - head: `ROW`, `ADAPTIVE` and `CHOOSES`.
 #: - rows (shape (rows + 1,)): First stop of each row.
 #: - times: Of stops, in order in each row [s].
+#: - skips (shape (stops,)): 1 for stops behind which a run goes on at the next one, without a step; 2 where rates of
+#:   gaps jump between the two.
 #: - changes (shape (stops + 1,)): First change of each stop.
 #: - places, values: Changes: an index in ``p``, and the value there from then on.
-STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("changes places", _K), ("values", _A))
+STOPS = record_type("Stops", __name__, ("head rows", _K), ("times", _A), ("skips changes places", _K), ("values", _A))
 Stops: Any = STOPS.constructor
 
 
@@ -53,6 +55,43 @@ def change(stops: Any, count: int, p: Any) -> bool:
         other = other or p[stops.places[i]] != stops.values[i]
         p[stops.places[i]] = stops.values[i]
     return other
+
+
+def has_gap(stops: Any, count: int) -> bool:
+    """Whether a run goes on at the next stop, without a step, behind stop number `count` of the present row."""
+    at = stops.rows[stops.head[ROW]] + count
+    return bool(at < stops.rows[stops.head[ROW] + 1] and stops.skips[at] != 0)
+
+
+def has_struck(stops: Any, count: int) -> bool:
+    """Whether rates of gaps have jumped before stop number `count` of the present row."""
+    at = stops.rows[stops.head[ROW]] + count - 1
+    return bool(count > 0 and stops.skips[at] == 2)
+
+
+def end_in_part(stops: Any, count: int, span: Any, clock: Any) -> float:
+    """Return the time up to which a loop goes on towards stop number `count`, behind which the run skips [s].
+
+    A grid of constant steps may have a point there to rounding. No stage may lie behind the stop: the grid is moved for
+    the last step.
+    """
+    to, step, origin = due(stops, count), float(span.step), float(clock[abi.ORIGIN])
+    if stops.head[ADAPTIVE] != 0:
+        return to
+    ahead = math.floor((to - origin) / step + 0.5)
+    away = to - (origin + ahead * step)
+    if abs(away) > abi.SAME_TIME * step:
+        return to
+    before = origin + (ahead - 1.0) * step
+    if before - clock[abi.TIME] > same(stops, span, to):
+        return before
+    clock[abi.ORIGIN] = origin + away
+    return to
+
+
+def go_over(stops: Any, count: int, clock: Any) -> None:
+    """Set the time to that of the stop behind stop number `count`."""
+    clock[abi.TIME] = max(clock[abi.TIME], due(stops, count + 1))
 
 
 def select_row(stops: Any, r: int) -> None:
@@ -123,23 +162,38 @@ def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) 
     while True:
         begin, now = due(stops, control[abi.PASSED]), clock[abi.TIME]
         if begin - now > same(stops, span, now):
-            to = min(begin, span.until)
-            code = loop(system, scheme, until_stop(span, to), state, outputs)
+            origin, to = clock[abi.ORIGIN], begin
+            if has_gap(stops, control[abi.PASSED]):
+                to = end_in_part(stops, control[abi.PASSED], span, clock)
+            moved = clock[abi.ORIGIN]
+            code = loop(system, scheme, until_stop(span, min(to, span.until)), state, outputs)
+            if clock[abi.ORIGIN] == moved:
+                clock[abi.ORIGIN] = origin
             now = clock[abi.TIME]
-            if code != abi.DONE or (begin > to and begin - now > same(stops, span, now)):
+            if code != abi.DONE:
+                return int(code)
+            if begin - now > same(stops, span, now):
+                if span.until - now > same(stops, span, now):
+                    continue
                 return int(code)
         control[abi.PASSED] += 1
         # a kink changes no number, but the history of multistep schemes ends there as well
         if control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
-        if change(stops, control[abi.PASSED] - 1, state.p):
+        changed = change(stops, control[abi.PASSED] - 1, state.p)
+        skipped = has_gap(stops, control[abi.PASSED] - 1)
+        if skipped:
+            go_over(stops, control[abi.PASSED] - 1, clock)
+            control[abi.PASSED] += 1
+            changed = change(stops, control[abi.PASSED] - 1, state.p) or changed
+        if changed:
             if prepare(state.p) != 0:
                 return abi.CHANGED
             prepare_law(state.p)
             if not is_defined(state.p):
                 return abi.UNPREPARED
-            if stops.head[CHOOSES] != 0:
-                return abi.CHANGED
+        if (changed or skipped) and stops.head[CHOOSES] != 0:
+            return abi.CHANGED
         if control[abi.BEGUN] != 0 and span.until - now <= same(stops, span, now):
             return abi.DONE
 
@@ -215,6 +269,7 @@ def stops_of(compiled: CompiledModel, adaptive: bool, rows: Sequence[Sequence[St
         head=np.array([0, int(adaptive), int(bool(compiled.info.bounded))]),
         rows=np.cumsum([0, *map(len, rows)]),
         times=np.array([stop.t for stop in stops], dtype=np.float64),
+        skips=np.array([stop.skips + stop.strikes for stop in stops], dtype=np.int64),
         changes=np.cumsum([0, *(len(stop.values) for stop in stops)]),
         places=np.array([place for place, _ in changes], dtype=np.int64),
         values=np.array([value for _, value in changes], dtype=np.float64),

@@ -14,6 +14,7 @@ import numpy as np
 
 from symgen.describe.evaluate import parameter_values
 from symgen.layout import abi
+from symgen.result import judge
 from symgen.result.points import Agreement, Points, Verification, agreement
 
 if TYPE_CHECKING:
@@ -26,6 +27,10 @@ if TYPE_CHECKING:
 HALF, TENTH = 0.5, 0.1
 #: Tolerances are not made smaller than this.
 SMALLEST_RTOL = 1e-13
+#: Operations of a run with a tenth of the tolerances, over those of the run, at most as a rule.
+DEARER = 1.5
+#: Of a long run at least this part is checked, at so many outputs or more.
+LEAST_PART, FEWEST = 1e-9, 101
 
 
 def run_again(
@@ -65,6 +70,53 @@ def run_again(
         return finer, second, None
     a, b = _comparable(outcome, second)
     return finer, second, agreement(points, run.positions(outcome)[a], run.positions(second)[b])
+
+
+def part_verified(run: Prepared, outcome: Outcome) -> Verification:
+    """Compare the first part of a long run with a finer one, which takes about as many operations as a check may.
+
+    Parameters
+    ----------
+    run, outcome : Prepared, Outcome
+        A run that came to its end, with adaptive steps.
+
+    Returns
+    -------
+    Verification
+        With a doubt: where the part agrees, nothing is known of what follows.
+    """
+    begin, times = run.start.t, outcome.times
+    share = judge.MOST_OPERATIONS / (DEARER * max(judge.operations_of(run, outcome), 1))
+    until = begin + share * (outcome.end - begin)
+    count = int(np.searchsorted(times, until, side="right"))
+    if share < LEAST_PART:
+        return Verification("no part of it was checked", None, None, outcome.evaluations, whole=False)
+    if count < FEWEST:  # the run itself has no outputs to compare
+        shorter = run.with_spec(until=until, times=np.linspace(begin, until, FEWEST))
+        outcome = shorter.integrate()
+        times = outcome.times
+    else:
+        until, times = float(times[count - 1]), times[:count]
+        shorter = run.with_spec(until=until, times=times)
+        outcome = replace(outcome, times=times, states=outcome.states[:count])
+    points = Points.of(run.plan.mechanism, parameter_values(run.plan.mechanism, run.plan.parameters))
+    finer, second, agreed = run_again(shorter, outcome, points, TENTH)
+    total, name = outcome.evaluations + second.evaluations, f"a run with {_steps_of(finer)}"
+    if second.interrupted or agreed is None:
+        doubt = f"a check of its part up to t = {until:.6g} s did not come to its end: {second.reason}"
+        return Verification(doubt, None, None, total, whole=False)
+    error = max(agreed.apart, agreed.rounding)
+    if agreed.holds:
+        doubt = f"checked up to t = {until:.6g} s alone: there {name} agrees within {error:.2g} m"
+        return Verification(doubt, None, None, total, whole=False)
+    return Verification(_parting(name, agreed, times), None, error if math.isfinite(error) else None, total)
+
+
+def _parting(name: str, agreed: Agreement, times: NDArray[np.float64]) -> str:
+    """Return by how much two runs differ, and up to when they agree."""
+    first = agreed.parts or 0
+    upto = f"; they agree up to t = {times[first - 1]:.6g} s" if first > 1 else ""
+    return f"{name} differs by {agreed.apart:.2g} m{upto}"
 
 
 def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -133,7 +185,7 @@ def verified(run: Prepared, outcome: Outcome, free: bool = False) -> tuple[Prepa
             verification = Verification(None, f"verified: {name} agrees within {apart:.2g} m", error, total)
             return (finer, second, verification) if free else (run, outcome, verification)
         if not free or error is None:
-            return run, outcome, Verification(f"{name} differs by {apart:.2g} m", None, error, total)
+            return run, outcome, Verification(_parting(name, agreed, outcome.times), None, error, total)
         # errors fall about as tolerances do: far from agreement, the next but one is tried
         share = TENTH**2 if apart > agreed.limit / TENTH else TENTH
         run, outcome = finer, second

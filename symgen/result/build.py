@@ -62,7 +62,9 @@ def build_result(
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(run, outcome, verification)
-    unknown = None if verification is not None else unchecked(run, outcome) or "it went step by step"
+    unknown = None
+    if verification is None or not verification.whole:
+        unknown = unchecked(run, outcome) or "it went step by step"
     if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
         from symgen.result.bending import overbent
 

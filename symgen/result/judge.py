@@ -67,6 +67,13 @@ def unchecked(run: Prepared, outcome: Outcome) -> str | None:
     return None if count <= MOST_OPERATIONS else f"it took {count:.2g} operations, more than {MOST_OPERATIONS:.2g}"
 
 
+def is_long(run: Prepared, outcome: Outcome) -> bool:
+    """Whether a run that would have a second one by default takes too many operations: its first part is checked."""
+    settings = run.plan.settings
+    own = settings.rtol is not None or settings.atol is not None or run.plan.verify is not None
+    return run.spec.adaptive and not own and outcome.code == abi.DONE and unchecked(run, outcome) is not None
+
+
 def judge(run: Prepared, outcome: Outcome, second: Verification | None = None) -> Verdict:
     """Judge a run by what its loop saw, and by a second run where there was one.
 

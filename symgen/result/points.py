@@ -208,9 +208,12 @@ class Verification:
         Estimated error of the run that is reported [m].
     evaluations : int
         Of all runs together.
+    whole : bool
+        Whether it says what there is to say about the whole run; a first part of it may agree.
     """
 
     doubt: str | None
     note: str | None
     error: float | None
     evaluations: int
+    whole: bool = True

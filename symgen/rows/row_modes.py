@@ -15,7 +15,7 @@ from symgen.loopcode.bare import bare
 from symgen.loopcode.loop_instances import called
 from symgen.loops import search_records as records
 from symgen.loops.event_loop import notes_at
-from symgen.loops.stopping import change, due, is_defined, same
+from symgen.loops.stopping import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.loops.watch import remember_rank
 from symgen.native import types
 from symgen.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
@@ -140,6 +140,8 @@ def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
     control, p, changed = state.control, state.p, False
     while due(stops, control[abi.PASSED]) - state.clock[abi.TIME] <= same(stops, span, state.clock[abi.TIME]):
         changed = change(stops, control[abi.PASSED], p) or changed
+        if has_gap(stops, control[abi.PASSED]):
+            go_over(stops, control[abi.PASSED], state.clock)
         control[abi.PASSED] += 1
     if changed:
         prepare(p)
@@ -151,8 +153,11 @@ def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
 
 def choose_after_change(model: Any, span: Any, state: Any) -> int:
     """Choose modes where inputs have changed; return `CHANGED` to go on, or the code of an end."""
-    system, _, _ = model
-    code, now, stops = begin_modes(model, span, state), state.clock[abi.TIME], bare(system[1])
+    system, _, modes = model
+    now, stops = state.clock[abi.TIME], bare(system[1])
+    if has_struck(stops, state.control[abi.PASSED] - 1):
+        put_off(modes.choice, state.w)
+    code = begin_modes(model, span, state)
     if code == abi.DONE and span.until - now > same(stops, span, now):
         code = int(abi.CHANGED)
     return code

@@ -52,6 +52,8 @@ def with_moving_kinks(run: Prepared, start: StartDirections) -> Prepared:
                 f"one that moves the comparison at t = {times[0]:g} s",
                 "write ramps by max or abs, and jumps as an event at that time, which resets a state of the file",
             )
+    if not run.spec.adaptive:  # whose steps end on both sides of each anyway
+        return run
     times = times_between(kinks, mechanism, values, until)[0]
     return run.with_spec(stops=beside(run.spec.stops, times, until))
 

@@ -13,7 +13,7 @@ import numpy as np
 from symgen.base.errors import InputError, quoted
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import foreseen, merged
+from symgen.breaks.stops import foreseen, foreseen_by_steps, merged
 from symgen.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
 from symgen.compiling.pipeline import MethodChoice, for_masses
 from symgen.describe.digest import digest
@@ -213,7 +213,10 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         )
     events = events_of_run(mechanism, s)
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
-    times = foreseen(mechanism, events)
+    if adaptive:
+        times = foreseen(mechanism, events)
+    else:
+        times = foreseen_by_steps(mechanism, integrator.order, begin, step)
     values = parameter_values(mechanism, s.parameters) if times else {}
     rtol = getattr(integrator, "rtol", RTOL)  # schemes of low order have larger ones by default
     spec = RunSpec(
@@ -262,9 +265,9 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         integrator=integrator,
         method_parameters=method_parameters,
         spec=spec,
-        stops=merged(inputs.stops, times.stops(values, until) if adaptive else ()),
+        stops=merged(inputs.stops, times.stops(values, until)),
         warnings=tuple(warnings),
-        missed=tuple(times.missed(values, until, None if adaptive else step)),
+        missed=tuple(times.missed(values, until)),
         notes=notes,
         bound=(why,) if why and adaptive and purpose in (Purpose.MOTION, Purpose.ROWS) else (),
         solver_is_free=free,

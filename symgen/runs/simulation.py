@@ -272,6 +272,8 @@ class Simulation:
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
         behind = [stop for stop in spec.stops if not self.is_ahead(stop.t)]
         control[abi.PASSED] = len(behind)
+        if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on behind it
+            self.state.clock[abi.TIME] = max(now, behind[-1].t)
         self.changes.give({name: value for stop in behind for name, value in stop.values.items()})
         # a kink changes no number, but the history of multistep schemes ends there as well
         if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
@@ -344,6 +346,8 @@ class Simulation:
             if not np.isfinite(self.state.p).all():
                 return abi.UNPREPARED
             if self.transitions is not None:
+                if self.spec.stops[self.state.control[abi.PASSED] - 2].strikes:
+                    self.transitions.take_off()
                 self.transitions.begin()
             return None if self.is_ahead(until) else abi.DONE
         elif code != abi.NOTED:

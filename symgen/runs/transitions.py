@@ -124,9 +124,13 @@ class Transitions:
     def release(self, happened: Sequence[Happening]) -> None:
         """Take all rows out of force before a reset: friction has no impulse, and stops strike behind it."""
         if any(event.action == RESET for event in happened):
-            w = self.simulation.state.w
-            self._closed = self._is_stop & (self._modes(w)[:, [HELD, LIMIT]] != 0.0).any(axis=1)
-            compiled_form(put_off)(self._choice, w)
+            self.take_off()
+
+    def take_off(self) -> None:
+        """Take all rows out of force, where closed stops may strike."""
+        w = self.simulation.state.w
+        self._closed = self._is_stop & (self._modes(w)[:, [HELD, LIMIT]] != 0.0).any(axis=1)
+        compiled_form(put_off)(self._choice, w)
 
     def _note(self, changes: Sequence[tuple[int, str]], here: Happening, starts: bool = False) -> None:
         """Have the past events name impacts and changes of modes; a start has modes, and no change of them."""

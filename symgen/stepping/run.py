@@ -13,10 +13,11 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, SimulationError
 from symgen.base.version import __version__
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import Foreseen, foreseen, merged, stops_of
+from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps, merged, stops_of
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
+from symgen.describe.inputs import inputs_of_gaps
 from symgen.layout import abi
 from symgen.runs.changes import begin_with_step
 from symgen.runs.events import EventRecord
@@ -70,11 +71,13 @@ class SteppedRun(Readings):
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         self._clocks, self._calling = list[Clock](), False
         self._jumps, self._driven = plan.inputs.stops, plan.inputs.driven
-        self._foreseen = foreseen(plan.mechanism, plan.events) if adaptive else Foreseen(mechanism)
+        self._foreseen, self._horizon = self._breaks(), plan.spec.until
         self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(self._compiled.info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
+        if free and self._foreseen:  # steps have no grid
+            self._loop.divide(self._divided(parameter_values(mechanism, plan.parameters)))
         self.warnings, self.notes = (*plan.all_warnings, *prepared.start.warnings), prepared.start.notes
         self._first = self.save()
         self._first_origin, self._first_spec, self._first_jumps = self._origin, self._loop.spec, self._jumps
@@ -132,6 +135,8 @@ class SteppedRun(Readings):
             self.set(u)
         if self._free:
             self._advance.take_steps_of(dt)
+        if self._foreseen and self._clock[_TIME] + dt > self._horizon:
+            self._look_ahead(self._clock[_TIME] + dt)
         if self._clocks or self._jumps:
             return self._go(self._clock[_TIME] + dt)
         event = self._advance.to(self._clock[_TIME] + dt)
@@ -164,6 +169,8 @@ class SteppedRun(Readings):
             raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
         if self._free:
             self._advance.take_steps_of(self._plan.spec.step or 0.0)
+        if self._foreseen and until > self._horizon:
+            self._look_ahead(until)
         return self._go(until)
 
     def every(self, interval: float, controller: Controller) -> None:
@@ -238,6 +245,8 @@ class SteppedRun(Readings):
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
             for name, value in values.items()
         }
+        if held := sorted(numbers.keys() & inputs_of_gaps(self._mechanism)):
+            raise InputError(f"set: '{held[0]}'", "an input that moves no stop", f"'{held[0]}', which a gap reads")
         self._advance.recover()
         loop = self._loop
         if self._adaptive:
@@ -309,7 +318,7 @@ class SteppedRun(Readings):
         first = self._first
         arrays, origin = (first.arrays, self._first_origin) if start is None else self._arrays_at(start)
         self._take_up(first, arrays, self._first_spec)
-        self._jumps, self._origin = self._first_jumps, origin
+        self._jumps, self._origin, self._horizon = self._first_jumps, origin, self._first_spec.until
         for clock in self._clocks:
             clock.start, clock.beat = first.t, 0
         self._history.clear()
@@ -353,7 +362,19 @@ class SteppedRun(Readings):
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
             self._jumps = stops_of(driven, values, spec.until)
-        return replace(spec, stops=merged(self._jumps, self._foreseen.stops(values, spec.until)))
+        return replace(spec, stops=merged(self._jumps, self._foreseen.stops(values, self._horizon)))
+
+    def _breaks(self) -> Foreseen:
+        """Return the discontinuities of formulas at which steps end."""
+        plan, grid = self._plan, None if self._free else self._plan.spec.step
+        if self._adaptive:
+            return foreseen(plan.mechanism, plan.events)
+        return foreseen_by_steps(plan.mechanism, plan.integrator.order, self.t, grid)
+
+    def _look_ahead(self, until: float) -> None:
+        """Find the discontinuities of formulas up to a time [s] and beyond."""
+        self._horizon = 2.0 * until
+        self._loop.divide(self._divided(parameter_values(self._mechanism, self._changed)))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""

@@ -102,15 +102,12 @@ def test_rows_of_sweeps_are_single_runs(pushed: symgen.Model) -> None:
         assert alone["a.vy"][-1] == pytest.approx(-0.18, abs=1e-8)
 
 
-def test_constant_steps_say_what_they_may_miss(pushed: symgen.Model) -> None:
-    def told(**chosen: Any) -> list[str]:
-        result = pushed.simulate(method="lagrange", integrator="rk4", until=4.0, **chosen)
-        return [warning for warning in result.warnings if "within one step" in warning]
-
-    assert told(step=0.01) and not told(step=4e-5)
-    # a push and half of another last equally long, but for rounding
-    (warning,) = told(step=0.01, parameters={"at": 2.0})
-    assert f"t = {AT - SHORT / 2:.9g} and " in warning or "2 s, within" in warning or "t = 2 and" in warning
+@pytest.mark.parametrize("step", [0.01, 0.0123])
+def test_constant_steps_meet_each_push(pushed: symgen.Model, step: float) -> None:
+    run = pushed.simulate(method="lagrange", integrator="rk4", step=step)
+    assert run.warnings == ()
+    for name, value in expected(10.0).items():
+        assert run[name][-1] == pytest.approx(value, abs=1e-10), name
 
 
 def test_devices_refuse_to_go_across(pushed: symgen.Model) -> None:

@@ -71,7 +71,7 @@ CASES = [
     ("mechanism.nam", "x", "got the unknown key 'nam'; did you mean 'name'?"),
     ("parameters", 3, "parameters: expected a table of parameters, one entry a name, got 3"),
     ("parameters.t", 1.0, "parameters: expected a parameter name that has no meaning of its own, got 't'; 't_'"),
-    ("outputs.s", "t", "expected an output name that has no meaning of its own, got 's'"),
+    ("outputs.t", "t", "expected an output name that has no meaning of its own, got 't'"),
     ("parameters.s", 1.0, "expected a parameter name that has no meaning of its own, got 's'"),
     ("parameters.lambda", 1.0, "expected a parameter name that has no meaning of its own, got 'lambda'"),
     ("parameters._a", 1.0, "of letters, digits and _, a letter first, got '_a'; for example 'a'"),

@@ -31,13 +31,14 @@ PUSH = "1 if t > at and t < at + long else 0"
 
 
 @pytest.mark.parametrize("target", ["cpu", "lanes"])
-def test_a_push_that_is_shorter_than_a_step_is_said_of_all_rows(target):
-    """Steps go across it: v = 1 + 5e-3 m/s."""
-    model, speeds = pushed(PUSH, at=0.123, long=0.5 * STEP), [1.0, 2.0]
-    found = symgen.sweep(model, {"b.vx": speeds}, target=target, quantities=("b.vx",), **CONSTANT)
+def test_what_is_said_of_steps_is_said_of_all_rows(target):
+    """Steps that are too long for the gains of a method."""
+    model, speeds = pushed("0"), [1.0, 2.0]
+    unstable = {"method": "baumgarte", "options": {"method.alpha": 1e3}, "integrator": "rk4", "step": STEP}
+    found = symgen.sweep(model, {"b.vx": speeds}, target=target, quantities=("b.vx",), until=1.0, **unstable)
     assert found.counts["ok"] == 2
-    alone = model.simulate(**CONSTANT).warnings
-    assert list(found.warnings) == [alone, alone] and "formulas change at t = 0.123 and 0.128 s" in alone[0]
+    alone = model.simulate(until=1.0, **unstable).warnings
+    assert list(found.warnings) == [alone, alone] and "is unstable with rk4" in alone[0]
     assert found.common_warnings() == [(alone[0], 2)]
     assert found.to_json()["warnings"] == [{"warning": alone[0], "runs": 2}]
     heading, lines = table_lines(found)
@@ -45,18 +46,15 @@ def test_a_push_that_is_shorter_than_a_step_is_said_of_all_rows(target):
     assert list(found.to_xarray()["warnings"].values) == [alone[0]] * 2
 
 
-@pytest.mark.parametrize("target", ["cpu", "lanes"])
-def test_where_the_push_depends_on_what_varies_a_note_says_what_steps_may_miss(target):
-    """v = 1 + long where no step goes across."""
+def test_rows_meet_pushes_whose_times_depend_on_what_varies():
+    """v = 1 + long, by constant steps as by adaptive ones; lanes cannot end their steps there."""
     long, model = np.array([0.3, 0.5 * STEP, 1e-4]), pushed(PUSH, at=0.123, long=1.0)
-    found = symgen.sweep(model, {"long": long}, target=target, quantities=("b.vx",), **CONSTANT)
-    assert found.counts["ok"] == 3 and list(found.warnings) == [()] * 3
-    assert abs(found["b.vx"][0, -1] - 1.3) < STEP and found["b.vx"][2, -1] == 1.0
-    (note,) = (note for note in found.ensemble.notes if "depend on what varies" in note)
-    assert "steps of 0.01 s may miss what is shorter" in note
-    adaptive = symgen.sweep(model, {"long": long}, quantities=("b.vx",), **{**ADAPTIVE, "until": 1.0})
-    assert not any("depend on what varies" in note for note in adaptive.ensemble.notes)
-    np.testing.assert_allclose(adaptive["b.vx"][:, -1], 1.0 + long, rtol=1e-9)
+    for settings in (CONSTANT, {**ADAPTIVE, "until": 1.0}):
+        found = symgen.sweep(model, {"long": long}, quantities=("b.vx",), **settings)
+        assert found.counts["ok"] == 3 and list(found.warnings) == [()] * 3
+        np.testing.assert_allclose(found["b.vx"][:, -1], 1.0 + long, rtol=1e-9)
+    with pytest.raises(InputError, match="no formulas that jump at times known beforehand"):
+        symgen.sweep(model, {"long": long}, target="lanes", quantities=("b.vx",), **CONSTANT)
 
 
 def test_rows_have_what_single_runs_say_of_singular_positions():

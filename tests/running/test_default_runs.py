@@ -17,7 +17,7 @@ from symgen.ensemble.sweep_plan import make_ensemble
 from symgen.layout.right_hand_side import at_nodes
 from symgen.methods import METHODS
 from symgen.result import judge
-from symgen.running.prepare import make_plan
+from symgen.running.prepare import make_plan, prepare
 
 EXPLICIT = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name).forms)]
 
@@ -124,6 +124,7 @@ def test_the_second_run_follows_the_operations_of_the_first(monkeypatch):
     assert pendulum.simulate(until=1.0, integrator="rk4", verify=True).error_estimate > 0.0
     monkeypatch.setattr(judge, "MOST_OPERATIONS", 0)
     slow = pendulum.simulate(until=1.0)
+    assert (slow.status, slow.reason) == ("unverified", "no part of it was checked")
     assert slow.error_estimate is None and f"global error not estimated as {slow.unchecked}: `verify`" in repr(slow)
     assert slow.unchecked.startswith("it took ") and slow.unchecked.endswith(" operations, more than 0")
     assert slow.to_json()["unchecked"] == slow.unchecked and found.to_json()["unchecked"] is None
@@ -179,8 +180,30 @@ def test_a_chaotic_motion_beyond_its_horizon_is_unverified(monkeypatch):
     found = symgen.simulate("chain:2", until=60.0)
     assert found.status == "unverified" and "a run with rtol = 1e-09 differs by" in found.reason
     monkeypatch.undo()
-    long = symgen.simulate("chain:2", until=4000.0, times=[0.0, 4000.0])
-    assert long.ok and long.unchecked.endswith(" operations, more than 2e+08") and long.unchecked in repr(long)
+    long = symgen.simulate("chain:2", until=4000.0, times=[0.0, 4000.0])  # of which a first part is checked
+    assert long.status == "unverified" and "a run with rtol = 1e-09 differs by" in long.reason
+    upto = float(long.reason.rpartition("t = ")[2].split(" ")[0])
+    assert 1.0 < upto < 10.0, "the digits of both motions part within some seconds"
+    assert symgen.simulate("chain:2", until=4000.0, times=[0.0, 4000.0], rtol=1e-8).ok
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_long_run_is_checked_over_a_first_part(monkeypatch, coordinates):
+    """The part follows from the operations of the run; what it shows holds for the part alone."""
+    pendulum, count = symgen.load("pendulum"), judge.operations_of
+    run = prepare(pendulum.mechanism, Settings(until=10.0, coordinates=coordinates))
+    whole = pendulum.simulate(until=10.0, coordinates=coordinates)
+    assert whole.ok and whole.unchecked is None
+    for times in (None, [0.0, 10.0]):
+        monkeypatch.setattr(judge, "MOST_OPERATIONS", 0.6 * count(run, whole.outcome))
+        part = pendulum.simulate(until=10.0, times=times, coordinates=coordinates)
+        assert part.status == "unverified" and part.error_estimate is None
+        assert " s alone: there a run with rtol = 1e-09 agrees within " in part.reason
+        upto = float(part.reason.removeprefix("checked up to t = ").partition(" ")[0])
+        assert upto == pytest.approx(4.0, abs=0.6), "what a run without outputs takes is less"
+        assert part.unchecked.startswith("it took ") and part["bob.x"][-1] == whole["bob.x"][-1]
+        for chosen in ({"rtol": 1e-8}, {"verify": False}, {"integrator": "rk4"}):
+            assert pendulum.simulate(until=10.0, times=times, coordinates=coordinates, **chosen).ok
 
 
 def test_a_stiff_run_proposes_an_implicit_integrator():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.base.errors import InputError
 from symgen.describe.load import parse_toml
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
@@ -219,3 +220,78 @@ def test_impacts_on_a_rising_floor_accumulate() -> None:
     assert result["b.y"][-1] == pytest.approx(0.6, abs=1e-10)
     assert result["b.vy"][-1] == pytest.approx(0.5, abs=1e-10)
     assert result["lost"][-1] == pytest.approx(6.25, abs=1e-9)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("steps", STEPS, ids=NAMES)
+@pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
+@pytest.mark.parametrize("moved", ["max(0, t - 0.3037)", "(t - 0.3037 if t > 0.3037 else 0)"])
+def test_a_floor_that_starts_at_once_strikes(moved: str, part: float, steps: dict[str, Any], coordinates: str) -> None:
+    """The ball rests on it up to then; the rate of 1 m/s is that of an impact."""
+    text = FLOOR.replace("0.5*t", moved).replace("0.3]", "0.0]")
+    result = simulate(text, steps, parameters={"part": part}, until=0.4, times=[0.2, 0.4], coordinates=coordinates)
+    assert [event.name for event in result.events] == ["floor.hit", *["floor.leave"] * (part > 0.0)]
+    time = 0.4 - 0.3037
+    height = (1.0 + part) * time - (5.0 * time**2 if part else 0.0)
+    np.testing.assert_allclose(result["b.y"], [0.0, height], rtol=0, atol=1e-12)
+    assert result["lost"][-1] == pytest.approx(1.0 - part**2, abs=1e-12)
+    assert result.energy_drift_max < 1e-12
+
+
+@pytest.mark.parametrize("steps", STEPS, ids=NAMES)
+def test_a_floor_that_stops_at_once_throws(steps: dict[str, Any]) -> None:
+    """It takes the ball along at 2 m/s up to 0.1037 s."""
+    text = FLOOR.replace("0.5*t", "2*min(t, 0.1037)").replace("0.3]", "0.0]\nvelocity = [0.0, 2.0]")
+    result = simulate(text, steps, parameters={"part": 0.0}, until=0.3, times=[0.1, 0.3])
+    assert [event.name for event in result.events] == ["floor.leave"]
+    np.testing.assert_allclose(result["b.y"], [0.2, 0.2074 + 2 * 0.1963 - 5 * 0.1963**2], rtol=0, atol=1e-11)
+
+
+def test_rows_have_floors_that_start_at_once() -> None:
+    text = FLOOR.replace("0.5*t", "max(0, t - begin)").replace("0.3]", "0.0]")
+    model = symgen.load(described(text.replace("part = 1.0", "part = 0.9\nbegin = 0.2")))
+    for steps in ({"integrator": "dop853", "rtol": 1e-10}, {"integrator": "rk4", "step": 1e-2}):
+        settings: dict[str, Any] = {"until": 0.35, "times": [0.35], **steps}
+        rows = model.sweep({"begin": [0.2, 0.3037]}, quantities=("b.y", "b.vy", "lost"), **settings)
+        for i, begin in enumerate((0.2, 0.3037)):
+            alone = model.simulate(parameters={"begin": begin}, verify=False, **settings)
+            assert rows.status[i] == alone.status == "ok" and len(alone.events) == 2
+            for name in ("b.y", "b.vy", "lost"):
+                assert rows[name][i].tolist() == alone[name].tolist()
+
+
+INPUT = FLOOR.replace('"b.y - 0.5*t"', '"b.y - height"') + '[inputs.height]\nunit = "m"\ndefault = 0.0\n'
+
+
+@pytest.mark.parametrize("steps", STEPS, ids=NAMES)
+@pytest.mark.parametrize("given", ["0.5*t", ([0.0, 0.1, 1.0], [0.0, 0.05, 0.5])])
+def test_an_input_moves_a_floor(given: Any, steps: dict[str, Any]) -> None:
+    """As a formula, and as data."""
+    for part in (1.0, 0.5, 0.0):
+        settings: dict[str, Any] = {"parameters": {"part": part}, "until": 0.25, "times": [0.25]}
+        found = simulate(INPUT, steps, inputs={"height": given}, **settings)
+        assert found["b.vy"][-1] == pytest.approx(0.5 + 2.5 * part - (0.5 if part else 0.0), abs=1e-10)
+        assert found["lost"][-1] == pytest.approx(6.25 * (1.0 - part**2), abs=1e-10)
+        assert found.energy_drift_max < 1e-11
+
+
+def test_inputs_of_gaps_do_not_jump() -> None:
+    model = symgen.load(described(INPUT))
+    held = {"height": {"t": [0.0, 0.1], "u": [0.0, 0.1], "interpolation": "hold"}}
+    for inputs in (held, {"height": "0.1*b.vy"}, {"height": "b.y/2"}):
+        with pytest.raises(InputError, match="as gaps read height"):
+            model.simulate(until=0.1, inputs=inputs)
+    sim = model.start(integrator="rk4", step=0.01)
+    with pytest.raises(InputError, match="an input that moves no stop"):
+        sim.set(height=0.1)
+    sim.step(0.1)
+    assert sim["b.y"] == pytest.approx(0.25, abs=1e-12)
+
+
+def test_an_input_that_starts_a_floor_at_once_strikes() -> None:
+    text = INPUT.replace("0.3]", "0.0]")
+    for given in ("max(0, t - 0.3037)", "t - 0.3037 if t > 0.3037 else 0", ([0.0, 0.3037, 1.0], [0.0, 0.0, 0.6963])):
+        for steps in STEPS:
+            result = simulate(text, steps, inputs={"height": given}, until=0.4, times=[0.4])
+            time = 0.4 - 0.3037
+            assert result["b.y"][-1] == pytest.approx(2.0 * time - 5.0 * time**2, abs=1e-12), (given, steps)
