@@ -186,11 +186,19 @@ def _check_text(text: str, source: str) -> None:
         if kind == "part":
             parts = parts + 1 if after_dot else 1
             if parts > LONGEST_KEY:
-                raise InputError(source, f"keys of at most {LONGEST_KEY} parts joined by dots", "a longer one")
+                expected = f"keys of at most {LONGEST_KEY} parts joined by dots"
+                raise InputError(source, expected, f"a longer one {_at(text, token.start())}")
             further += parts > 2
             if further > MOST_PARTS:
-                raise InputError(source, f"at most {MOST_PARTS} tables inside tables, by dotted keys", "more")
+                expected = f"at most {MOST_PARTS} tables inside tables, by dotted keys"
+                raise InputError(source, expected, f"more {_at(text, token.start())}")
         after_dot = kind == "dot"
+
+
+def _at(text: str, position: int) -> str:
+    """Return a position in words, as `tomllib` has it."""
+    line = text.rfind("\n", 0, position) + 1
+    return f"(at line {text.count(chr(10), 0, position) + 1}, column {position - line + 1})"
 
 
 def _check_values(raw: Mapping[str, Any], source: str) -> None:

@@ -15,7 +15,7 @@ MEANINGS = {
     "status": "single numbers, named in this module where it uses them",
     "winding": "turns of angles that are counted",
     "multipliers": "Lagrange multipliers, one a row",
-    "modes": "of each row that may be off: 1 in force or 0 off, the value it is held at, a sign, its largest effort",
+    "modes": "of each row that may be off: 1 in force or 0 off, where it is held, a sign, its bound, an effort at rest",
     "mask": "inf at rows that depend on others, else 0",
     "saved": "`mask` while `confirm` leaves out further rows",
     "residual": "Phi after `geometry`, D v - nu after `measure`",

@@ -69,24 +69,23 @@ def has_struck(stops: Any, count: int) -> bool:
     return bool(count > 0 and stops.skips[at] == 2)
 
 
-def end_in_part(stops: Any, count: int, span: Any, clock: Any) -> float:
-    """Return the time up to which a loop goes on towards stop number `count`, behind which the run skips [s].
+def part_before(stops: Any, count: int, span: Any, clock: Any, control: Any) -> tuple[float, float]:
+    """Return end and steps [s] of a part of a run: towards stop number `count`, behind which the run skips.
 
-    A grid of constant steps may have a point there to rounding. No stage may lie behind the stop: the grid is moved for
-    the last step.
+    A grid of constant steps may have a point there to rounding. No stage may lie behind the stop: the last step is
+    shorter by that much, and the grid is moved for it.
     """
     to, step, origin = due(stops, count), float(span.step), float(clock[abi.ORIGIN])
-    if stops.head[ADAPTIVE] != 0:
-        return to
-    ahead = math.floor((to - origin) / step + 0.5)
-    away = to - (origin + ahead * step)
-    if abs(away) > abi.SAME_TIME * step:
-        return to
-    before = origin + (ahead - 1.0) * step
-    if before - clock[abi.TIME] > same(stops, span, to):
-        return before
-    clock[abi.ORIGIN] = origin + away
-    return to
+    if stops.head[ADAPTIVE] == 0 and to <= span.until:
+        ahead = math.floor((to - origin) / step + 0.5)
+        before = origin + (ahead - 1.0) * step
+        if abs(to - (origin + ahead * step)) <= abi.SAME_TIME * step:
+            if before - clock[abi.TIME] > same(stops, span, to):
+                to = before
+            else:
+                step = to - float(clock[abi.TIME])
+                clock[abi.ORIGIN] = to - (float(control[abi.INDEX]) + 1.0) * step
+    return to, step
 
 
 def go_over(stops: Any, count: int, clock: Any) -> None:
@@ -132,10 +131,10 @@ def same(stops: Any, span: Any, t: float) -> float:
     return abi.SAME_TIME * float(span.step)
 
 
-def until_stop(span: Any, until: float) -> Any:
-    """Return a span that ends at a time [s]."""
+def until_stop(span: Any, until: float, step: float) -> Any:
+    """Return a span that ends at a time [s], with constant steps of another length [s]."""
     return Span(
-        *(span.step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),
+        *(step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),
         *(span.safety, span.most, span.pause, span.turn),
     )
 
@@ -162,11 +161,11 @@ def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) 
     while True:
         begin, now = due(stops, control[abi.PASSED]), clock[abi.TIME]
         if begin - now > same(stops, span, now):
-            origin, to = clock[abi.ORIGIN], begin
+            origin, to, step = clock[abi.ORIGIN], begin, span.step
             if has_gap(stops, control[abi.PASSED]):
-                to = end_in_part(stops, control[abi.PASSED], span, clock)
+                to, step = part_before(stops, control[abi.PASSED], span, clock, control)
             moved = clock[abi.ORIGIN]
-            code = loop(system, scheme, until_stop(span, min(to, span.until)), state, outputs)
+            code = loop(system, scheme, until_stop(span, min(to, span.until), step), state, outputs)
             if clock[abi.ORIGIN] == moved:
                 clock[abi.ORIGIN] = origin
             now = clock[abi.TIME]

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 #: Energy jump over a passage, as a fraction of the energy in motion: beyond the first a run is in doubt, beyond the
 #: second it has failed.
 JUMP_DOUBT, JUMP_FAILURE = 1e-5, 1e-3
-#: A run of adaptive steps with at most so many operations is checked by a second one by default; about 50 to 100 ms of
+#: A run of adaptive steps with at most so many operations is checked by a second one by default; about 0.1 to 0.3 s of
 #: explicit steps.
-MOST_OPERATIONS = 200_000_000
+MOST_OPERATIONS = 500_000_000
 #: Operations that an evaluation takes beside its formulas; and those of looped code for each number of its scratch.
 _CALL, _EACH = 100, 6
 #: Why a run whose velocities are scaled to its energy is not ok.

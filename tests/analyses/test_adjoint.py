@@ -6,6 +6,7 @@ from running.test_reset_sensitivities import BALL
 
 import symgen
 from symgen import InputError
+from symgen.base.errors import AnalysisError
 from symgen.methods import METHODS
 from symgen.runs import adjoint
 
@@ -93,7 +94,7 @@ def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
     assert parts.by == whole.by
     assert parts.memory > whole.memory  # the last step before each part stands in front of it
     monkeypatch.setattr(adjoint, "MOST_KEPT", 1 << 13)
-    with pytest.raises(InputError, match="take larger tolerances or steps"):
+    with pytest.raises(AnalysisError, match="take larger tolerances or steps"):
         four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
 
 

@@ -288,6 +288,17 @@ def test_events_at_a_jump_happen_once() -> None:
         assert [event.t for event in result.events] == pytest.approx([at, at], abs=1e-12)
 
 
+@pytest.mark.parametrize("step", [0.1, 0.01, 0.007])
+def test_no_stage_lies_behind_a_jump_at_a_point_of_the_grid(step: float) -> None:
+    """Of 300 jumps at k*step, which lie on either side of a sum of steps by rounding, each is met exactly."""
+    text = RAIL.replace("PUSH", "(3.0 if t > at else 0.0)").replace("-4*b.x - 6*b.x**3 +", "")
+    mechanism = validate(parse_toml(text, "push.toml"), "push.toml")
+    at = [k * step for k in range(1, 301)]
+    end = 302 * step
+    found = symgen.load(mechanism).sweep({"at": at}, integrator="rk4", step=step, until=end, quantities=("q", "v"))
+    np.testing.assert_allclose(found["b.vx"][:, -1], [1.0 + 3.0 * (end - t) for t in at], rtol=0.0, atol=1e-10)
+
+
 def test_steps_beyond_the_end_of_runs_meet_jumps() -> None:
     """A file's run ends at 1 s; steps from Python go on."""
     text = RAIL.replace("PUSH", "(1.0 if t > 0.5 else 0.0) + (1.0 if t > 2.5037 else 0.0)")

@@ -5,6 +5,7 @@ import pytest
 
 import symgen
 from symgen.api import Model
+from symgen.base.errors import InputError
 from symgen.describe.builder import MechanismBuilder
 
 #: A force, and how far it moves 1 kg in 1 s, from rest: closed forms for a = 0.7, b = 2.
@@ -34,11 +35,19 @@ def test_single_runs(force):
         np.testing.assert_allclose(run.q["m.x"][-1], FORCES[force], atol=1e-6)
 
 
-@pytest.mark.parametrize("target", ["cpu", "lanes"])
-def test_rows_of_sweeps_choose_by_their_own_parameters(target):
+def test_rows_of_sweeps_choose_by_their_own_parameters():
     model = pushed("2 if a > 0.5 and t > 0.3 else 0")
-    found = symgen.sweep(
-        model, {"a": [0.2, 0.7]}, step=0.1, until=1.0, integrator="rk4", quantities=("q",), target=target
-    )
+    rows = {"step": 0.1, "until": 1.0, "integrator": "rk4", "quantities": ("q",)}
+    found = symgen.sweep(model, {"a": [0.2, 0.7]}, **rows)
     assert list(found.status) == ["ok", "ok"]
-    assert found["m.x"][0, -1] == 0.0 < found["m.x"][1, -1]
+    np.testing.assert_allclose(found["m.x"][:, -1], [0.0, 0.7**2], rtol=1e-13, atol=0.0)
+    with pytest.raises(InputError, match="target 'lanes': expected no formulas that jump at times known beforehand"):
+        symgen.sweep(model, {"a": [0.2, 0.7]}, target="lanes", **rows)
+
+
+def test_lanes_choose_by_their_own_parameters():
+    found = symgen.sweep(
+        *(pushed("2 if a > 0.5 and b > 1 else 0"), {"a": [0.2, 0.7]}),
+        **{"step": 0.1, "until": 1.0, "integrator": "rk4", "quantities": ("q",), "target": "lanes"},
+    )
+    np.testing.assert_allclose(found["m.x"][:, -1], [0.0, 1.0], rtol=1e-13, atol=0.0)

@@ -30,15 +30,15 @@ from symgen.report.comparison import comparison
 from symgen.report.write import html, markdown
 from tests.report.made import row, study, trace
 
-#: A way out of each kind of place, at most as long as a unit.
-UNITS = (
+#: A way out of each kind of place.
+WAYS = (
     *("*/};__attribute__((constructor))enum{/*", "*/}static id(){system(__func__);}enum{/*", "*\\};int planted;/*"),
     *("*??/", "// planted() ??/", "\\", '"""', "'''", '"', "'", "${planted()}", "{{ 7*7 }}{% for %}", "`planted()`"),
     *("]]>", "--><planted/>", "<!--DATA-->", "</script><script>planted()</script>", "</title><planted>", "&lt;"),
     *("<img src=x onerror=planted()>", '" onload="planted()', "%\\end{document}", "\\input{planted}", "$x^2$", "~^_#&"),
     *("=cmd()", "+1", "@planted", "%s%n", "[x](javascript:planted())", "[x [y] ](planted:)", "|a|b|", "m" * 40),
 )
-#: What units cannot hold: line ends, control characters, those that turn text around, and what terminals act on.
+#: Line ends, control characters, those that turn text around, and what terminals act on.
 LINES = (
     "a\nplanted()",
     "a\r\nplanted()",
@@ -47,7 +47,7 @@ LINES = (
     "\x1b]0;planted\x07\x1b[31m",
     "a\u202eb",
 )
-TEXTS = (*UNITS, *LINES)
+TEXTS = (*WAYS, *LINES)
 #: Entries of sections, and the mechanism.
 OWN_NAMES = ("rod", "pin", "height", "push", "low", "swing")
 #: As titles and sources: each alone is short, and comments have at most 200 characters.
@@ -88,13 +88,13 @@ action = "stop"
 """
 
 
-def described(folder: Path, title: str, units: tuple[str, ...], notes: tuple[str, ...]) -> Path:
-    """Write a file with parameters and inputs of these units and notes."""
+def described(folder: Path, title: str, notes: tuple[str, ...]) -> Path:
+    """Write a file with parameters and inputs that have these notes."""
     folder.mkdir()
-    pairs = [(json.dumps(unit), json.dumps(note)) for unit, note in zip(units, notes, strict=True)]
-    parameters = [f"p{i} = {{ value = 1.0, unit = {unit}, note = {note} }}" for i, (unit, note) in enumerate(pairs)]
-    inputs = [f"u{i} = {{ default = 0.0, unit = {unit}, note = {note} }}" for i, (unit, note) in enumerate(pairs)]
-    names = {letter: "+".join(f"{letter}{i}" for i in range(len(pairs))) for letter in "pu"}
+    quoted = [json.dumps(note) for note in notes]
+    parameters = [f'p{i} = {{ value = 1.0, unit = "m", note = {note} }}' for i, note in enumerate(quoted)]
+    inputs = [f'u{i} = {{ default = 0.0, unit = "m", note = {note} }}' for i, note in enumerate(quoted)]
+    names = {letter: "+".join(f"{letter}{i}" for i in range(len(quoted))) for letter in "pu"}
     texts = {"mass": json.dumps(names["p"]), "torque": json.dumps(names["u"]), "title": json.dumps(title)}
     path = folder / "swing.toml"
     path.write_text(FILE.format(parameters="\n".join(parameters), inputs="\n".join(inputs), **texts), encoding="utf-8")
@@ -103,10 +103,16 @@ def described(folder: Path, title: str, units: tuple[str, ...], notes: tuple[str
 
 def pair(folder: Path, title: str) -> tuple[Path, Path]:
     """Write two files that differ in their texts alone: an honest one and a hostile one."""
-    notes = (*TEXTS, *TEXTS)[: len(UNITS)]
-    return described(folder / "a", "A swing", ("m",) * len(UNITS), ("",) * len(UNITS)), described(
-        folder / "b", title, UNITS, notes
-    )
+    return described(folder / "a", "A swing", ("",) * len(WAYS)), described(folder / "b", title, WAYS)
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_no_such_text_is_a_unit(text, tmp_path, capsys):
+    path = described(tmp_path / "c", "A swing", ("",))
+    path.write_text(path.read_text(encoding="utf-8").replace('"m"', json.dumps(text)), encoding="utf-8")
+    assert main(["check", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "unit: expected" in said and said.rstrip("\n").replace("\n", "").isprintable()
 
 
 def written(path: Path, *words: str) -> Path:
@@ -228,9 +234,7 @@ def test_fmu(fmi, title, tmp_path):
         with zipfile.ZipFile(files[-1]) as archive:
             archive.extractall(folders[-1])
     root = same_xml(*((f / "modelDescription.xml").read_text(encoding="utf-8") for f in folders))
-    assert sorted(unit.get("name") for unit in root.iter("Unit")) == sorted(
-        {*UNITS, "m", "rad", "m/s", "rad/s"} - {"1"}
-    )
+    assert sorted(unit.get("name") for unit in root.iter("Unit")) == ["m", "m/s", "rad", "rad/s"]
     for name in ("swing.c", "fmu.c", "swing.h"):
         assert c_code(folders[0] / "sources" / name) == c_code(folders[1] / "sources" / name)
     library = next((folders[1] / "binaries").rglob("*.so"))

@@ -3,6 +3,7 @@
 import functools
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -22,6 +23,8 @@ from symgen.store.modules import plain_function
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
 _COMMAND = "import sys; from symgen.cli import main; sys.exit(main(sys.argv[1:]))"
+#: Before a sentence stands the command, or of what is wrong in a file the line.
+_BEGINNING = re.compile(r"symgen: |[^:]+\.toml:[0-9]+: ")
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ class Said:
     def sentence(self) -> bool:
         """Whether it ended in one sentence on standard error, and nothing else there."""
         lines = self.err.strip().splitlines()
-        return len(lines) == 1 and lines[0].startswith("symgen: ") and len(lines[0]) < 1000
+        return len(lines) == 1 and _BEGINNING.match(lines[0]) is not None and len(lines[0]) < 1000
 
 
 def symgen(words: Sequence[str | Path], folder: Path, **variables: str) -> Said:
