@@ -81,7 +81,7 @@ def _rounded(value: Fraction) -> float:
 
 @lru_cache(maxsize=4096)
 def read_unit(text: str) -> Unit | str:
-    """Return the unit that a text means, an empty one that of numbers; of what is no unit, the part that is none."""
+    """Return the unit that a text means, or the part of the text that is no unit; an empty text is the unit of 1."""
     if not text:
         return Unit("", "", Fraction(1), ())
     if len(text) > LONGEST_UNIT or not text.isprintable():

@@ -74,13 +74,13 @@ def _in_units_of_file(function: F) -> F:
 
 
 def _models(values: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the models of a command: its argument, several, or that of a saved result."""
+    """Return the models of a command: its argument, several arguments, or the model of a saved result."""
     named = values.get("described") or values.get("model") or values.get("what")
     return tuple(values["models"]) if "models" in values else (named,) if isinstance(named, str) else ()
 
 
 def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
-    """Return numbers by name in SI units: as typed, those of parameters are in the unit of the file.
+    """Return numbers by name in SI units: as typed, parameters are in the unit of the file.
 
     Parameters
     ----------

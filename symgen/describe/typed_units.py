@@ -1,4 +1,4 @@
-"""Units of numbers that people type for a mechanism, such as those of ``--set`` and ``--start``.
+"""Units of numbers that people type for a mechanism, as in ``--set`` and ``--start``.
 
 A number for a parameter or an input is in the unit of the file, one for a coordinate or velocity in its SI unit, unless
 a unit is typed behind it.

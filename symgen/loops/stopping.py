@@ -90,7 +90,7 @@ def end_in_part(stops: Any, count: int, span: Any, clock: Any) -> float:
 
 
 def go_over(stops: Any, count: int, clock: Any) -> None:
-    """Set the time to that of the stop behind stop number `count`."""
+    """Set the time to the next stop behind stop number `count`."""
     clock[abi.TIME] = max(clock[abi.TIME], due(stops, count + 1))
 
 
