@@ -338,7 +338,7 @@ def time_list(option: str, text: str) -> tuple[float, ...]:
     if "(" in text:
         from symgen.ensemble.axes import axis_values
 
-        return tuple(axis_values(text, option).tolist())
+        return tuple(axis_values(text, option, ("s", "s")).tolist())
     return tuple(
         _number(option, "finite times, separated by commas, or lin(first, last, count)", w)
         for w in comma_list(option, text)
