@@ -14,6 +14,7 @@ from symgen import catalogue
 from symgen.base.errors import InputError
 from symgen.compiling.choices import on_tree
 from symgen.describe import load
+from symgen.ir.program import MODE_NUMBERS
 from symgen.reading import symbolic_equations as reading
 from symgen.reading.symbolic_equations import SymbolicEquations
 
@@ -29,10 +30,13 @@ def within(bound, found, expected, scale=None):
 
 
 def random_modes(equations, rng):
-    """Numbers of the rows with bounds: the first row is in force, friction of the others slides, stops are open."""
+    """Numbers of the rows with bounds: the first row is in force, friction of the others slides, stops are open.
+
+    Besides, rows that are off have an effort, as friction has that shares its hold with others.
+    """
     of_row = [
-        (1.0, 0.0, 0.0, 0.0) if i == 0 else (0.0, 0.0, rng.choice([-1.0, 1.0]), 0.0)
-        for i in range(len(equations.modes) // 4)
+        (1.0, 0.0, 0.0, 0.0, 0.0) if i == 0 else (0.0, 0.0, rng.choice([-1.0, 1.0]), 0.0, rng.uniform(-1.0, 1.0))
+        for i in range(len(equations.modes) // MODE_NUMBERS)
     ]
     return [number for row in of_row for number in row]
 
@@ -119,8 +123,8 @@ def test_dry_friction_slides_in_the_direction_of_the_velocities_by_default(coord
     }
     within(0.0, compute(0.0, q, v), compute(0.0, q, v, modes=[signs.get(name, 0.0) for name in e.modes]))
     still, torque = compute(0.0, q, 0 * v), symgen.load("dry-four-bar").parameters()["torque"]
-    assert np.abs(compute(0.0, q, v) - compute(0.0, q, v, modes=[0.0] * 16)).max() > 0.5 * torque
-    assert np.abs(still - compute(0.0, q, 0 * v, modes=[0.0] * 16)).max() == 0.0
+    assert np.abs(compute(0.0, q, v) - compute(0.0, q, v, modes=[0.0] * len(e.modes))).max() > 0.5 * torque
+    assert np.abs(still - compute(0.0, q, 0 * v, modes=[0.0] * len(e.modes))).max() == 0.0
 
 
 def test_states_of_the_file_are_arguments():
