@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import pairwise
 from os import PathLike
@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import json_form
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.base.errors import InputError, SymgenError, counted
+from symgen.base.units import SI, Unit
 from symgen.describe.evaluate import parameter_values
 from symgen.result.plot import Plot, plotted
-from symgen.result.plots import COLOURS
+from symgen.result.plots import COLOURS, label
 
 Complex = NDArray[np.complex128]
 
@@ -66,12 +67,19 @@ class Locus:
         Eigenvalues [1/s]; a column is followed from value to value.
     crossings : tuple of Crossing
         Where branches pass the imaginary axis, in increasing order of the parameter.
+    own_unit : Unit
+        Unit of the file, which tables and plots have.
     """
 
     name: str
     values: Array
     branches: Complex
     crossings: tuple[Crossing, ...]
+    own_unit: Unit = field(default=SI, repr=False)
+
+    def as_written(self, value: float) -> float:
+        """Return a value of the parameter in the unit of the file."""
+        return self.own_unit.of_si(float(value))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields in types of JSON."""
@@ -115,16 +123,17 @@ class Locus:
 
         figure = Figure(figsize=(10.0, 4.5), layout="constrained")
         over, plane = figure.subplots(1, 2)
+        values = [*map(self.as_written, self.values)]
         for k, branch in enumerate(self.branches.T):
             colour = COLOURS[k % len(COLOURS)]
-            over.plot(self.values, branch.real, color=colour)
-            over.plot(self.values, np.abs(branch.imag), color=colour, linestyle=":")
+            over.plot(values, branch.real, color=colour)
+            over.plot(values, np.abs(branch.imag), color=colour, linestyle=":")
             plane.plot(branch.real, branch.imag, color=colour, marker=".", markersize=3, linestyle="none")
         for crossing in self.crossings:
-            over.axvline(crossing.value, color="#999999", linewidth=0.8)
+            over.axvline(self.as_written(crossing.value), color="#999999", linewidth=0.8)
         over.axhline(0.0, color="#999999", linewidth=0.8)
         plane.axvline(0.0, color="#999999", linewidth=0.8)
-        over.set_xlabel(self.name)
+        over.set_xlabel(label(self.name, self.own_unit.text))
         over.set_ylabel("real part, and imaginary part dotted [1/s]")
         plane.set_xlabel("real part [1/s]")
         plane.set_ylabel("imaginary part [1/s]")
@@ -165,7 +174,8 @@ def eigenvalue_locus(place: NamedPlace, over: tuple[str, Sequence[float] | Array
         further = (value - every[k - 1]) / (every[k - 1] - every[k - 2]) if k > 1 else 0.0
         rows.append(_followed(rows, eigenvalues(float(value)), further))
     branches = np.array(rows)
-    return Locus(name, values, branches[np.isin(every, values)], search.crossings(every, branches))
+    own = next(p.own_unit for p in place.mechanism.parameters if p.name == name)
+    return Locus(name, values, branches[np.isin(every, values)], search.crossings(every, branches), own)
 
 
 def _followed(before: Sequence[Complex], now: Complex, further: float = 0.0) -> Complex:

@@ -62,8 +62,12 @@ class Unit:
         return value if self.is_si or not math.isfinite(value) else _rounded(Fraction(repr(float(value))) * self.factor)
 
     def of_si(self, value: float) -> float:
-        """Return a number in SI units in this unit."""
-        return value if self.is_si or not math.isfinite(value) else _rounded(Fraction(repr(float(value))) / self.factor)
+        """Return a number in SI units in this unit: one of at most 15 digits where such a number means it."""
+        if self.is_si or not math.isfinite(value):
+            return value
+        number = _rounded(Fraction(repr(float(value))) / self.factor)
+        short = float(f"{number:.15g}")
+        return short if self.to_si(short) == value else number
 
     def fits(self, other: Unit) -> bool:
         """Whether both are units of one quantity; radians may be left out, but count neither as 1 nor as cycles."""
@@ -81,7 +85,7 @@ def _rounded(value: Fraction) -> float:
 
 @lru_cache(maxsize=4096)
 def read_unit(text: str) -> Unit | str:
-    """Return the unit that a text means, an empty one that of numbers; of what is no unit, the part that is none."""
+    """Return the unit that a text means, or the part of the text that is no unit; an empty text is the unit of 1."""
     if not text:
         return Unit("", "", Fraction(1), ())
     if len(text) > LONGEST_UNIT or not text.isprintable():

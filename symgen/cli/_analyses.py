@@ -127,12 +127,12 @@ def _range(flag: str, text: str) -> _Range:
     InputError
         If it has another form.
     """
-    from symgen.ensemble.axes import axis_values
+    from symgen.ensemble.axes import check_axis
 
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():
         raise InputError(flag, "NAME=VALUES, such as crank.theta=lin(0,6.28,25)", quoted(text))
-    axis_values(values.strip(), f"{flag} {name.strip()}")
+    check_axis(values.strip(), f"{flag} {name.strip()}")
     return _Range(flag, name.strip(), values.strip())
 
 

@@ -74,13 +74,13 @@ def _in_units_of_file(function: F) -> F:
 
 
 def _models(values: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the models of a command: its argument, several, or that of a saved result."""
+    """Return the models of a command: its argument, several arguments, or the model of a saved result."""
     named = values.get("described") or values.get("model") or values.get("what")
     return tuple(values["models"]) if "models" in values else (named,) if isinstance(named, str) else ()
 
 
 def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
-    """Return numbers by name in SI units: as typed, those of parameters are in the unit of the file.
+    """Return numbers by name in SI units: as typed, parameters are in the unit of the file.
 
     Parameters
     ----------
@@ -338,7 +338,7 @@ def time_list(option: str, text: str) -> tuple[float, ...]:
     if "(" in text:
         from symgen.ensemble.axes import axis_values
 
-        return tuple(axis_values(text, option).tolist())
+        return tuple(axis_values(text, option, ("s", "s")).tolist())
     return tuple(
         _number(option, "finite times, separated by commas, or lin(first, last, count)", w)
         for w in comma_list(option, text)

@@ -314,12 +314,11 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
     facts, ensemble = study.to_json(), study.ensemble
     steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
     rate = f", {len(study) / study.seconds:.3g} runs a second" if study.seconds > 0.0 and not study.interrupted else ""
-    axes = [item for axis in ensemble.grid.axes for item in axis.values.items()]
+    grid, units = study.as_written()
+    axes = [item for axis in grid.axes for item in axis.values.items()]
 
     def ends(name: str, x: NDArray[np.float64]) -> str:
-        if (unit := study.written.get(name)) is None:
-            return f"{x.min():.6g} to {x.max():.6g}"
-        return f"{unit.of_si(float(x.min())):.6g} to {unit.of_si(float(x.max())):.6g} {unit.text}"
+        return f"{x.min():.6g} to {x.max():.6g} {units[name]}".strip()
 
     lines = [
         ("mechanism", facts["mechanism"]),

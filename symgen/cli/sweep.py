@@ -147,12 +147,12 @@ def command(
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:
     """Return the text of the values by name; names may not repeat."""
-    from symgen.ensemble.axes import axis_values
+    from symgen.ensemble.axes import check_axis
 
     form = "NAME=VALUES, such as crank_mass=lin(1,3,21)"
     axes = pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)
     for name, text in axes.items():
-        axis_values(text, f"--vary {name}")
+        check_axis(text, f"--vary {name}")
     return axes
 
 

@@ -208,7 +208,7 @@ def replaced(value: T, by: Callable[[Name], Expr]) -> T:
 
 
 def _number(text: str, where: str, parameter: Parameter) -> float | None:
-    """Return the number that a text is in SI units: without a unit it is in that of the file; None for a formula."""
+    """Return the number of a text in SI units; without a unit it has the unit of the file; None for a formula."""
     amount = read_amount(text)
     if amount is not None:
         return amount.in_si(where, parameter.unit, parameter.shown)

@@ -1,4 +1,4 @@
-"""Units of numbers that people type for a mechanism, such as those of ``--set`` and ``--start``.
+"""Units of numbers that people type for a mechanism, as in ``--set`` and ``--start``.
 
 A number for a parameter or an input is in the unit of the file, one for a coordinate or velocity in its SI unit, unless
 a unit is typed behind it.
@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from symgen.base.units import Amount
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.readings import STATE, of_joint
 
 #: Units of coordinates and velocities of bodies, by their first letters.
 _COLUMNS = {"theta": "rad", "omega": "rad/s", "v": "m/s", "w": "rad/s", "e": "1"}
@@ -48,10 +49,15 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
     if any(body.name == owner for body in mechanism.bodies):
         unit = next((unit for head, unit in _COLUMNS.items() if label.startswith(head)), "m")
         return unit, unit
-    per_second = "/s" if label == "rate" else ""
-    names = {f"{joint.name}.{of}": joint.unit(of) for joint in mechanism.joints for of, _ in joint.coordinates}
-    unit = names.get(owner if per_second else name, "")
-    return (f"{unit}{per_second}", f"{unit}{per_second}") if unit else ("", "")
+    owner, _, label = name.partition(".")
+    units = {
+        of: unit
+        for joint in mechanism.joints
+        if joint.name == owner
+        for of, (_, unit) in of_joint(joint, STATE).items()
+    }
+    unit = units.get(label, "")
+    return unit, unit
 
 
 def in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:

@@ -130,7 +130,7 @@ _WORDS: Mapping[str, tuple[Callable[..., Array], int | None, str]] = {
 _COUNTS = {"lin": 1, "log": 1, "uniform": 2}
 
 
-def axis_values(text: str, where: str, units: tuple[str, str] | None = None) -> Array:
+def axis_values(text: str, where: str, units: tuple[str, str] = ("", "")) -> Array:
     """Return the values that a text such as ``lin(1, 3, 21)`` stands for, in SI units.
 
     Parameters
@@ -140,14 +140,35 @@ def axis_values(text: str, where: str, units: tuple[str, str] | None = None) -> 
     where : str
         For the message.
     units : (str, str), optional
-        SI unit of the quantity, empty if it is not known, and the unit of numbers without one; without `units` the
-        text is only checked.
+        SI unit of the quantity, empty if it is not known, and the unit of numbers without one.
 
     Raises
     ------
     InputError
         If it is anything else.
     """
+    word, numbers = _read(text, where, units)
+    build, _, form = _WORDS[word]
+    try:
+        return build(*numbers)
+    except InputError as error:
+        raise InputError(where, f"{form} with {error.expected}", error.got) from None
+
+
+def check_axis(text: str, where: str) -> None:
+    """Refuse a text that no quantity can have as its values; arguments as of `axis_values`.
+
+    Ends with units are compared later, when the unit of the others is known.
+    """
+    amounts = map(read_amount, re.split("[(,)]", text))
+    if any(amount is not None and amount.unit for amount in amounts):
+        _read(text, where, ("", ""))
+    else:
+        axis_values(text, where)
+
+
+def _read(text: str, where: str, units: tuple[str, str]) -> tuple[str, list[float]]:
+    """Return the word of a text, and its numbers in SI units."""
     expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
     match = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
     if match is None:
@@ -155,25 +176,21 @@ def axis_values(text: str, where: str, units: tuple[str, str] | None = None) -> 
     word = match[1]
     if word not in _WORDS:
         raise InputError(where, expected, quoted(word), nearest(word, _WORDS))
-    build, arity, form = _WORDS[word]
+    _, arity, form = _WORDS[word]
     parts = match[2].split(",")
     last = len(parts) - _COUNTS.get(word, 0)
     numbers = [_value(part, where, units) if i < last else _number(part, where) for i, part in enumerate(parts)]
     if arity is not None and len(numbers) != arity:
         raise InputError(where, form, f"{len(numbers)} numbers")
-    try:
-        return build(*numbers)
-    except InputError as error:
-        raise InputError(where, f"{form} with {error.expected}", error.got) from None
+    return word, numbers
 
 
-def _value(text: str, where: str, units: tuple[str, str] | None) -> float:
+def _value(text: str, where: str, units: tuple[str, str]) -> float:
     """Return a number that may have a unit in SI units."""
     amount = read_amount(text)
     if amount is None or not math.isfinite(amount.number):
         return _number(text, where)
-    quantity, usual = units or ("", "")
-    return amount.in_si(where, quantity, usual)
+    return amount.in_si(where, *units)
 
 
 def _number(text: str, where: str) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,7 +29,8 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     signals = {signal.name: signal for signal in sweep.ensemble.recipe.quantities}
     tables, model = {name: signal.table for name, signal in signals.items()}, sweep.ensemble.model.name
     names = [*choose(tables, what, model, (*TABLES,))] if what else [*signals]
-    varied, times = sweep.ensemble.grid.values(0, len(sweep)), sweep.ensemble.recipe.spec.times
+    grid, own = sweep.as_written()
+    varied, times = grid.values(0, len(sweep)), sweep.ensemble.recipe.spec.times
     over = over or ("t" if len(times) > 1 else next(iter(varied)))
     if over not in ("t", *varied, *signals):
         expected = "t, what varies, or a quantity that was kept"
@@ -38,7 +39,8 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     count = "" if len(names) <= MOST_PANELS else f", the first {MOST_PANELS} of {len(names)} quantities"
     end = f" at t = {times[-1]:g} s" if over in varied and len(times) else ""
     figure, axes = empty(f"{model}, {len(sweep)} runs{end}{count}", len(shown))
-    lines = [*_lines(sweep, over, varied, signals)]
+    units = {"t": "s"} | own | {name: signal.unit for name, signal in signals.items() if name not in varied}
+    lines = [*_lines(sweep, over, varied, signals, units)]
     for ax, name in zip(axes, shown, strict=False):
         place = [*signals].index(name)
         for i, (text, along, runs) in enumerate(lines):
@@ -50,14 +52,12 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     if len(lines) > LONGEST_LEGEND:
         ends = f"dark: {lines[0][0]}; light: {lines[-1][0]}"
         axes[0].set_title(ends, fontsize=8, loc="left")
-    units = {"t": "s"} | sweep.units() | {name: signal.unit for name, signal in signals.items()}
-    units |= {name: unit.text for name, unit in sweep.written.items()}
     axes[-1].set_xlabel(label(over, units[over]))
     return figure
 
 
 def _lines(
-    sweep: Sweep, over: str, varied: dict[str, Array], signals: dict[str, Signal]
+    sweep: Sweep, over: str, varied: dict[str, Array], signals: dict[str, Signal], units: Mapping[str, str]
 ) -> Iterator[tuple[str, Array, Any]]:
     """Yield the lines of each panel: what tells one from the others, where its points are, and its runs."""
     with_it = next((axis.values for axis in sweep.ensemble.grid.axes if over in axis.values), {})
@@ -70,7 +70,7 @@ def _lines(
     else:
         runs_of_lines = [[run] for run in range(len(sweep))]
     for runs in runs_of_lines:
-        text = ", ".join(f"{name} = {values[runs[0]]:.4g}" for name, values in others.items())
+        text = ", ".join(f"{name} = {values[runs[0]]:.4g} {units[name]}".strip() for name, values in others.items())
         if over in varied:
             along = varied[over][runs]
         else:

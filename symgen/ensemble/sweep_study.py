@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 from symgen.base.arguments import path as argument_path
 from symgen.base.arguments import shown, text, whole, words
 from symgen.base.errors import InputError, counted, nearest
-from symgen.base.files import check_path, headed, need, write_csv, write_whole
+from symgen.base.files import check_path, need, write_csv, write_whole
 from symgen.base.version import __version__
+from symgen.ensemble.axes import Grid
+from symgen.ensemble.lines import table_lines
 from symgen.ensemble.names import Names
 from symgen.ensemble.row_quantities import NUMBERS, event_columns, of_dimension, of_number, of_quantities, of_varied
 from symgen.ensemble.verdicts import NOT_RUN, judge_all, summary_column, warnings_all
@@ -34,7 +36,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from symgen.base.units import Unit
     from symgen.ensemble.row_sensitivities import RowSensitivities
     from symgen.ensemble.sweep_plan import Ensemble
 
@@ -280,7 +281,7 @@ class Sweep:
         file = argument_path("save", path)
         check_path("save", file, SAVED, "data")
         if file.suffix.lower() == ".csv":
-            return write_csv(file, *table_lines(self, self.written))
+            return write_csv(file, *table_lines(self, as_written=True))
         return write_whole(file, netcdf(self.to_xarray()))
 
     def sensitivities(self, by: Sequence[str]) -> RowSensitivities:
@@ -348,11 +349,18 @@ class Sweep:
         names = Names.of(self.ensemble.model.mechanism)
         return {name: units.get(names.one(name), "") for name in self.ensemble.grid.names}
 
-    @property
-    def written(self) -> dict[str, Unit]:
-        """Units of the file of those parameters that vary to which it gives another than the SI unit."""
+    def as_written(self) -> tuple[Grid, dict[str, str]]:
+        """Return what varies, and its units by name, with parameters in the unit of the file."""
         own = {p.name: p.own_unit for p in self.ensemble.model.mechanism.parameters if p.shown}
-        return {name: own[name] for name in self.ensemble.grid.names if name in own}
+        units = {name: own[name].text if name in own else unit for name, unit in self.units().items()}
+
+        def read(name: str, values: Array) -> Array:
+            return np.array([own[name].of_si(float(x)) for x in values]) if name in own else values
+
+        axes = (
+            replace(axis, values={n: read(n, x) for n, x in axis.values.items()}) for axis in self.ensemble.grid.axes
+        )
+        return Grid(tuple(axes)), units
 
 
 #: Figures in sentences, which differ from run to run.
@@ -376,44 +384,3 @@ def _versions() -> dict[str, str]:
         "numba": version("numba"),
         "llvmlite": version("llvmlite"),
     }
-
-
-def table_lines(sweep: Sweep, written: Mapping[str, Unit] | None = None) -> tuple[list[str], Iterator[list[object]]]:
-    """Return the heading of a table with units, and a line for each run and output time; missing numbers are empty.
-
-    What varies is in SI units, unless `written` has others for it.
-    """
-    own = written or {}
-    ensemble, units = sweep.ensemble, sweep.units() | {name: unit.text for name, unit in own.items()}
-    times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
-    varied = ensemble.grid.values(0, len(sweep))
-    varied |= {name: np.array([unit.of_si(float(x)) for x in varied[name]]) for name, unit in own.items()}
-    labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
-    names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
-    events = {name: sweep.summary[:, at] for name, (at, _) in sweep.events.items()}
-    heading = [
-        "run",
-        *(headed(names[name], units[name]) for name in varied),
-        headed("t", "s"),
-        *(headed(label, q.unit) for label, q in zip(labels, quantities, strict=True)),
-        headed("end", "s"),
-        *(headed(name, unit) for name, (_, unit) in sweep.events.items()),
-        "status",
-        "reason",
-        "warnings",
-    ]
-    end = summary_column(sweep.summary, "end")
-
-    def lines() -> Iterator[list[object]]:
-        for i in range(len(sweep)):
-            before = [i, *(float(x[i]) for x in varied.values())]
-            behind = [float(end[i]), *(_shown(x[i]) for x in events.values()), sweep.status[i], sweep.reason[i]]
-            behind.append("; ".join(sweep.warnings[i]))
-            for k, t in enumerate(times):
-                yield [*before, float(t), *(_shown(x) for x in sweep.values[i, :, k]), *behind]
-
-    return heading, lines()
-
-
-def _shown(x: float) -> float | None:
-    return float(x) if np.isfinite(x) else None

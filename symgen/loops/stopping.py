@@ -89,7 +89,7 @@ def part_before(stops: Any, count: int, span: Any, clock: Any, control: Any) -> 
 
 
 def go_over(stops: Any, count: int, clock: Any) -> None:
-    """Set the time to that of the stop behind stop number `count`."""
+    """Set the time to the next stop behind stop number `count`."""
     clock[abi.TIME] = max(clock[abi.TIME], due(stops, count + 1))
 
 

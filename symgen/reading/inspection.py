@@ -406,10 +406,11 @@ def as_text(facts: dict[str, Any]) -> str:
     section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
     lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]
-    if facts["parameters"]:
-        section("Parameters")
-        written = [(p["name"], p.get("as_written", p)) for p in facts["parameters"]]
-        lines += [f"{name} = {x['value']:g} [{x['unit']}]" for name, x in written]
+    for title in ("parameters", "inputs"):
+        if facts[title]:
+            section(title.capitalize())
+            written = [(p["name"], p.get("as_written", p)) for p in facts[title]]
+            lines += [f"{name} = {x['value']:g} [{x['unit']}]" for name, x in written]
     if facts["rows"]:
         space = facts["space"] == "spatial"  # there rows in Euler parameters show little
         section("Rows in words" + ", and by vectors of bodies" * space)

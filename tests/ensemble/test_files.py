@@ -14,6 +14,7 @@ import xarray as xr
 
 import symgen
 from symgen.api import Model
+from symgen.base import plugins
 from symgen.base.errors import InputError
 from symgen.describe.builder import MechanismBuilder
 from symgen.ensemble.table import DONE, FolderTable, RowTable
@@ -222,7 +223,8 @@ def test_outputs_that_cannot_be_written_are_refused_before_anything_runs(tmp_pat
     assert not list(tmp_path.iterdir())
 
 
-def test_two_processes_cannot_write_to_one_folder(tmp_path):
+def test_two_processes_cannot_write_to_one_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(plugins, "_files", {})  # of tests before: the other process loads none
     folder = tmp_path / "results"
     symgen.sweep("four-bar", **FEW, output=folder)
     ensemble = symgen.sweep("four-bar", **FEW).ensemble

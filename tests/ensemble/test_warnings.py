@@ -9,7 +9,7 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import InputError
 from symgen.breaks.stops import foreseen
-from symgen.ensemble.sweep_study import table_lines
+from symgen.ensemble.lines import table_lines
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage
 

@@ -14,7 +14,7 @@ from symgen import catalogue
 from symgen.base.errors import InputError
 from symgen.compiling.choices import on_tree
 from symgen.describe import load
-from symgen.ir.program import MODES
+from symgen.ir.program import MODE_NUMBERS
 from symgen.reading import symbolic_equations as reading
 from symgen.reading.symbolic_equations import SymbolicEquations
 
@@ -30,10 +30,13 @@ def within(bound, found, expected, scale=None):
 
 
 def random_modes(equations, rng):
-    """Numbers of the rows with bounds: the first row is in force, friction of the others slides, stops are open."""
+    """Numbers of the rows with bounds: the first row is in force, friction of the others slides, stops are open.
+
+    Besides, rows that are off have an effort, as friction has that shares its hold with others.
+    """
     of_row = [
-        (1.0, 0.0, 0.0, 0.0, 0.0) if i == 0 else (0.0, 0.0, rng.choice([-1.0, 1.0]), 0.0, 0.0)
-        for i in range(len(equations.modes) // len(MODES))
+        (1.0, 0.0, 0.0, 0.0, 0.0) if i == 0 else (0.0, 0.0, rng.choice([-1.0, 1.0]), 0.0, rng.uniform(-1.0, 1.0))
+        for i in range(len(equations.modes) // MODE_NUMBERS)
     ]
     return [number for row in of_row for number in row]
 

@@ -10,6 +10,7 @@ from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable
 from symgen.base import arguments
 from symgen.base.digits import complex_digits, digits
 from symgen.base.errors import InputError, fitting
+from symgen.base.files import headed
 from symgen.base.keywords import PlaceKeywords
 from symgen.base.settings import Settings
 
@@ -197,10 +198,13 @@ def _complex(x: complex) -> str:
 
 def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
     """Yield the lines of a root locus."""
-    headings = (result.name, *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])))
+    headings = (
+        headed(result.name, result.own_unit.text),
+        *(f"eigenvalue {k + 1} [1/s]" for k in range(result.branches.shape[1])),
+    )
     rows = [
         (
-            f"{value:g}",
+            f"{result.as_written(value):g}",
             *("".join((real, imaginary, "i" * bool(imaginary))) for real, imaginary in map(complex_digits, row)),
         )
         for value, row in zip(result.values, result.branches, strict=True)
@@ -208,7 +212,8 @@ def shown_locus(result: Locus) -> Iterator[str | AnalysisTable]:
     yield AnalysisTable(headings, rows)
     for crossing in result.crossings:
         becomes = "grows" if crossing.rising else "decays"
-        yield f"from {result.name} = {crossing.value:.9g} on {_complex(crossing.eigenvalue)} {becomes}"
+        value = f"{result.as_written(crossing.value):.9g} {result.own_unit.text}".strip()
+        yield f"from {result.name} = {value} on {_complex(crossing.eigenvalue)} {becomes}"
 
 
 KIND = Analysis(
