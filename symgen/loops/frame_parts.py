@@ -7,7 +7,8 @@
 | `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
 | `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
-| `located` | system, run, following, h, search | tests whether an event lies inside an acceptable step |
+| `inside` | system, scheme, run, t, following, h, i, y | a state inside a good attempt |
+| `located` | system, scheme, run, following, h, search | tests whether an event lies inside an acceptable step |
 | `prepare_search` | system, run, doing | other work of `symgen.loops.event_loop`: `LOOK`, `REMEMBER`, `RECALL` |
 | `step_to_point` | system, run, h | the step to try: `h`, or one that ends where a point of a table is passed |
 | `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
@@ -78,7 +79,15 @@ def interpolate(
     """Stand for the dense output of a scheme."""
 
 
-def located(system: Any, run: Any, following: float, h: float, search: int) -> int:
+def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at inner point i of a good attempt, before its correction; return its part of the step.
+
+    0 where the scheme has none: then states are those of a cubic through both ends and their rates.
+    """
+    return 0.0
+
+
+def located(system: Any, scheme: Any, run: Any, following: float, h: float, search: int) -> int:
     """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
     return NOTHING
 

@@ -17,12 +17,15 @@ from symgen.loops.search_records import (
     ARGUMENT,
     ARGUMENT_START,
     CURVE,
+    D_INSIDE,
     D_START,
     FIRST,
     G_HIGH,
+    G_INSIDE,
     G_START,
     GRAIN,
     HIGH,
+    INSIDE,
     LEVEL,
     MISSED,
     N_COLUMNS,
@@ -114,6 +117,10 @@ def face(hunt: A, n: int, k: int, h: float) -> int:
     enter(hunt, n, k, h)
     s, rate, place = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE_START * n + k], hunt[N_HEAD + PLACE * n + k]
     low, high = point(hunt, n, k, int(place)), point(hunt, n, k, int(place) + 1)
+    for i in range(int(hunt[INSIDE])):  # it may have come back
+        between = hunt[N_HEAD + (G_INSIDE + i) * n + k]
+        if s > low and s < high and (between < low or between > high):
+            s = between
     up = 1 if s >= high or (s >= low and rate >= 0.0) else 0
     way, level = 1.0 if up == 1 else -1.0, high if up == 1 else low
     hunt[N_HEAD + WAY * n + k], hunt[N_HEAD + LEVEL * n + k] = way, level
@@ -236,6 +243,9 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
             if search == NOTHING or search == DOUBT:
                 face(hunt, n, k, h)
             way = hunt[at + WAY * n + k]
+            for i in range(int(hunt[INSIDE]) if search == NOTHING else 0):
+                g, d = at + (G_INSIDE + i) * n + k, at + (D_INSIDE + i) * n + k
+                hunt[g], hunt[d] = way * (hunt[at + LEVEL * n + k] - hunt[g]), -way * hunt[d]
             hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
         hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
         if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
