@@ -21,6 +21,7 @@ from symgen.loops.frame_parts import (
     ADAPTIVE,
     CROWD,
     DENSE,
+    DIVIDE,
     DOUBT,
     EVENTS,
     FAIL,
@@ -249,6 +250,9 @@ def judge_state(
         search = located(system, scheme, run, following, h, search)
         if search == SEEK or search == TAKE:
             verdict = AGAIN
+        elif search == DIVIDE:
+            verdict = REFUSE
+            run.clock[abi.NEXT] = 0.5 * h
         elif search == FAIL:
             run.clock[abi.TIME] = following
             verdict = abi.UNDEFINED

@@ -45,8 +45,9 @@ EVENTS = False
 DIVERGED, TOO_LARGE = -1.0, -2.0
 #: Results of `located`: no event; an event, so that shorter steps locate it; the same, and the next attempt is taken;
 #: the state ends in an event; little room for more notes; a comparison in formulas changes, so that the scheme begins
-#: anew; the motion is held at such a switch, which it crosses to and fro; a condition is undefined.
-NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, FAIL = range(8)
+#: anew; the motion is held at such a switch, which it crosses to and fro; the step is too long to show its events; a
+#: condition is undefined.
+NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, DIVIDE, FAIL = range(9)
 #: Test of a step that is not good enough: whether its error is that of a switch inside, which is then sought.
 DOUBT = FAIL + 1
 #: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the

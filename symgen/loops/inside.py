@@ -8,6 +8,7 @@ at which a function may be on another side than at the ends is handed to the sea
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from symgen.loops.search_records import (
@@ -17,14 +18,17 @@ from symgen.loops.search_records import (
     D_INSIDE,
     D_LOW,
     D_START,
+    DIVIDED,
     G_END,
     G_HIGH,
     G_INSIDE,
     G_LOW,
     G_START,
+    GRAZING,
     HIGH,
     INSIDE,
     LOCAL,
+    LONGEST,
     LOW,
     MEASURE,
     N_COLUMNS,
@@ -53,6 +57,9 @@ _STRICT, _CAP = 2.0, 0.25
 _UNCORRECTED = 1e-6
 #: Largest number of attempts at such points up to an event.
 _MOST_PROBES = 24
+#: A step is too long with more than this error of cubics between its points, over the range of a function that is
+#: nearer to zero than this multiple of it; largest number of divisions of a step.
+_COARSE, _NEAR, _MOST_DIVISIONS = 0.01, 20.0, 4.0
 
 
 @plain
@@ -196,13 +203,55 @@ def fourth_derivative(hunt: A, n: int, k: int, x: float) -> float:
 
 
 @plain
+def coarseness(hunt: A, n: int, k: int) -> float:
+    """Return the error of the cubics between points of a step over the range of a function, 0 far from its zero."""
+    count, most = int(hunt[INSIDE]), 0.0
+    low = high = value_at(hunt, n, k, 0)
+    for i in range(1, count + 2):
+        g = value_at(hunt, n, k, i)
+        low, high = min(low, g), max(high, g)
+    for i in range(count + 1):
+        width = time_of(hunt, i + 1) - time_of(hunt, i)
+        square = width * width
+        error = fourth_derivative(hunt, n, k, time_of(hunt, i) + 0.5 * width) * square * square / 384.0
+        near = min(abs(value_at(hunt, n, k, i)), abs(value_at(hunt, n, k, i + 1)))
+        if near < _NEAR * error:
+            most = max(most, error)
+    return most / (high - low) if most > 0.0 else 0.0
+
+
+@plain
+def divides(hunt: A, n: int, h: float) -> int:
+    """Return 1 where a step of h is too long: between its inner points a function does what they do not show.
+
+    A few divisions are enough, as corners and jumps of functions do not become smooth.
+    """
+    at, worst = N_HEAD, 0.0
+    for k in range(n):
+        awake = hunt[at + ASLEEP * n + k] == 0.0 and hunt[at + GRAZING * n + k] == 0.0
+        if awake and hunt[at + POINTS * n + k] == 0.0 and hunt[at + SIDE * n + k] != 0.0:
+            worst = max(worst, coarseness(hunt, n, k))
+    change = 2.0 if worst * 64.0 < _COARSE else 0.8 * math.sqrt(math.sqrt(_COARSE / worst))
+    if worst > _COARSE and hunt[DIVIDED] < _MOST_DIVISIONS:
+        hunt[DIVIDED] += 1.0
+        hunt[LONGEST] = max(0.3, change) * h
+        return 1
+    if worst > _COARSE:
+        hunt[LONGEST] = 0.0
+    if hunt[LONGEST] > 0.0:
+        hunt[LONGEST] = max(hunt[LONGEST], min(2.0, change) * h)
+    hunt[DIVIDED] = 0.0
+    return 0
+
+
+@plain
 def dip_between(hunt: A, n: int, k: int, x0: float, g0: float, d0: float, x1: float, g1: float, d1: float) -> float:
     """Return a time at which g may be on the other side although both ends of a part are on one; inf where it is not.
 
     Both ends are at the times x0 and x1 of the step, with the values and slopes g0, d0, g1 and d1.
     """
     width, side = x1 - x0, side_of(g0 + g1, 1.0)
-    if not (side * d0 < 0.0 and side * d1 > 0.0):
+    if hunt[INSIDE] == 0.0 and not (side * d0 < 0.0 and side * d1 > 0.0):
         return 2.0 * hunt[WHOLE]
     square = width * width
     fourth = _STRICT * fourth_derivative(hunt, n, k, 0.5 * (x0 + x1)) * square * square / 24.0

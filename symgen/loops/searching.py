@@ -18,6 +18,7 @@ from typing import Any
 from symgen.layout import abi
 from symgen.loops.frame_parts import (
     CROWD,
+    DIVIDE,
     DOUBT,
     FAIL,
     HOLD,
@@ -30,7 +31,7 @@ from symgen.loops.frame_parts import (
     TAKE,
     TRY,
 )
-from symgen.loops.inside import concealed, slope_between, slopes_of_forces
+from symgen.loops.inside import concealed, divides, slope_between, slopes_of_forces
 from symgen.loops.search_records import (
     ACCEPTED,
     ACTION,
@@ -71,6 +72,7 @@ from symgen.loops.search_records import (
     POINTS,
     PROBES,
     PROBING,
+    REACH,
     RESOLUTION,
     ROUNDS,
     SIDE,
@@ -93,6 +95,8 @@ _SAME = 1e-6
 _UNCERTAIN, _DEEP = 2.0**-42, 1e-4
 #: Number of switches within this fraction of the time that stall a motion.
 _CROWDED, _HEAP = 50.0, 1e-7
+#: The proposed step of constant ones is infinite.
+_ENDLESS = 1e300
 #: Largest number of rounds in a bracket.
 _MOST_ROUNDS = 200
 
@@ -363,6 +367,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         settle(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
     take_in(hunt, n, h, following, search)
+    if search == NOTHING and hunt[INSIDE] > 0.0 and hunt[REACH] < _ENDLESS and divides(hunt, n, h) == 1:
+        return DIVIDE
     if search == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
     if search == DOUBT and crossed(hunt, n, G_HIGH, NOTE) < ANEW:

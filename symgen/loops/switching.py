@@ -126,14 +126,19 @@ def dip(g0: float, d0: float, g1: float, d1: float, side: float, fourth: float, 
 
     It is the extremum of the cubic, or, as conditions of several parts have corners, the intersection of the tangents:
     the first of the two, as the rest is examined again. At x the cubic errs by fourth x^2 (1 - x)^2, at most by `most`.
+    Where slopes at both ends do not show a dip, it has one only if this error is known.
     """
-    if not (side * d0 < 0.0 and side * d1 > 0.0):
+    least, first, between = -_ROUNDING * (abs(g0) + abs(g1)), 2.0, 1 if side * d0 < 0.0 and side * d1 > 0.0 else 0
+    if between == 0 and not fourth > 0.0:
         return 2.0
-    least, x, first = -_ROUNDING * (abs(g0) + abs(g1)), extremum(g0, d0, g1, d1, 0), 2.0
-    if x < 1.0:
-        both = x * (1.0 - x)
-        if side * cubic(g0, d0, g1, d1, x) < least + min(fourth * both * both, most):
-            first = x
+    for which in range(2):
+        x = extremum(g0, d0, g1, d1, which)
+        if x < first:
+            both = x * (1.0 - x)
+            if side * cubic(g0, d0, g1, d1, x) < least + min(fourth * both * both, most):
+                first = x
+    if between == 0:
+        return first
     x = (g1 - d1 - g0) / (d0 - d1)
     return min(first, x) if x > 0.0 and side * (g0 + d0 * x) < least else first
 

@@ -27,6 +27,7 @@ from symgen.loops.search_records import (
     HIGH,
     INSIDE,
     LEVEL,
+    LONGEST,
     MISSED,
     N_COLUMNS,
     N_HEAD,
@@ -223,10 +224,11 @@ def aim(hunt: A, n: int, h: float) -> int:
             t = time_to(distance, rate, curve, 1)
             if t > least and t < first:
                 first = t
-    if first < 2.0 * h:
-        hunt[TRY] = first if first <= h else 0.5 * first
-    else:
-        hunt[TRY] = h
+    hunt[TRY] = h
+    if hunt[LONGEST] > 0.0 and h > hunt[LONGEST]:
+        hunt[TRY] = hunt[LONGEST]
+    if first < 2.0 * hunt[TRY]:
+        hunt[TRY] = first if first <= hunt[TRY] else 0.5 * first
     return 0
 
 

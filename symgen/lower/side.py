@@ -24,7 +24,6 @@ from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
 from symgen.vocabulary.quantities import Quantity
 
-
 #: Inputs of formulas that rates along the motion take as constant.
 FORCES = frozenset({"ydot", "multipliers", JAMMING})
 
