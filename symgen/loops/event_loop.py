@@ -26,7 +26,7 @@ from symgen.loops.frame_parts import correct as plain_correct
 from symgen.loops.frame_parts import opened as plain_opened
 from symgen.loops.inside import enter_point, stays_away
 from symgen.loops.searching import remember
-from symgen.loops.switching import cubic, is_quiet
+from symgen.loops.switching import cubic
 from symgen.native import types
 
 Array = NDArray[np.float64]
@@ -89,10 +89,9 @@ def located(system: Any, scheme: Any, run: Any, following: float, h: float, sear
     if search == NOTHING or search == DOUBT:
         hunt[searching.INSIDE] = 0.0
     if search == NOTHING:
-        if stays_away(hunt, n, h) == 0:
-            look_inside(system, scheme, run, following, h)
-        elif is_quiet(hunt, n) == 1:
+        if stays_away(hunt, n, h) == 1:
             return NOTHING
+        look_inside(system, scheme, run, following, h)
     return decided(system, run, following, h, search, run.trial)
 
 

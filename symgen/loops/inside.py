@@ -11,7 +11,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from symgen.loops.frame_parts import LOW
 from symgen.loops.search_records import (
+    ACCEPTED,
+    ACTION,
+    ANEW,
     ASLEEP,
     D_END,
     D_HIGH,
@@ -19,6 +23,7 @@ from symgen.loops.search_records import (
     D_LOW,
     D_START,
     DIVIDED,
+    FIRED,
     G_END,
     G_HIGH,
     G_INSIDE,
@@ -29,22 +34,21 @@ from symgen.loops.search_records import (
     INSIDE,
     LOCAL,
     LONGEST,
-    LOW,
     MEASURE,
     N_COLUMNS,
     N_HEAD,
+    NOTED,
     OF_FORCES,
     PLACES,
-    POINTS,
     PROBES,
     RESOLUTION,
     SIDE,
-    SLOPE_START,
+    SIZE,
     SPREAD,
     STEEPEST,
     WHOLE,
 )
-from symgen.loops.switching import dip, is_finite, side_of, taken_for
+from symgen.loops.switching import dip, is_finite, side_of, taken_for, wake
 from symgen.store.emitted import plain
 
 A = Any
@@ -64,22 +68,35 @@ _COARSE, _NEAR, _MOST_DIVISIONS = 0.01, 20.0, 4.0
 
 @plain
 def stays_away(hunt: A, n: int, h: float) -> int:
-    """Return 1 where no function can be zero inside a step of h, by its slopes at both ends and in the last steps."""
+    """Return 1 where no function can be zero inside a step of h, by its slopes at both ends and in the last steps.
+
+    Then the end of the step becomes the beginning of the next one: most steps of most runs are such, and this replaces
+    the brackets and the search.
+    """
     at, out, away = N_HEAD, N_HEAD + N_COLUMNS * n, 1
     for k in range(n):
-        g0, d0 = hunt[at + G_START * n + k], abs(hunt[at + D_START * n + k])
-        g1, d1 = hunt[out + k] + hunt[at + ASLEEP * n + k], abs(hunt[out + n + k])
-        known = hunt[at + STEEPEST * n + k]
-        if hunt[at + POINTS * n + k] > 0.0:  # distances to the points of a table are not known here
-            g0, g1, d0 = 0.0, 0.0, abs(hunt[at + SLOPE_START * n + k])
-        rise = abs(g1 - g0) / h
-        latest = rise if hunt[at + OF_FORCES * n + k] != 0.0 else max(rise, d1)
-        steepest = max(known, latest if hunt[at + OF_FORCES * n + k] != 0.0 else max(latest, d0))
-        side = hunt[at + SIDE * n + k]
-        if not (known > 0.0 and side * g0 > 0.0 and side * g1 > 0.0 and abs(g0 + g1) > _AWAY * h * steepest):
+        side, known = hunt[at + SIDE * n + k], hunt[at + STEEPEST * n + k]
+        g0, g1 = side * hunt[at + G_START * n + k], side * (hunt[out + k] + hunt[at + ASLEEP * n + k])
+        latest, most = abs(hunt[out + n + k]), known
+        if hunt[at + OF_FORCES * n + k] != 0.0:
+            latest = abs(g1 - g0) / h
+        else:
+            most = max(most, abs(hunt[at + D_START * n + k]))
+        if not (known > 0.0 and g0 > 0.0 and g1 > 0.0 and g0 + g1 > _AWAY * h * max(most, latest)):
             away = 0
-        hunt[at + STEEPEST * n + k] = max(max(_FADING * known, latest), _LEAST) if is_finite(latest) == 1 else 0.0
-    return away
+        if hunt[at + ACTION * n + k] >= float(ANEW) or hunt[at + GRAZING * n + k] != 0.0:
+            away = 0
+        hunt[at + STEEPEST * n + k] = max(max(_FADING * known, latest), _LEAST) if latest - latest == 0.0 else 0.0
+    if away == 0:
+        return 0
+    for k in range(n):
+        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
+        hunt[at + FIRED * n + k] = 0.0
+        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(value))
+        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = value, hunt[out + n + k]
+        wake(hunt, n, k)
+    hunt[ACCEPTED] = hunt[NOTED]
+    return 1
 
 
 @plain
@@ -224,12 +241,13 @@ def coarseness(hunt: A, n: int, k: int) -> float:
 def divides(hunt: A, n: int, h: float) -> int:
     """Return 1 where a step of h is too long: between its inner points a function does what they do not show.
 
-    A few divisions are enough, as corners and jumps of functions do not become smooth.
+    A few divisions are enough, as corners and jumps of functions do not become smooth. Rates jump at switches, which
+    the error of a step shows.
     """
     at, worst = N_HEAD, 0.0
     for k in range(n):
         awake = hunt[at + ASLEEP * n + k] == 0.0 and hunt[at + GRAZING * n + k] == 0.0
-        if awake and hunt[at + POINTS * n + k] == 0.0 and hunt[at + SIDE * n + k] != 0.0:
+        if awake and hunt[at + ACTION * n + k] < float(ANEW) and hunt[at + SIDE * n + k] != 0.0:
             worst = max(worst, coarseness(hunt, n, k))
     change = 2.0 if worst * 64.0 < _COARSE else 0.8 * math.sqrt(math.sqrt(_COARSE / worst))
     if worst > _COARSE and hunt[DIVIDED] < _MOST_DIVISIONS:
@@ -251,13 +269,17 @@ def dip_between(hunt: A, n: int, k: int, x0: float, g0: float, d0: float, x1: fl
     Both ends are at the times x0 and x1 of the step, with the values and slopes g0, d0, g1 and d1.
     """
     width, side = x1 - x0, side_of(g0 + g1, 1.0)
-    if hunt[INSIDE] == 0.0 and not (side * d0 < 0.0 and side * d1 > 0.0):
-        return 2.0 * hunt[WHOLE]
+    # a switch that is touched, as a point of a table at the turn of a sine, is not passed
+    exact = 1 if hunt[INSIDE] == 0.0 or hunt[N_HEAD + ACTION * n + k] >= float(ANEW) else 0
+    if exact == 1 and not (side * d0 < 0.0 and side * d1 > 0.0):
+        return float(2.0 * hunt[WHOLE])
     square = width * width
-    fourth = _STRICT * fourth_derivative(hunt, n, k, 0.5 * (x0 + x1)) * square * square / 24.0
+    fourth = 0.0
+    if exact == 0:
+        fourth = _STRICT * fourth_derivative(hunt, n, k, 0.5 * (x0 + x1)) * square * square / 24.0
     most = _CAP * width * max(abs(d0), abs(d1))
     x = dip(g0, width * d0, g1, width * d1, side, fourth, most)
-    return x0 + x * width if x < 1.0 else 2.0 * hunt[WHOLE]
+    return float(x0 + x * width if x < 1.0 else 2.0 * hunt[WHOLE])
 
 
 @plain
@@ -271,7 +293,7 @@ def hidden(hunt: A, n: int, k: int) -> float:
     x0, g0, d0 = hunt[LOW], hunt[at + G_LOW * n + k], hunt[at + D_LOW * n + k]
     now, there, deepest = side, beyond, -1.0
     if side == 0.0:
-        return beyond
+        return float(beyond)
     for i in range(count + 1):
         x1, g1, d1 = high, hunt[at + G_HIGH * n + k], hunt[at + D_HIGH * n + k]
         if i < count:
@@ -283,13 +305,13 @@ def hidden(hunt: A, n: int, k: int) -> float:
         if after == now and is_finite(d0 + d1) == 1 and now * g0 >= 0.0:
             x = dip_between(hunt, n, k, x0, g0, d0, x1, g1, d1)
             if x > hunt[LOW] + near and x < high - near:  # for a time on the other side
-                return there if now != side else x
+                return float(there if now != side else x)
         if after != now and after == side:
-            return there
+            return float(there)
         if after != side and abs(g1) > deepest:
             there, deepest = x1, abs(g1)
         x0, g0, d0, now = x1, g1, d1, after
-    return beyond
+    return float(beyond)
 
 
 @plain

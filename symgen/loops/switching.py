@@ -7,7 +7,6 @@ from typing import Any
 
 from symgen.loops.frame_parts import LOW
 from symgen.loops.search_records import (
-    ACCEPTED,
     ACTION,
     ANEW,
     ASLEEP,
@@ -16,7 +15,6 @@ from symgen.loops.search_records import (
     D_LOW,
     D_START,
     DIRECTION,
-    FIRED,
     G_HIGH,
     G_LOW,
     G_START,
@@ -25,10 +23,8 @@ from symgen.loops.search_records import (
     LOCAL,
     N_COLUMNS,
     N_HEAD,
-    NOTED,
     ROUNDS,
     SIDE,
-    SIZE,
     WHOLE,
     WIDTH,
 )
@@ -239,28 +235,3 @@ def taken_for(hunt: A, n: int, k: int, h: float) -> float:
     before = abs(hunt[at + G_START * n + k])
     near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
     return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)
-
-
-@plain
-def is_quiet(hunt: A, n: int) -> int:
-    """Return 1 where no event can lie in a whole step, and make its end the beginning of the next one; else 0.
-
-    All functions end on the sides on which they begin, and none dips in between (`dip`). Most
-    steps of most runs are such: this one pass replaces the brackets and the search.
-    """
-    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    for k in range(n):
-        side, rate = hunt[at + SIDE * n + k], hunt[at + D_START * n + k]
-        if hunt[at + ACTION * n + k] >= float(ANEW) or hunt[at + GRAZING * n + k] != 0.0:
-            return 0
-        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
-        if not (side * value > 0.0 and (side * rate >= 0.0 or side * hunt[out + n + k] <= 0.0)):
-            return 0
-    for k in range(n):
-        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
-        hunt[at + FIRED * n + k] = 0.0
-        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(value))
-        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = value, hunt[out + n + k]
-        wake(hunt, n, k)
-    hunt[ACCEPTED] = hunt[NOTED]
-    return 1

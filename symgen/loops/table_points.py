@@ -93,11 +93,18 @@ def interval_at(hunt: A, n: int, k: int, s: float, rate: float) -> int:
 
 
 @plain
-def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> int:
-    """Return 1 where s is practically at point number i in a step of h, else 0."""
+def is_near(hunt: A, n: int, k: int, i: int, s: float) -> int:
+    """Return 1 where s is so near to point number i that inside a step it may be touched, else 0."""
     here = point(hunt, n, k, i)
     near = min(here - point(hunt, n, k, i - 1), point(hunt, n, k, i + 1) - here)
-    return 1 if abs(here - s) <= min(_REACHED * near, hunt[N_HEAD + MISSED * n + k] * h * abs(rate)) else 0
+    return 1 if abs(here - s) <= _REACHED * near else 0
+
+
+@plain
+def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> int:
+    """Return 1 where s is practically at point number i in a step of h, else 0."""
+    far = abs(point(hunt, n, k, i) - s)
+    return 1 if is_near(hunt, n, k, i, s) == 1 and far <= hunt[N_HEAD + MISSED * n + k] * h * abs(rate) else 0
 
 
 @plain
@@ -120,7 +127,9 @@ def face(hunt: A, n: int, k: int, h: float) -> int:
     low, high = point(hunt, n, k, int(place)), point(hunt, n, k, int(place) + 1)
     for i in range(int(hunt[INSIDE])):  # it may have come back
         between = hunt[N_HEAD + (G_INSIDE + i) * n + k]
-        if s > low and s < high and (between < low or between > high):
+        passed = int(place) if between < low else int(place) + 1
+        out = 1 if s > low and s < high and (between < low or between > high) else 0
+        if out == 1 and is_near(hunt, n, k, passed, between) == 0:
             s = between
     up = 1 if s >= high or (s >= low and rate >= 0.0) else 0
     way, level = 1.0 if up == 1 else -1.0, high if up == 1 else low
@@ -247,7 +256,10 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
             way = hunt[at + WAY * n + k]
             for i in range(int(hunt[INSIDE]) if search == NOTHING else 0):
                 g, d = at + (G_INSIDE + i) * n + k, at + (D_INSIDE + i) * n + k
-                hunt[g], hunt[d] = way * (hunt[at + LEVEL * n + k] - hunt[g]), -way * hunt[d]
+                faced = int(hunt[at + PLACE * n + k]) + (1 if way > 0.0 else 0)
+                near = is_near(hunt, n, k, faced, hunt[g])
+                hunt[g] = 0.0 if near == 1 else way * (hunt[at + LEVEL * n + k] - hunt[g])
+                hunt[d] *= -way
             hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
         hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
         if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:
