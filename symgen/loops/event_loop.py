@@ -21,7 +21,7 @@ from symgen.loopcode.loop_instances import called, compiled_loop
 from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching
-from symgen.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, inside
+from symgen.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate, inside
 from symgen.loops.frame_parts import correct as plain_correct
 from symgen.loops.frame_parts import opened as plain_opened
 from symgen.loops.inside import enter_point, stays_away
@@ -131,9 +131,7 @@ def rates_at_ends(system: Any, run: Any, t: float, following: float) -> None:
     state = part(hunt, first, width)
     for end in range(2):
         copied(width, run.trial if end == 1 else run.y, state)
-        rate, now = part(hunt, first + (3 + end) * width, width), following if end == 1 else t
-        if system.rates(now, state, run.p, run.w, run.iw, rate) != 0:
-            system.confirm(now, state, run.p, run.w, run.iw, rate)
+        evaluate(system, run, following if end == 1 else t, state, part(hunt, first + (3 + end) * width, width))
         run.control[abi.EVALUATIONS] += 1
 
 
