@@ -252,7 +252,7 @@ def judge_state(
             verdict = AGAIN
         elif search == DIVIDE:
             verdict = REFUSE
-            run.clock[abi.NEXT] = 0.5 * h
+            run.clock[abi.NEXT] = run.hunt[TRY]
         elif search == FAIL:
             run.clock[abi.TIME] = following
             verdict = abi.UNDEFINED

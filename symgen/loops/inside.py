@@ -11,12 +11,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from symgen.loops.frame_parts import LOW
+from symgen.loops.frame_parts import LOW, TRY
 from symgen.loops.search_records import (
     ACCEPTED,
     ACTION,
     ANEW,
     ASLEEP,
+    COARSEST,
     D_END,
     D_HIGH,
     D_INSIDE,
@@ -62,8 +63,8 @@ _UNCORRECTED = 1e-6
 #: Largest number of attempts at such points up to an event.
 _MOST_PROBES = 24
 #: A step is too long with more than this error of cubics between its points, over the range of a function that is
-#: nearer to zero than this multiple of it; largest number of divisions of a step.
-_COARSE, _NEAR, _MOST_DIVISIONS = 0.01, 20.0, 4.0
+#: nearer to zero than this multiple of it; number of divisions without a gain after which there are none.
+_COARSE, _NEAR, _IN_VAIN = 0.01, 20.0, 3.0
 
 
 @plain
@@ -96,6 +97,8 @@ def stays_away(hunt: A, n: int, h: float) -> int:
         hunt[at + G_START * n + k], hunt[at + D_START * n + k] = value, hunt[out + n + k]
         wake(hunt, n, k)
     hunt[ACCEPTED] = hunt[NOTED]
+    if hunt[LONGEST] > 0.0:
+        hunt[LONGEST] = max(hunt[LONGEST], 2.0 * h)
     return 1
 
 
@@ -241,8 +244,9 @@ def coarseness(hunt: A, n: int, k: int) -> float:
 def divides(hunt: A, n: int, h: float) -> int:
     """Return 1 where a step of h is too long: between its inner points a function does what they do not show.
 
-    A few divisions are enough, as corners and jumps of functions do not become smooth. Rates jump at switches, which
-    the error of a step shows.
+    The next attempt is then set.
+    Divisions that gain nothing end, as corners and jumps of functions do not become smooth: until inner points show the
+    functions again no step is divided. Rates jump at switches, which the error of a step shows.
     """
     at, worst = N_HEAD, 0.0
     for k in range(n):
@@ -250,16 +254,20 @@ def divides(hunt: A, n: int, h: float) -> int:
         if awake and hunt[at + ACTION * n + k] < float(ANEW) and hunt[at + SIDE * n + k] != 0.0:
             worst = max(worst, coarseness(hunt, n, k))
     change = 2.0 if worst * 64.0 < _COARSE else 0.8 * math.sqrt(math.sqrt(_COARSE / worst))
-    if worst > _COARSE and hunt[DIVIDED] < _MOST_DIVISIONS:
-        hunt[DIVIDED] += 1.0
-        hunt[LONGEST] = max(0.3, change) * h
-        return 1
-    if worst > _COARSE:
-        hunt[LONGEST] = 0.0
-    if hunt[LONGEST] > 0.0:
-        hunt[LONGEST] = max(hunt[LONGEST], min(2.0, change) * h)
-    hunt[DIVIDED] = 0.0
-    return 0
+    before = hunt[COARSEST]
+    hunt[COARSEST] = worst
+    if worst <= _COARSE:
+        hunt[COARSEST], hunt[DIVIDED] = 0.0, 0.0
+        if hunt[LONGEST] > 0.0:
+            hunt[LONGEST] = max(hunt[LONGEST], min(2.0, change) * h)
+        return 0
+    if hunt[DIVIDED] >= 0.0:
+        hunt[DIVIDED] = hunt[DIVIDED] + 1.0 if before > 0.0 and worst > 0.5 * before else 0.0
+    if hunt[DIVIDED] < 0.0 or hunt[DIVIDED] >= _IN_VAIN:
+        hunt[DIVIDED], hunt[LONGEST] = -1.0, 0.0
+        return 0
+    hunt[LONGEST] = hunt[TRY] = max(0.3, change) * h
+    return 1
 
 
 @plain

@@ -22,9 +22,10 @@ PROBES, ROUNDS, WIDTH, NOTED, ACCEPTED, PASSED, SINCE, REACH, TABLES, BLUR = ran
 BEGINNING, WENT, MOVED, SPED = range(LOW + 17, LOW + 21)
 #: ... number of inner points of the step at which functions are known (0: only at its ends), 1 where the next attempt
 #: ends at a point at which a function may be on its other side, the longest step whose inner points show functions (0:
-#: unlimited), refusals of the present step because they do not, times of the inner points behind the beginning of the
+#: unlimited), refusals of steps because they do not, without a gain (-1: no step is refused any more), how badly they
+#: show them in the last refused step, times of the inner points behind the beginning of the
 #: step [s], and working memory for slopes by differences.
-INSIDE, PROBING, LONGEST, DIVIDED, PLACES = range(LOW + 21, LOW + 26)
+INSIDE, PROBING, LONGEST, DIVIDED, COARSEST, PLACES = range(LOW + 21, LOW + 27)
 #: Number of inner points of a step.
 N_INSIDE = 7
 SPREAD = PLACES + N_INSIDE
