@@ -24,7 +24,9 @@ def random_functions(rng: np.random.Generator) -> tuple[dict[str, dict[str, str]
         events[f"g{k}"] = {"when": f"{' + '.join(sines)} - {level}", "direction": "any"}
 
         def g(t: Any, fast: Any = fast, shifts: Any = shifts, level: float = level) -> Any:
-            return sum(size * np.sin(a * t + b) for size, a, b in zip((1.0, 0.8, 0.5), fast, shifts, strict=True)) - level
+            return (
+                sum(size * np.sin(a * t + b) for size, a, b in zip((1.0, 0.8, 0.5), fast, shifts, strict=True)) - level
+            )
 
         functions.append(g)
     return events, functions
