@@ -60,6 +60,7 @@ def compile_events(
         actions=tuple(event.action for event in events),
         function=side.function,
         needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
+        of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
         effects=effects_of(mechanism, compiled, events),
         switches=tuple(switch_of(x, 1.0 if rtol is None else rtol) for x in passed),
         jumps=any(x.jumps for x in passed),

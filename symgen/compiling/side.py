@@ -55,12 +55,15 @@ class Side:
         Names of the elements of ``out``.
     reads : frozenset of str
         Inputs: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``.
+    of_forces : frozenset of int
+        Numbers of the elements that depend on accelerations or forces.
     """
 
     function: Any
     path: Path
     labels: tuple[str, ...]
     reads: frozenset[str]
+    of_forces: frozenset[int] = frozenset()
 
     @cached_property
     def plain(self) -> Any:
@@ -145,11 +148,12 @@ def compile_side(
 
         with finite_numbers(purpose):
             program = lower_side(mechanism, name, purpose, formulas, around, rates, sizes)
-        return emit_side(program), {"reads": list(program.reads)}
+        return emit_side(program), {"reads": list(program.reads), "of_forces": list(program.of_forces)}
 
     identity = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
     metadata, path = module_beside(mechanism, name, identity, make)
-    return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))
+    reads, of_forces = frozenset(metadata["reads"]), frozenset(metadata["of_forces"])
+    return Side(getattr(load_module(path), name), path, tuple(labels), reads, of_forces)
 
 
 def can_integrate(compiled: CompiledModel) -> bool:

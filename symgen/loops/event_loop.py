@@ -21,11 +21,12 @@ from symgen.loopcode.loop_instances import called, compiled_loop
 from symgen.loopcode.vectors import copied
 from symgen.loops import frame
 from symgen.loops import search_records as searching
-from symgen.loops.frame_parts import LOOK, NOTHING, REMEMBER, TRY
+from symgen.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate, inside
 from symgen.loops.frame_parts import correct as plain_correct
 from symgen.loops.frame_parts import opened as plain_opened
+from symgen.loops.inside import enter_point, stays_away
 from symgen.loops.searching import remember
-from symgen.loops.switching import is_quiet
+from symgen.loops.switching import cubic
 from symgen.native import types
 
 Array = NDArray[np.float64]
@@ -81,12 +82,68 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
         decided(system, run, t, 0.0, searching.GIVE_BACK, y)
 
 
-def located(system: Any, run: Any, following: float, h: float, search: int) -> int:
+def located(system: Any, scheme: Any, run: Any, following: float, h: float, search: int) -> int:
     """Search an acceptable step for events; return the decision of `decide`."""
+    hunt, n = run.hunt, int(run.hunt[searching.COUNT])
     evaluate_events(system, run, following, run.trial)
-    if search == NOTHING and is_quiet(run.hunt, int(run.hunt[searching.COUNT])) == 1:
-        return NOTHING
+    if search == NOTHING or search == DOUBT:
+        hunt[searching.INSIDE] = 0.0
+    if search == NOTHING:
+        if stays_away(hunt, n, h) == 1:
+            return NOTHING
+        look_inside(system, scheme, run, following, h)
     return decided(system, run, following, h, search, run.trial)
+
+
+@called
+def look_inside(system: Any, scheme: Any, run: Any, following: float, h: float) -> None:
+    """Evaluate switching functions at inner points of the motion in a good attempt; those at its end are kept."""
+    hunt, n, width, t = run.hunt, int(run.hunt[searching.COUNT]), system.sizes.width, run.clock[abi.TIME]
+    m = searching.N_VALUES * n
+    first = searching.N_HEAD + searching.N_COLUMNS * n
+    out, y = part(hunt, first, m), part(hunt, first + m + 2 * width, width)
+    kept = part(hunt, searching.N_HEAD + searching.AT_END * n, m)
+    copied(width, run.trial, y)
+    decided(system, run, following, 0.0, searching.KEEP, run.trial)
+    x = inside(system, scheme, run, t, following, h, 0, y)
+    own = x > 0.0
+    if not own:
+        rates_at_ends(system, run, t, following)
+    decided(system, run, following, 0.0, searching.GIVE_BACK, run.trial)
+    for j in range(m):
+        kept[j] = out[j]
+    for i in range(searching.N_INSIDE):
+        if own and i > 0:
+            x = inside(system, scheme, run, t, following, h, i, y)
+        elif not own:
+            x = between_ends(system, run, h, i, y)
+        evaluate_events(system, run, t + x * h, y)
+        enter_point(hunt, n, x * h)
+    for j in range(m):
+        out[j] = kept[j]
+
+
+@called
+def rates_at_ends(system: Any, run: Any, t: float, following: float) -> None:
+    """Evaluate rates at both ends of a step."""
+    width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
+    first = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n
+    state = part(hunt, first, width)
+    for end in range(2):
+        copied(width, run.trial if end == 1 else run.y, state)
+        evaluate(system, run, following if end == 1 else t, state, part(hunt, first + (3 + end) * width, width))
+        run.control[abi.EVALUATIONS] += 1
+
+
+def between_ends(system: Any, run: Any, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at inner point i of the cubic through both ends of a step; return its part of the step."""
+    width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
+    first = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n
+    before, after = part(hunt, first + 3 * width, width), part(hunt, first + 4 * width, width)
+    x = (i + 1.0) / (searching.N_INSIDE + 1.0)
+    for j in range(system.sizes.ny):
+        y[j] = cubic(run.y[j], h * before[j], run.trial[j], h * after[j], x)
+    return x
 
 
 def prepare_search(system: Any, run: Any, doing: int) -> int:
@@ -150,7 +207,12 @@ def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
 
 def notes_at(n: int, width: int, nw: int) -> int:
     """Return the index of the first note."""
-    return searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
+    return (
+        searching.N_HEAD
+        + (searching.N_COLUMNS + searching.N_VALUES) * n
+        + searching.N_STATES * width
+        + 2 * (nw + abi.N_COUNTERS)
+    )
 
 
 _MEANINGS: dict[str, Any] = {
@@ -210,7 +272,7 @@ def undefined_event(state: Any) -> int:
 def beginning_of(hunt: Array, width: int, nw: int) -> tuple[float, Array, Array]:
     """Return time, state and ``w`` at the beginning of the last step."""
     n, at = int(hunt[searching.COUNT]), int(hunt[searching.BEGINNING])
-    kept = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + 2 * width
+    kept = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n + searching.N_STATES * width
     return float(hunt[at]), hunt[at + 1 :][:width].copy(), hunt[kept:][:nw].copy()
 
 

@@ -21,6 +21,7 @@ from symgen.loops.frame_parts import (
     ADAPTIVE,
     CROWD,
     DENSE,
+    DIVIDE,
     DOUBT,
     EVENTS,
     FAIL,
@@ -161,7 +162,7 @@ def choose_step(
 
 
 def judge_attempt(
-    system: Any, span: Any, run: Any, step: Any, error: float, search: int, doubtful: bool
+    system: Any, scheme: Any, span: Any, run: Any, step: Any, error: float, search: int, doubtful: bool
 ) -> tuple[int, int, bool]:
     """Judge the attempt at a step by its error estimate.
 
@@ -201,7 +202,7 @@ def judge_attempt(
     elif ADAPTIVE and not good and not between:
         if EVENTS and (search == NOTHING or doubtful):
             if search != TAKE and math.isfinite(error):  # a switch inside may cause the error
-                search = located(system, run, following, h, DOUBT if search == NOTHING else search)
+                search = located(system, scheme, run, following, h, DOUBT if search == NOTHING else search)
                 doubtful = search != NOTHING
                 if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
                     verdict = AGAIN
@@ -219,7 +220,9 @@ def judge_attempt(
     return verdict, search, doubtful
 
 
-def judge_state(system: Any, run: Any, h: float, following: float, bits: int, search: int) -> tuple[int, int]:
+def judge_state(
+    system: Any, scheme: Any, run: Any, h: float, following: float, bits: int, search: int
+) -> tuple[int, int]:
     """Judge the state at the end of a good attempt: its correction, and events that its step may pass.
 
     Parameters
@@ -244,9 +247,12 @@ def judge_state(system: Any, run: Any, h: float, following: float, bits: int, se
         run.control[abi.BARRED] = 1
         run.clock[abi.NEXT] = 0.5 * h
     elif EVENTS:
-        search = located(system, run, following, h, search)
+        search = located(system, scheme, run, following, h, search)
         if search == SEEK or search == TAKE:
             verdict = AGAIN
+        elif search == DIVIDE:
+            verdict = REFUSE
+            run.clock[abi.NEXT] = run.hunt[TRY]
         elif search == FAIL:
             run.clock[abi.TIME] = following
             verdict = abi.UNDEFINED
@@ -377,7 +383,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         kinetic, potential = run.w[abi.KINETIC], run.w[abi.POTENTIAL]
         error = attempt(system, scheme, span, run, t, following, h, probing)
         step = h, following, between, crossing
-        code, search, doubtful = judge_attempt(system, span, run, step, error, search, doubtful)
+        code, search, doubtful = judge_attempt(system, scheme, span, run, step, error, search, doubtful)
         if code == abi.DONE:
             bits = correct(system, run, following, run.trial, probing)
             if between:
@@ -385,7 +391,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
                 # the work's error is judged by the energies at the beginning of the step, whatever outputs it has
                 run.w[abi.KINETIC], run.w[abi.POTENTIAL] = kinetic, potential
                 continue
-            code, search = judge_state(system, run, h, following, bits, search)
+            code, search = judge_state(system, scheme, run, h, following, bits, search)
         if code == AGAIN:
             continue
         if code == REFUSE:

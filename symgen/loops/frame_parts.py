@@ -7,7 +7,8 @@
 | `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
 | `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
-| `located` | system, run, following, h, search | tests whether an event lies inside an acceptable step |
+| `inside` | system, scheme, run, t, following, h, i, y | a state inside a good attempt |
+| `located` | system, scheme, run, following, h, search | tests whether an event lies inside an acceptable step |
 | `prepare_search` | system, run, doing | other work of `symgen.loops.event_loop`: `LOOK`, `REMEMBER`, `RECALL` |
 | `step_to_point` | system, run, h | the step to try: `h`, or one that ends where a point of a table is passed |
 | `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
@@ -44,8 +45,9 @@ EVENTS = False
 DIVERGED, TOO_LARGE = -1.0, -2.0
 #: Results of `located`: no event; an event, so that shorter steps locate it; the same, and the next attempt is taken;
 #: the state ends in an event; little room for more notes; a comparison in formulas changes, so that the scheme begins
-#: anew; the motion is held at such a switch, which it crosses to and fro; a condition is undefined.
-NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, FAIL = range(8)
+#: anew; the motion is held at such a switch, which it crosses to and fro; the step is too long to show its events; a
+#: condition is undefined.
+NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, DIVIDE, FAIL = range(9)
 #: Test of a step that is not good enough: whether its error is that of a switch inside, which is then sought.
 DOUBT = FAIL + 1
 #: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the
@@ -78,7 +80,15 @@ def interpolate(
     """Stand for the dense output of a scheme."""
 
 
-def located(system: Any, run: Any, following: float, h: float, search: int) -> int:
+def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at inner point i of a good attempt, before its correction; return its part of the step.
+
+    0 where the scheme has none: then states are those of a cubic through both ends and their rates.
+    """
+    return 0.0
+
+
+def located(system: Any, scheme: Any, run: Any, following: float, h: float, search: int) -> int:
     """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
     return NOTHING
 

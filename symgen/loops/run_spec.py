@@ -142,6 +142,8 @@ class Watched:
         Whether steps are adaptive: these end at switches, constant ones behind them.
     bounded : BoundedRows or None
         Rows whose forces have bounds.
+    of_forces : tuple of int
+        Numbers of the functions that depend on accelerations or forces, whose rates count these as constant.
     """
 
     names: tuple[str, ...]
@@ -155,6 +157,7 @@ class Watched:
     rows: ChangingRows | None = None
     adaptive: bool = True
     bounded: BoundedRows | None = None
+    of_forces: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from typing import Any
 from symgen.layout import abi
 from symgen.loops.frame_parts import (
     CROWD,
+    DIVIDE,
     DOUBT,
     FAIL,
     HOLD,
@@ -30,6 +31,7 @@ from symgen.loops.frame_parts import (
     TAKE,
     TRY,
 )
+from symgen.loops.inside import concealed, divides, slope_between, slopes_of_forces
 from symgen.loops.search_records import (
     ACCEPTED,
     ACTION,
@@ -52,6 +54,7 @@ from symgen.loops.search_records import (
     GIVE_BACK,
     GRAZING,
     HIGH,
+    INSIDE,
     KEEP,
     LEAVE,
     LOCAL,
@@ -59,6 +62,7 @@ from symgen.loops.search_records import (
     MEASURE,
     N_COLUMNS,
     N_HEAD,
+    N_STATES,
     N_VALUES,
     NOTE,
     NOTED,
@@ -67,6 +71,8 @@ from symgen.loops.search_records import (
     PASSED,
     POINTS,
     PROBES,
+    PROBING,
+    REACH,
     RESOLUTION,
     ROUNDS,
     SIDE,
@@ -74,7 +80,7 @@ from symgen.loops.search_records import (
     SIZE,
     WHOLE,
 )
-from symgen.loops.switching import candidate, concealed, is_at_end, is_sought, passes, side_of, wake
+from symgen.loops.switching import candidate, is_at_end, is_sought, passes, side_of, taken_for, wake
 from symgen.loops.table_points import SHORT_OF, aim, arrive, bend, ends_near, is_before, switch_values
 from symgen.store.emitted import plain
 
@@ -89,6 +95,8 @@ _SAME = 1e-6
 _UNCERTAIN, _DEEP = 2.0**-42, 1e-4
 #: Number of switches within this fraction of the time that stall a motion.
 _CROWDED, _HEAP = 50.0, 1e-7
+#: The proposed step of constant ones is infinite.
+_ENDLESS = 1e300
 #: Largest number of rounds in a bracket.
 _MOST_ROUNDS = 200
 
@@ -157,26 +165,12 @@ def crossed(hunt: A, n: int, column: int, least: int) -> int:
 
 
 @plain
-def taken_for(hunt: A, n: int, k: int, h: float) -> float:
-    """Return g at the trial state, counted as on the side of the run until g has reached that side.
-
-    A margin that sleeps counts with what lifts it above its rounding.
-    """
-    at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
-    if hunt[at + ASLEEP * n + k] > 0.0:
-        return float(g + hunt[at + ASLEEP * n + k])
-    before = abs(hunt[at + G_START * n + k])
-    near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
-    return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)
-
-
-@plain
 def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
     """Copy the values at the trial state, which stand behind the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     if search == NOTHING or search == DOUBT:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
-        hunt[PROBES] = hunt[ROUNDS] = 0.0
+        hunt[PROBES] = hunt[ROUNDS] = hunt[PROBING] = 0.0
         hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
         hunt[BLUR] = hunt[RESOLUTION]
         for k in range(n):
@@ -186,8 +180,12 @@ def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
             value = taken_for(hunt, n, k, h)
             hunt[at + G_HIGH * n + k], hunt[at + G_END * n + k] = value, value
             hunt[at + D_HIGH * n + k], hunt[at + D_END * n + k] = hunt[out + n + k], hunt[out + n + k]
+        if hunt[INSIDE] > 0.0:
+            slopes_of_forces(hunt, n)
         return 0
-    inside = 1 if h == hunt[HIGH] else 0
+    # where a function may have dipped, the bracket ends, so that what is before that point is examined as well
+    inside = 1 if h == hunt[HIGH] or hunt[PROBING] != 0.0 else 0
+    hunt[PROBING] = 0.0
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
         inside = max(inside, is_sought(hunt[at + DIRECTION * n + k], side, side_of(taken_for(hunt, n, k, h), side)))
@@ -196,7 +194,7 @@ def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
         if inside == 0:
             hunt[at + LOCAL * n + k] = side_of(taken_for(hunt, n, k, h), hunt[at + LOCAL * n + k])
         hunt[at + g * n + k] = taken_for(hunt, n, k, h)
-        hunt[at + d * n + k] = hunt[out + n + k]
+        hunt[at + d * n + k] = slope_between(hunt, n, k, h, hunt[out + n + k])
     hunt[HIGH if inside == 1 else LOW] = h
     return 0
 
@@ -288,7 +286,7 @@ def remember(hunt: A, n: int, t: float, width: int, y: A, nw: int, w: A, iw: A) 
         hunt[at] = t
         for j in range(width):
             hunt[at + 1 + j] = y[j]
-    return int(keep(hunt, N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width, nw, w, iw))
+    return int(keep(hunt, N_HEAD + (N_COLUMNS + N_VALUES) * n + N_STATES * width, nw, w, iw))
 
 
 @plain
@@ -357,7 +355,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             return int(look(hunt, n))
         if search == AIM:
             return int(aim(hunt, n, h))
-        first = N_HEAD + (N_COLUMNS + N_VALUES) * n + 2 * width
+        first = N_HEAD + (N_COLUMNS + N_VALUES) * n + N_STATES * width
         size = (notes - first) // 2
         first += size if search == KEEP or search == GIVE_BACK else 0
         if search == KEEP:
@@ -369,6 +367,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         settle(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
     take_in(hunt, n, h, following, search)
+    if search == NOTHING and hunt[INSIDE] > 0.0 and hunt[REACH] < _ENDLESS and divides(hunt, n, h) == 1:
+        return DIVIDE
     if search == TAKE:
         return int(ended(hunt, n, notes, following, width, y))
     if search == DOUBT and crossed(hunt, n, G_HIGH, NOTE) < ANEW:
@@ -388,7 +388,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
                 hunt[TRY] = candidate(hunt, n)
                 if there < hunt[TRY]:  # another event may come first, and be over by then
                     hunt[PROBES] += 1.0
-                    hunt[TRY] = there
+                    hunt[TRY], hunt[PROBING] = there, 1.0
                 hunt[ROUNDS] += 1.0
                 return SEEK
             # where notes have to be taken to make room for others, the step ends here as well
@@ -409,7 +409,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         if there < high:
             hunt[PROBES] += 1.0
             hunt[ROUNDS] = 0.0
-            hunt[TRY] = there
+            hunt[TRY], hunt[PROBING] = there, 1.0
             return SEEK
         if high >= hunt[WHOLE]:
             break

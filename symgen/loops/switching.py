@@ -7,7 +7,6 @@ from typing import Any
 
 from symgen.loops.frame_parts import LOW
 from symgen.loops.search_records import (
-    ACCEPTED,
     ACTION,
     ANEW,
     ASLEEP,
@@ -16,7 +15,6 @@ from symgen.loops.search_records import (
     D_LOW,
     D_START,
     DIRECTION,
-    FIRED,
     G_HIGH,
     G_LOW,
     G_START,
@@ -25,12 +23,8 @@ from symgen.loops.search_records import (
     LOCAL,
     N_COLUMNS,
     N_HEAD,
-    NOTED,
-    PROBES,
-    RESOLUTION,
     ROUNDS,
     SIDE,
-    SIZE,
     WHOLE,
     WIDTH,
 )
@@ -43,8 +37,6 @@ _ITERATIONS = 60
 _ROUNDING = 1e-14
 #: Factor by which the final bracket grows each time that the root seems to be at an end of it.
 _WIDER = 8.0
-#: Largest number of attempts at extrema in a bracket.
-_MOST_PROBES = 12
 
 
 @plain
@@ -125,17 +117,24 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
 
 
 @plain
-def dip(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
+def dip(g0: float, d0: float, g1: float, d1: float, side: float, fourth: float, most: float) -> float:
     """Return a position where g may be on the other side although both ends are on this one; 2 where it is not.
 
     It is the extremum of the cubic, or, as conditions of several parts have corners, the intersection of the tangents:
-    the first of the two, as the rest is examined again.
+    the first of the two, as the rest is examined again. At x the cubic errs by fourth x^2 (1 - x)^2, at most by `most`.
+    Where slopes at both ends do not show a dip, it has one only if this error is known.
     """
-    if not (side * d0 < 0.0 and side * d1 > 0.0):
+    least, first, between = -_ROUNDING * (abs(g0) + abs(g1)), 2.0, 1 if side * d0 < 0.0 and side * d1 > 0.0 else 0
+    if between == 0 and not fourth > 0.0:
         return 2.0
-    least, x, first = -_ROUNDING * (abs(g0) + abs(g1)), extremum(g0, d0, g1, d1, 0), 2.0
-    if x < 1.0 and side * cubic(g0, d0, g1, d1, x) < least:
-        first = x
+    for which in range(2):
+        x = extremum(g0, d0, g1, d1, which)
+        if x < first:
+            both = x * (1.0 - x)
+            if side * cubic(g0, d0, g1, d1, x) < least + min(fourth * both * both, most):
+                first = x
+    if between == 0:
+        return first
     x = (g1 - d1 - g0) / (d0 - d1)
     return min(first, x) if x > 0.0 and side * (g0 + d0 * x) < least else first
 
@@ -215,21 +214,6 @@ def is_at_end(hunt: A, n: int) -> int:
 
 
 @plain
-def concealed(hunt: A, n: int) -> float:
-    """Return the point of a bracket to try for events that its end does not show; its end without such events."""
-    at = N_HEAD
-    low, high = hunt[LOW], hunt[HIGH]
-    x = 2.0
-    if hunt[PROBES] < _MOST_PROBES and high - low > 8.0 * hunt[RESOLUTION]:
-        for k in range(n):
-            g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
-            d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
-            if is_finite(d0 + d1) == 1 and passes(hunt, n, k, G_HIGH) == 0:
-                x = min(x, dip(g0, d0, g1, d1, hunt[at + LOCAL * n + k]))
-    return float(low + x * (high - low)) if x < 1.0 else float(high)
-
-
-@plain
 def wake(hunt: A, n: int, k: int) -> int:
     """Wake a sleeping margin that has left rounding by the end of a step."""
     asleep = hunt[N_HEAD + ASLEEP * n + k]
@@ -240,25 +224,14 @@ def wake(hunt: A, n: int, k: int) -> int:
 
 
 @plain
-def is_quiet(hunt: A, n: int) -> int:
-    """Return 1 where no event can lie in a whole step, and make its end the beginning of the next one; else 0.
+def taken_for(hunt: A, n: int, k: int, h: float) -> float:
+    """Return g at the trial state, counted as on the side of the run until g has reached that side.
 
-    All functions end on the sides on which they begin, and none dips in between (`dip`). Most
-    steps of most runs are such: this one pass replaces the brackets and the search.
+    A margin that sleeps counts with what lifts it above its rounding.
     """
-    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    for k in range(n):
-        side, rate = hunt[at + SIDE * n + k], hunt[at + D_START * n + k]
-        if hunt[at + ACTION * n + k] >= float(ANEW) or hunt[at + GRAZING * n + k] != 0.0:
-            return 0
-        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
-        if not (side * value > 0.0 and (side * rate >= 0.0 or side * hunt[out + n + k] <= 0.0)):
-            return 0
-    for k in range(n):
-        value = hunt[out + k] + hunt[at + ASLEEP * n + k]
-        hunt[at + FIRED * n + k] = 0.0
-        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(value))
-        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = value, hunt[out + n + k]
-        wake(hunt, n, k)
-    hunt[ACCEPTED] = hunt[NOTED]
-    return 1
+    at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
+    if hunt[at + ASLEEP * n + k] > 0.0:
+        return float(g + hunt[at + ASLEEP * n + k])
+    before = abs(hunt[at + G_START * n + k])
+    near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
+    return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)

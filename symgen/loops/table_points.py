@@ -17,13 +17,17 @@ from symgen.loops.search_records import (
     ARGUMENT,
     ARGUMENT_START,
     CURVE,
+    D_INSIDE,
     D_START,
     FIRST,
     G_HIGH,
+    G_INSIDE,
     G_START,
     GRAIN,
     HIGH,
+    INSIDE,
     LEVEL,
+    LONGEST,
     MISSED,
     N_COLUMNS,
     N_HEAD,
@@ -89,11 +93,18 @@ def interval_at(hunt: A, n: int, k: int, s: float, rate: float) -> int:
 
 
 @plain
-def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> int:
-    """Return 1 where s is practically at point number i in a step of h, else 0."""
+def is_near(hunt: A, n: int, k: int, i: int, s: float) -> int:
+    """Return 1 where s is so near to point number i that inside a step it may be touched, else 0."""
     here = point(hunt, n, k, i)
     near = min(here - point(hunt, n, k, i - 1), point(hunt, n, k, i + 1) - here)
-    return 1 if abs(here - s) <= min(_REACHED * near, hunt[N_HEAD + MISSED * n + k] * h * abs(rate)) else 0
+    return 1 if abs(here - s) <= _REACHED * near else 0
+
+
+@plain
+def is_met(hunt: A, n: int, k: int, i: int, s: float, rate: float, h: float) -> int:
+    """Return 1 where s is practically at point number i in a step of h, else 0."""
+    far = abs(point(hunt, n, k, i) - s)
+    return 1 if is_near(hunt, n, k, i, s) == 1 and far <= hunt[N_HEAD + MISSED * n + k] * h * abs(rate) else 0
 
 
 @plain
@@ -114,6 +125,12 @@ def face(hunt: A, n: int, k: int, h: float) -> int:
     enter(hunt, n, k, h)
     s, rate, place = hunt[N_HEAD + ARGUMENT * n + k], hunt[N_HEAD + SLOPE_START * n + k], hunt[N_HEAD + PLACE * n + k]
     low, high = point(hunt, n, k, int(place)), point(hunt, n, k, int(place) + 1)
+    for i in range(int(hunt[INSIDE])):  # it may have come back
+        between = hunt[N_HEAD + (G_INSIDE + i) * n + k]
+        passed = int(place) if between < low else int(place) + 1
+        out = 1 if s > low and s < high and (between < low or between > high) else 0
+        if out == 1 and is_near(hunt, n, k, passed, between) == 0:
+            s = between
     up = 1 if s >= high or (s >= low and rate >= 0.0) else 0
     way, level = 1.0 if up == 1 else -1.0, high if up == 1 else low
     hunt[N_HEAD + WAY * n + k], hunt[N_HEAD + LEVEL * n + k] = way, level
@@ -216,10 +233,11 @@ def aim(hunt: A, n: int, h: float) -> int:
             t = time_to(distance, rate, curve, 1)
             if t > least and t < first:
                 first = t
-    if first < 2.0 * h:
-        hunt[TRY] = first if first <= h else 0.5 * first
-    else:
-        hunt[TRY] = h
+    hunt[TRY] = h
+    if hunt[LONGEST] > 0.0 and h > hunt[LONGEST]:
+        hunt[TRY] = hunt[LONGEST]
+    if first < 2.0 * hunt[TRY]:
+        hunt[TRY] = first if first <= hunt[TRY] else 0.5 * first
     return 0
 
 
@@ -236,6 +254,12 @@ def switch_values(hunt: A, n: int, h: float, search: int) -> int:
             if search == NOTHING or search == DOUBT:
                 face(hunt, n, k, h)
             way = hunt[at + WAY * n + k]
+            for i in range(int(hunt[INSIDE]) if search == NOTHING else 0):
+                g, d = at + (G_INSIDE + i) * n + k, at + (D_INSIDE + i) * n + k
+                faced = int(hunt[at + PLACE * n + k]) + (1 if way > 0.0 else 0)
+                near = is_near(hunt, n, k, faced, hunt[g])
+                hunt[g] = 0.0 if near == 1 else way * (hunt[at + LEVEL * n + k] - hunt[g])
+                hunt[d] *= -way
             hunt[out + k], hunt[out + n + k] = way * (hunt[at + LEVEL * n + k] - s), -way * rate
         hunt[at + GRAIN * n + k] = _ROUNDING * hunt[out + 2 * n + k]
         if is_finite(hunt[out + k] + hunt[out + n + k]) == 0:

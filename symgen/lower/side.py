@@ -18,11 +18,14 @@ from symgen.formulate.measures import ModelNodes
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import STATUS, Block, ModelLayout, Target
+from symgen.ir.program import JAMMING, STATUS, Block, ModelLayout, Target
 from symgen.lower.windings import Beside
 from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
 from symgen.vocabulary.quantities import Quantity
+
+#: Inputs of formulas that rates along the motion take as constant.
+FORCES = frozenset({"ydot", "multipliers", JAMMING})
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,13 @@ class SideProgram:
         """Inputs of the function: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
         first = self.blocks[0]
         return tuple(sorted({space for space, _ in first.graph.keys(first.nodes)}))
+
+    @property
+    def of_forces(self) -> tuple[int, ...]:
+        """Numbers of the outputs that depend on accelerations or forces."""
+        first = self.blocks[0]
+        spaces = [{space for space, _ in first.graph.keys([node])} for node in first.nodes]
+        return tuple(i for i, read in enumerate(spaces) if read & FORCES)
 
 
 @dataclass

@@ -42,6 +42,7 @@ def forget_functions(model: Any, state: Any) -> None:
     for i in range(records.N_HEAD + records.SIDE * n, records.N_HEAD + records.N_COLUMNS * n):
         hunt[i] = 0.0
     hunt[records.NOTED] = hunt[records.ACCEPTED] = hunt[records.PASSED] = hunt[records.SINCE] = 0.0
+    hunt[records.LONGEST] = hunt[records.DIVIDED] = hunt[records.COARSEST] = 0.0
     if hunt[records.REACH] < math.inf:  # of adaptive steps
         hunt[records.REACH] = 0.0
 

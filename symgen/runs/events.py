@@ -50,6 +50,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     columns[searching.DIRECTION, :events] = watched.directions
     columns[searching.ACTION, :events] = [action != RECORD for action in watched.actions]
     columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in watched.switches]
+    columns[searching.OF_FORCES, list(watched.of_forces)] = 1.0
     columns[searching.MARGIN, :events], columns[searching.ROW, :events] = margins_of(watched)
     columns[searching.MISSED, events:] = [switch.missed for switch in watched.switches]
     columns[searching.PERIOD, events:] = [switch.period for switch in watched.switches]

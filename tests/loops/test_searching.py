@@ -5,7 +5,7 @@ import pytest
 
 from symgen.layout import abi
 from symgen.loopcode.exact import plain_form
-from symgen.loops import event_loop, frame_parts, search_records, searching, switching
+from symgen.loops import event_loop, frame_parts, inside, search_records, searching, switching
 
 
 def test_the_search_is_in_the_language_of_emitted_code():
@@ -13,7 +13,9 @@ def test_the_search_is_in_the_language_of_emitted_code():
     function = searching.decide.read(abi.DECIDE.signature.arguments)
     called = {f.name: f for f in function.called}
     assert called.keys() >= {"look", "keep", "give_back", "take_in", "candidate", "settle", "concealed"}
-    assert "dip" in {f.name for f in called["concealed"].called}
+    hidden = {f.name: f for f in called["concealed"].called}["hidden"]
+    between = {f.name: f for f in hidden.called}["dip_between"]
+    assert "dip" in {f.name for f in between.called}
 
 
 def test_the_first_root_of_a_cubic_is_numpys():
@@ -70,12 +72,12 @@ def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_c
     assert told(2.0, 1.0, frame_parts.NOTHING) == frame_parts.NOTHING
 
 
-def test_a_quiet_step_is_one_in_which_the_search_finds_nothing():
+def test_a_step_away_from_zero_is_one_in_which_the_search_finds_nothing():
     """Whatever values and rates both ends have: where one pass is enough, the search gives the same sides and ends."""
     rng, quiet, heads = np.random.default_rng(3), 0, search_records.N_HEAD
     kept = ("SIDE", "FIRED", "GRAZING", "SIZE", "G_START", "D_START")
     columns = [getattr(search_records, name) for name in kept]
-    for _ in range(2000):
+    for _ in range(6000):
         ends = [
             [tuple(rng.choice([-1.0, -0.1, 0.0, 0.1, 1.0, np.nan], 2, p=[0.23] * 4 + [0.04] * 2)) for _ in range(2)]
             for _ in range(2)
@@ -85,15 +87,17 @@ def test_a_quiet_step_is_one_in_which_the_search_finds_nothing():
         hunt[direction : direction + 2] = rng.integers(-1, 2, 2)
         told(0.0, 0.0, frame_parts.LOOK)
         once = hunt.copy()
+        steepest = heads + search_records.STEEPEST * 2
+        once[steepest : steepest + 2] = rng.choice([0.0, 0.1, 1.0], 2)
         doing = told(0.3, 0.3, frame_parts.NOTHING)
         values = heads + search_records.N_COLUMNS * 2
         once[values : values + 4] = hunt[values : values + 4]
-        if plain_form(switching.is_quiet)(once, 2) == 1:
+        if plain_form(inside.stays_away)(once, 2, 0.3) == 1:
             quiet += 1
             assert doing == frame_parts.NOTHING and once[search_records.NOTED] == hunt[search_records.NOTED] == 0.0
             both = (h[heads:values].reshape(-1, 2)[columns] for h in (once, hunt))
             np.testing.assert_array_equal(*both)
-    assert 100 < quiet < 1000
+    assert 100 < quiet < 3000
 
 
 def test_a_root_of_a_cubic_takes_one_shorter_step_besides_the_last_one():

@@ -44,6 +44,14 @@ def test_hard_chains(name: str, run: str) -> None:
     assert verdict.outcome in ("right", "coarse"), verdict
 
 
+@pytest.mark.parametrize(("kind", "seed"), [("chain", 31), pytest.param("spatial-chain", 1, marks=pytest.mark.slow)])
+def test_short_sticks_are_found_in_long_steps(kind: str, seed: int) -> None:
+    """Rest of 40 ms between two slips lay inside one step of `picard`: off by 2e-3, and `ok`."""
+    against, (verdict,) = examined(drawn(kind, seed), ("default",))
+    assert isinstance(against, Reference)
+    assert verdict.outcome == "right", verdict
+
+
 @cache
 def simulated(name: str) -> Reference:
     return reference(hard(name), 0.8)

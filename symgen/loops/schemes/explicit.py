@@ -18,6 +18,7 @@ from symgen.loopcode.loop_instances import called
 from symgen.loopcode.vectors import combine, copied, follow, total, weigh
 from symgen.loops.frame import loop
 from symgen.loops.frame_parts import correct, evaluate, store
+from symgen.loops.search_records import N_INSIDE
 from symgen.loops.watch import keep_maxima
 
 #: Largest growth of the allowed step from one step to the next: with more growth the estimate passes through zero. It
@@ -155,6 +156,20 @@ def interpolate(
 
 
 @called
+def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at inner point i of a good attempt by its dense output; return its part of the step."""
+    width, lanes = system.sizes.width, scheme.dense.shape[0] // scheme.degree
+    if i == 0:
+        copied(width, part(run.room, 0, width), y)
+        known = run.control[abi.KNOWN]
+        complete_stages(system, scheme, run, run.memory, y, t, following, h)
+        run.control[abi.KNOWN] = known
+    x = (i + 1.0) / (N_INSIDE + 1.0)
+    read_stages(width, scheme, x, h, run.y, run.memory, part(run.room, 3 * width, 2 * lanes), y)
+    return x
+
+
+@called
 def complete_stages(
     system: Any, scheme: Any, run: Any, stages: Any, new: Any, t: float, following: float, h: float
 ) -> None:
@@ -190,7 +205,7 @@ def room(width: int, scheme: Any, windings: int) -> int:
 CONSTANT_PARTS = {"attempt": attempt_constant}
 ADAPTIVE_PARTS = {
     **{"ADAPTIVE": True, "DENSE": True, "prepare": prepare, "attempt": attempt},
-    **{"renew": renew, "interpolate": interpolate},
+    **{"renew": renew, "interpolate": interpolate, "inside": inside},
 }
 
 constant = loop(__name__, "constant", TABLEAU, **CONSTANT_PARTS)

@@ -395,6 +395,16 @@ def interpolate(
         run.w[abi.WINDING + i] = angles[i]
 
 
+def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at a node inside a good attempt, and return its part of the step; 0 without nodes."""
+    if run.room[ADRIFT] != 0.0:
+        return 0.0
+    states = part(run.room, _WIDE + _STATES * system.sizes.width, NODES * system.sizes.width)
+    for j in range(system.sizes.ny):
+        y[j] = states[j * NODES + i]
+    return float(scheme.table[PLACES + i])
+
+
 @called
 def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None:
     """Evaluate rates between the nodes; set Legendre coefficients that they correct."""
@@ -412,7 +422,7 @@ def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None
     refine(rows, scheme.dense, part(run.room, coefficients, 2 * size), more, refined)
 
 
-_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}
+_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew, "inside": inside}
 
 constant = loop(__name__, "constant", SCHEME, **_PARTS)
 adaptive = loop(
