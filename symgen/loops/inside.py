@@ -42,6 +42,7 @@ from symgen.loops.search_records import (
     OF_FORCES,
     PLACES,
     PROBES,
+    REACH,
     RESOLUTION,
     SIDE,
     SIZE,
@@ -65,6 +66,8 @@ _MOST_PROBES = 24
 #: A step is too long with more than this error of cubics between its points, over the range of a function that is
 #: nearer to zero than this multiple of it; number of divisions without a gain after which there are none.
 _COARSE, _NEAR, _IN_VAIN = 0.01, 20.0, 3.0
+#: Steps below this part of the proposed one cross jumps at known times.
+_AT_A_JUMP = 1e-6
 
 
 @plain
@@ -198,7 +201,7 @@ def slope_between(hunt: A, n: int, k: int, x: float, otherwise: float) -> float:
 
 @plain
 def third_derivative(hunt: A, n: int, k: int, i: int) -> float:
-    """Return that of the cubic between point i and the following one."""
+    """Return the third derivative of the cubic between point i and the following one."""
     width = time_of(hunt, i + 1) - time_of(hunt, i)
     rise = (value_at(hunt, n, k, i + 1) - value_at(hunt, n, k, i)) / width
     return float(6.0 * (slope_at(hunt, n, k, i) + slope_at(hunt, n, k, i + 1) - 2.0 * rise) / (width * width))
@@ -245,10 +248,13 @@ def divides(hunt: A, n: int, h: float) -> int:
     """Return 1 where a step of h is too long: between its inner points a function does what they do not show.
 
     The next attempt is then set.
+    A step that crosses a jump at a known time is short, and is not divided.
     Divisions that gain nothing end, as corners and jumps of functions do not become smooth: until inner points show the
     functions again no step is divided. Rates jump at switches, which the error of a step shows.
     """
     at, worst = N_HEAD, 0.0
+    if h < _AT_A_JUMP * hunt[REACH]:
+        return 0
     for k in range(n):
         awake = hunt[at + ASLEEP * n + k] == 0.0 and hunt[at + GRAZING * n + k] == 0.0
         if awake and hunt[at + ACTION * n + k] < float(ANEW) and hunt[at + SIDE * n + k] != 0.0:

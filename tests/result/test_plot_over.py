@@ -91,7 +91,7 @@ def test_ends_of_a_sweep_are_drawn_over_what_varies():
     for i, line in enumerate(axes.lines):  # for each mass
         assert np.array_equal(line.get_xdata(), [0.0, 1.0, 2.0])
         assert np.array_equal(line.get_ydata(), found["bob.x"][[1, 0, 2], i, -1])
-    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["bob_mass = 1", "bob_mass = 3"]
+    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["bob_mass = 1 kg", "bob_mass = 3 kg"]
 
 
 def test_a_motion_of_kinematics_has_a_page():
