@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from symgen.base.errors import InputError, counted, nearest
 from symgen.base.plugins import loaded_files
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps
+from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps, times_between
 from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
@@ -42,6 +42,7 @@ from symgen.running.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.running.plan import Plan, Purpose, refuse_events
 from symgen.running.prepare import make_plan
 from symgen.running.tree import tree_code
+from symgen.vocabulary.expressions import names_in
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -234,7 +235,7 @@ def make_ensemble(
     else:
         passed_times = foreseen_by_steps(acting, plan.integrator.order, 0.0, spec.step)
     if target != "cpu" and not spec.adaptive:
-        _check_jumps(target, passed_times)
+        _check_jumps(target, passed_times, parameter_values(mechanism, plan.parameters), grid.names, spec.until)
     passed_places = discontinuities_of(acting)
     examined = any(x.holds for x in passed_places)  # rows that may jump, also by constant steps
     looks = (spec.adaptive and bool(passed_places)) or examined
@@ -369,12 +370,16 @@ def _check_target(target: str, jumps: bool, examined: bool, passed: bool, events
             raise InputError(f"target '{target}'", f"no {what}", "some", hint)
 
 
-def _check_jumps(target: str, times: Foreseen) -> None:
-    """Refuse formulas that jump at known times where no loop ends constant steps there."""
-    if times.sides:
-        text = to_text(times.sides[0].argument)
-        expected = "no formulas that jump at times known beforehand"
-        raise InputError(f"target '{target}'", expected, f"one where {text} passes 0", "leave `target` out")
+def _check_jumps(
+    target: str, times: Foreseen, values: Mapping[str, float], varied: Iterable[str], until: float
+) -> None:
+    """Refuse formulas that jump at known times of a run, where no loop ends constant steps there."""
+    for jump in times.sides:
+        inside, whole = times_between((jump,), times.mechanism, values, until, True)
+        if inside or not whole or {*names_in(jump.argument)} & {*varied}:
+            text = to_text(jump.argument)
+            expected = "no formulas that jump at times known beforehand"
+            raise InputError(f"target '{target}'", expected, f"one where {text} passes 0", "leave `target` out")
 
 
 def _events(

