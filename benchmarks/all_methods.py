@@ -31,6 +31,8 @@ INTEGRATORS = ("rk4", "dop853", "picard")
 ERROR = 1e-6
 #: Errors [m] below are those of references, and errors above of motions that have left their branch.
 RESOLVED, LOST = 1e-9, 1e-2
+#: The same where each passage near a singular position amplifies rounding, which differs from processor to processor.
+ROUNDED = {"n-four-bar:2": 1e-5}
 #: Processor time of a mechanism at most [s].
 PATIENCE = 7200.0
 PAGE = "docs/findings/all-methods.md"
@@ -79,7 +81,8 @@ def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
         yield Pair(f"{where}, runs", [run[:2] for run in old], [run[:2] for run in new[method]])
         for one, other in zip(old, new[method], strict=False):
             setting = f"{where}, {one.integrator} {one.setting:g}"
-            if one.error is not None and RESOLVED < one.error < LOST and one.status == OK:
+            least = ROUNDED.get(stored["mechanism"], RESOLVED)
+            if one.error is not None and least < one.error < LOST and one.status == OK:
                 yield Pair(f"{setting}, status", one.status, other.status)
                 yield Pair(f"{setting}, error", one.error, other.error, 4.0 if one.integrator == "picard" else 1.1)
 
