@@ -162,7 +162,8 @@ class _Part:
         for base, exponent in other.exponents.items():
             exponents[base] += way * exponent
         si = f"({other.si})" if sign == "/" and _COMPOSED.search(other.si) else other.si
-        return _Part(self.factor * other.factor**way, exponents, f"{self.si}{sign}{si}", self.cycles or other.cycles)
+        own = f"({self.si})" if sign != "/" and "/" in self.si else self.si
+        return _Part(self.factor * other.factor**way, exponents, f"{own}{sign}{si}", self.cycles or other.cycles)
 
     def power(self, exponent: int) -> _Part:
         """Return a power."""

@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from symgen.base import arguments
@@ -130,6 +130,7 @@ units = st.one_of(products, st.tuples(products, products).map(lambda x: f"{x[0]}
 )
 
 
+@example("rpm %", 0.0)
 @given(units, st.floats(-1e6, 1e6, allow_subnormal=False).map(lambda x: float(f"{x:.14g}")))
 def test_numbers_come_back(text, number):
     unit = known(text)
