@@ -381,13 +381,14 @@ def test_integrators_find_events(integrator):
     expected = truncated[integrator](2e-3) if integrator in truncated else [FIRST, FIRST * (1 + 2 * E)]
     found = ball(**BOUNCE).simulate(until=1.2, max_energy_error=10.0, **settings_of(integrator))
     np.testing.assert_allclose(times_of(found, "impact"), expected, rtol=0.0, atol=tolerance)
-    # what is only noted changes nothing, to the last bit
+    # what is only noted changes nothing, to the last bit, but that the long steps of picard may be divided to see it
     conditions = ["rod.theta > 0", "rod.omega < 7 + 2*sin(60*t)"]
     settings = {**settings_of(integrator), "until": 0.5, "max_violation": 1e-2, "max_energy_error": 1.0}
     plain, noted = spinning().simulate(**settings), spinning().simulate(record_when=conditions, **settings)
     assert len(times_of(noted, conditions[0])) == 1 and len(times_of(noted, conditions[1])) >= 2
     for table in ("q", "v"):
-        np.testing.assert_array_equal(getattr(noted, table).values, getattr(plain, table).values)
+        least = 1e-12 if integrator == "picard" else 0.0
+        np.testing.assert_allclose(getattr(noted, table).values, getattr(plain, table).values, rtol=0.0, atol=least)
     for event in noted.events:
         speed = 7.0 + 2.0 * math.sin(60.0 * event.t) - event.v["rod.omega"]
         value = event.q["rod.theta"] if event.name == conditions[0] else speed
