@@ -12,14 +12,12 @@ from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parser import FormulaNames, parse
 from symgen.describe.readings import OUTPUT, Readings
+from symgen.describe.topology import unit_of_column
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, Reading, names_in
 from symgen.vocabulary.quantities import Quantity
 
 if TYPE_CHECKING:
     from symgen.describe.scope import Scope
-
-#: Units of coordinates, velocities and accelerations of bodies by the first letters of their names.
-_COLUMNS = {"theta": "rad", "omega": "rad/s", "alpha": "rad/s^2", "v": "m/s", "a": "m/s^2", "w": "rad/s", "e": "1"}
 
 
 def parameter_value(
@@ -116,9 +114,7 @@ def _unit_of_quantity(scope: Scope, value: Expr) -> str:
     """Return the unit of a quantity of the motion; empty for formulas and where it is not known."""
     if isinstance(value, Name):
         owner, _, label = value.name.rpartition(".")
-        if owner not in scope.context.bodies:
-            return ""
-        return next((unit for head, unit in _COLUMNS.items() if label.startswith(head)), "m")
+        return unit_of_column(label) if owner in scope.context.bodies else ""
     if isinstance(value, Reading):
         entry = Readings(scope.context, OUTPUT).entry(tuple(value.name.split(".")), scope.where(""))
         return "" if entry is None else entry[1]

@@ -11,7 +11,16 @@ from collections.abc import Iterator, Sequence
 import msgspec
 
 from symgen.describe.kinds import JOINTS
-from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, Prescribed, SpatialBody, Topology
+from symgen.describe.mechanism import (
+    ACCELERATIONS,
+    Articulation,
+    Joint,
+    Link,
+    Mechanism,
+    Prescribed,
+    SpatialBody,
+    Topology,
+)
 from symgen.describe.readings import integrals
 from symgen.vocabulary.expressions import Number, readings
 from symgen.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
@@ -22,6 +31,12 @@ UNITS = {
     **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
     **{"z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"},
 }
+
+
+def unit_of_column(label: str) -> str:
+    """Return the SI unit of a coordinate, velocity or acceleration of a body; empty for another name."""
+    speed = next((speed for speed, acceleration in ACCELERATIONS.items() if acceleration == label), "")
+    return f"{UNITS[speed]}^2" if speed else UNITS.get(label, "")
 
 
 def articulation_of(joint: Joint) -> Articulation | None:

@@ -11,9 +11,7 @@ from collections.abc import Mapping
 from symgen.base.units import Amount
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.readings import STATE, of_joint
-
-#: Units of coordinates and velocities of bodies, by their first letters.
-_COLUMNS = {"theta": "rad", "omega": "rad/s", "v": "m/s", "w": "rad/s", "e": "1"}
+from symgen.describe.topology import unit_of_column
 
 
 class Typed(float):
@@ -47,7 +45,7 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
             return state.unit, state.unit
     owner, _, label = name.rpartition(".")
     if any(body.name == owner for body in mechanism.bodies):
-        unit = next((unit for head, unit in _COLUMNS.items() if label.startswith(head)), "m")
+        unit = unit_of_column(label)
         return unit, unit
     owner, _, label = name.partition(".")
     units = {
