@@ -138,11 +138,7 @@ def judged(rest: Settled) -> Equilibrium:
         not_unique=not_unique(subject.mechanism, info, share),
         y=y,
         lam=lam,
-        notes=(
-            *subject.mode,
-            *subject.singular(d),
-            *edges(subject, y),
-        ),
+        notes=(*subject.mode, *subject.singular(d), *edges(subject, y)),
     )
 
 

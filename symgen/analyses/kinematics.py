@@ -148,7 +148,7 @@ class Kinematics(MotionTables):
         start = {"t": float(self.t[0]), "q": self.q.row(0), "v": self.v.row(0)} if len(self.t) else {}
         return {
             "method": "kinematics",
-            "integrator": f"{counted(len(self.t), 'time')}",
+            "integrator": counted(len(self.t), "time"),
             "status": self.status,
             "reason": self.reason,
             "events": [{"t": passage.t, "name": passage.words} for passage in self.passages],

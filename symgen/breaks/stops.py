@@ -245,6 +245,27 @@ def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: floa
     return Foreseen(mechanism, kinks, sides, gaps, (first, step or 0.0))
 
 
+def foreseen_in_run(
+    mechanism: Mechanism,
+    events: Sequence[Event],
+    adaptive: bool,
+    order: int,
+    grid: tuple[float, float | None],
+) -> Foreseen:
+    """Return the discontinuities at which steps of a run end.
+
+    Parameters
+    ----------
+    mechanism, events
+        The description, and the events of the run.
+    adaptive : bool
+        Whether steps are adaptive (`foreseen`) or constant (`foreseen_by_steps`).
+    order, grid
+        Order of the scheme, first point and distance of the grid of constant steps.
+    """
+    return foreseen(mechanism, events) if adaptive else foreseen_by_steps(mechanism, order, *grid)
+
+
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
     """Return the foreseen discontinuities of formulas of joints, forces, integrals and stops, and of events.
 

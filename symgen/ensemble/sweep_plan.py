@@ -16,7 +16,7 @@ from symgen.base.errors import InputError, counted, nearest
 from symgen.base.plugins import loaded_files
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps, times_between
+from symgen.breaks.stops import Foreseen, foreseen_in_run, times_between
 from symgen.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import can_integrate, with_integrals
@@ -230,10 +230,7 @@ def make_ensemble(
         refuse_jumps(mechanism, plan.parameters, spec.until)
     kept_names, events = _events(mechanism, plan, quantities)
     acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
-    if spec.adaptive:
-        passed_times = foreseen(acting, events)
-    else:
-        passed_times = foreseen_by_steps(acting, plan.integrator.order, 0.0, spec.step)
+    passed_times = foreseen_in_run(acting, events, spec.adaptive, plan.integrator.order, (0.0, spec.step))
     if target != "cpu" and not spec.adaptive:
         _check_jumps(target, passed_times, parameter_values(mechanism, plan.parameters), grid.names, spec.until)
     passed_places = discontinuities_of(acting)

@@ -56,7 +56,7 @@ from symgen.loops.frame_parts import (
     store_between,
     taken_back,
 )
-from symgen.loops.step_control import grown, shrunk, with_step
+from symgen.loops.step_control import grown, part_of, shrunk
 from symgen.loops.watch import approach, begin, meets, remember_rank, stuck, watch
 from symgen.native import types
 
@@ -107,7 +107,7 @@ def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> i
             clock[abi.NEXT] = max(clock[abi.NEXT], span.step) if control[abi.BEGUN] == abi.ONWARD else span.step
         # laws whose gains follow the step are evaluated before the first step
         note_step(run, span.step if span.step > 0.0 else _BEFORE * span.duration)
-        prepare(system, scheme, with_step(span, clock[abi.NEXT] if ADAPTIVE else span.step), run)
+        prepare(system, scheme, part_of(span, span.until, clock[abi.NEXT] if ADAPTIVE else span.step), run)
         if prepare_search(system, run, LOOK) == FAIL:
             return abi.UNDEFINED
         control[abi.BEGUN] = 1
@@ -304,7 +304,7 @@ def accept_step(
         control[abi.OUTPUTS] = out + 1
     if restart:  # rates jump at a switch, so that data of past steps are useless
         run.clock[abi.NEXT], run.clock[abi.ALLOWED] = max(run.clock[abi.NEXT], whole), 0.0
-        prepare(system, scheme, with_step(span, run.clock[abi.NEXT]), run)
+        prepare(system, scheme, part_of(span, span.until, run.clock[abi.NEXT]), run)
     else:
         renew(system, scheme, span, run, following, changed)
     if met:

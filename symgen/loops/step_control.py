@@ -29,9 +29,9 @@ def grown(span: Any, run: Any, h: float, error: float) -> float:
     return float(min(GROW, max(SHRINK_ACCEPTED, grow)))
 
 
-def with_step(span: Any, step: float) -> Any:
-    """Return a span with this first step."""
+def part_of(span: Any, until: float, step: float) -> Any:
+    """Return a span that ends at a time [s], with another first step, or constant steps of another length [s]."""
     return Span(
-        *(step, span.largest, span.until, span.end, span.duration, span.rtol, span.atol, span.relative),
+        *(step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),
         *(span.safety, span.most, span.pause, span.turn),
     )

@@ -14,10 +14,10 @@ import numpy as np
 
 from symgen.layout import abi
 from symgen.layout import ensemble_abi as e
-from symgen.layout.records import Span
 from symgen.layout.start_records import record_type
 from symgen.loopcode.bare import bare
 from symgen.loopcode.loop_instances import compiled_loop, signature_of
+from symgen.loops.step_control import part_of
 from symgen.native import types
 from symgen.store.jit import jit
 
@@ -131,14 +131,6 @@ def same(stops: Any, span: Any, t: float) -> float:
     return abi.SAME_TIME * float(span.step)
 
 
-def until_stop(span: Any, until: float, step: float) -> Any:
-    """Return a span that ends at a time [s], with constant steps of another length [s]."""
-    return Span(
-        *(step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),
-        *(span.safety, span.most, span.pause, span.turn),
-    )
-
-
 @jit(types.int64(_A))
 def by_caller(p: Any) -> int:
     """Replace a ``prepare`` that the caller of the loop calls."""
@@ -165,7 +157,7 @@ def between_stops(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) 
             if has_gap(stops, control[abi.PASSED]):
                 to, step = part_before(stops, control[abi.PASSED], span, clock, control)
             moved = clock[abi.ORIGIN]
-            code = loop(system, scheme, until_stop(span, min(to, span.until), step), state, outputs)
+            code = loop(system, scheme, part_of(span, min(to, span.until), step), state, outputs)
             if clock[abi.ORIGIN] == moved:
                 clock[abi.ORIGIN] = origin
             now = clock[abi.TIME]

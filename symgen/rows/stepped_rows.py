@@ -14,7 +14,8 @@ from symgen.layout.records import OUTPUTS, SPAN, STATE
 from symgen.layout.start_records import record_type
 from symgen.loopcode.bare import bare, part
 from symgen.loopcode.loop_instances import compiled_loop, signature_of
-from symgen.loops.stopping import is_defined, until_stop
+from symgen.loops.step_control import part_of
+from symgen.loops.stopping import is_defined
 from symgen.native import types
 
 _A, _I = types.float64[::1], types.int64[::1]
@@ -104,7 +105,7 @@ def step_each(model: Any, scheme: Any, span: Any, table: Any, state: Any, output
             if table.adaptive == 1 and control[abi.STEPS] > 0:  # a scheme that begins anew keeps its step
                 step = state.clock[abi.NEXT]
             if code == abi.DONE:
-                code = loop(system, scheme, until_stop(span, table.until[r], step), state, outputs)
+                code = loop(system, scheme, part_of(span, table.until[r], step), state, outputs)
             if code <= abi.DONE:
                 for i in range(size):
                     row[i] = table.front[i]

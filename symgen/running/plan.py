@@ -13,7 +13,7 @@ import numpy as np
 from symgen.base.errors import InputError, quoted
 from symgen.base.settings import Settings
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import foreseen, foreseen_by_steps, merged
+from symgen.breaks.stops import foreseen_in_run, merged
 from symgen.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
 from symgen.compiling.pipeline import MethodChoice, for_masses
 from symgen.describe.digest import digest
@@ -213,10 +213,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         )
     events = events_of_run(mechanism, s)
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
-    if adaptive:
-        times = foreseen(mechanism, events)
-    else:
-        times = foreseen_by_steps(mechanism, integrator.order, begin, step)
+    times = foreseen_in_run(mechanism, events, adaptive, integrator.order, (begin, step))
     values = parameter_values(mechanism, s.parameters) if times else {}
     rtol = getattr(integrator, "rtol", RTOL)  # schemes of low order have larger ones by default
     spec = RunSpec(

@@ -13,7 +13,7 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, SimulationError
 from symgen.base.version import __version__
 from symgen.breaks.motions import refuse_jumps
-from symgen.breaks.stops import Foreseen, foreseen, foreseen_by_steps, merged, stops_of
+from symgen.breaks.stops import Foreseen, foreseen_in_run, merged, stops_of
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
@@ -366,10 +366,8 @@ class SteppedRun(Readings):
 
     def _breaks(self) -> Foreseen:
         """Return the discontinuities of formulas at which steps end."""
-        plan, grid = self._plan, None if self._free else self._plan.spec.step
-        if self._adaptive:
-            return foreseen(plan.mechanism, plan.events)
-        return foreseen_by_steps(plan.mechanism, plan.integrator.order, self.t, grid)
+        plan, step = self._plan, None if self._free else self._plan.spec.step
+        return foreseen_in_run(plan.mechanism, plan.events, self._adaptive, plan.integrator.order, (self.t, step))
 
     def _look_ahead(self, until: float) -> None:
         """Find the discontinuities of formulas up to a time [s] and beyond."""
