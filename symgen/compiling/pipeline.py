@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
     from symgen.ir.program import ModelProgram
 
+#: Characters of a file stem that say which velocities are free, at most.
+LONGEST_FREE = 18
+
 
 @dataclass(frozen=True)
 class Generated:
@@ -71,8 +74,14 @@ class MethodChoice:
 
     @property
     def suffix(self) -> str:
-        """End of the file stem, which says the free velocities, and whether it is for derivatives."""
-        return "".join(f"_f{j}" for j in self.free) + "_slopes" * self.directed
+        """End of the file stem, which says the free velocities, and whether it is for derivatives.
+
+        Many free velocities are said by a digest: names of modules have an end.
+        """
+        free = "".join(f"_f{j}" for j in self.free)
+        if len(free) > LONGEST_FREE:
+            free = f"_f{combined_digest(free)[: LONGEST_FREE - 2]}"
+        return free + "_slopes" * self.directed
 
     def with_options(self, **options: str) -> MethodChoice:
         """Return the choice with other values of some options."""

@@ -3,7 +3,9 @@
 Forces c enter accelerations linearly, ``a = a0 - G c`` with a symmetric ``G >= 0``. Sought are ``l_i <= c_i <= b_i``
 with a_i = 0 inside the bounds, a_i >= 0 where c_i = b_i, and a_i <= 0 where c_i = l_i: the minimum of
 ``c^T G c / 2 - a0^T c`` in the box, a linear complementarity problem with bounds. Zero is within the bounds, which may
-be infinite: a force that only pushes has ``b_i = 0`` and ``l_i = -inf``. Where G is singular c is not unique, a is.
+be infinite: a force that only pushes has ``b_i = 0`` and ``l_i = -inf``. Where G is singular c is not unique, a is; and
+where a0 has a part that G does not reach, as of two rates that depend on each other at a dead centre, this part drives
+forces to a bound.
 
 The method is that of active sets: among the free forces an independent set is solved for, the others stay as they are;
 a force that meets its bound stays there until its acceleration has the wrong sign.
@@ -25,6 +27,8 @@ _A, _K, _N = types.float64[::1], types.int64[::1], types.int64
 
 #: Pivots below this part of the diagonal are rounding, and so are accelerations below it over those of single forces.
 DEPENDENT, ROUNDING = 1e-11, 1e-13
+#: Accelerations that independent forces determine are not zero above this part of what they are differences of.
+INCONSISTENT = 1e-7
 #: Changes of the active set for each force.
 _CHANGES = 50
 #: Places of a force: between its bounds, at the upper one, at the lower one.
@@ -146,14 +150,58 @@ def moved_free(k: int, box: Any) -> bool:
 
 
 @exact()
+def size_of(k: int, i: int, box: Any) -> float:
+    """Return the sum of the magnitudes whose difference is acceleration number i."""
+    size = abs(box.offset[i])
+    for j in range(k):
+        size += abs(box.matrix[i * k + j] * box.forces[j])
+    return float(size)
+
+
+@exact()
+def moved_beside(k: int, box: Any) -> bool:
+    """Move a free force that the independent ones determine to the first bound; return whether there was one.
+
+    Its acceleration follows from theirs: where it is not zero, as where a rate only passes zero at a dead centre, no
+    forces inside their bounds make it so. They move with it, so that theirs stay zero.
+    """
+    forces, place, order, right = box.forces, box.place, box.order, box.right
+    count = free_forces(k, box)
+    rank = independent_set(k, count, box)
+    set_left(k, box)
+    for d in range(rank, count):
+        at = order[d]
+        if abs(box.left[at]) > INCONSISTENT * size_of(k, at, box):
+            way = math.copysign(1.0, box.left[at])
+            for i in range(rank):
+                right[i] = -way * box.matrix[order[i] * k + at]
+            solve_independent(k, rank, box)
+            part = box.bounds[at] - forces[at] if way > 0.0 else forces[at] - box.lower[at]
+            first = at
+            for i in range(rank):
+                j = order[i]
+                room = larger(box.bounds[j] - forces[j] if right[i] > 0.0 else forces[j] - box.lower[j], 0.0)
+                if abs(right[i]) * part > room:
+                    part, first = room / abs(right[i]), j
+            if part < math.inf:
+                towards = way
+                for i in range(rank):
+                    forces[order[i]] += part * right[i]
+                    towards = right[i] if order[i] == first else towards
+                forces[at] += part * way
+                place[first] = UPPER if towards > 0.0 else LOWER
+                forces[first] = box.bounds[first] if towards > 0.0 else box.lower[first]
+                return True
+    return False
+
+
+@exact()
 def wrong_bound(k: int, box: Any) -> int:
     """Return the force at a bound whose acceleration has most of the wrong sign, -1 for none."""
     set_left(k, box)
     worst, most = -1, 0.0
     for i in range(k):
-        size = abs(box.offset[i])
-        for j in range(k):
-            size += abs(box.matrix[i * k + j] * box.forces[j])
+        size = size_of(k, i, box)
         wrong = -box.left[i] * float(box.place[i])
         if (
             box.bounds[i] > box.lower[i]
@@ -180,6 +228,8 @@ def solve_box(k: int, box: Any) -> int:
         if moved_free(k, box):
             continue
         moved_free(k, box)  # rounding
+        if moved_beside(k, box):
+            continue
         wrong = wrong_bound(k, box)
         if wrong < 0:
             return 0

@@ -52,6 +52,26 @@ def test_accelerations_are_those_of_bounded_least_squares(stops: bool) -> None:
     compare(500, stops)
 
 
+def test_what_forces_cannot_reach_drives_them_to_a_bound() -> None:
+    """Of rates that depend on each other and cannot rest together, as at a dead centre: optimality of each force."""
+    numbers = np.random.default_rng(239)
+    driven = 0
+    for _ in range(500):
+        k = int(numbers.integers(2, 7))
+        rows = numbers.normal(size=(int(numbers.integers(1, k)), k))
+        offset, bounds = numbers.normal(size=k), numbers.uniform(0.1, 2.0, size=k)
+        box = new_box(k)
+        box.matrix[:], box.offset[:], box.bounds[:], box.lower[:] = (rows.T @ rows).ravel(), offset, bounds, -bounds
+        assert SOLVE(k, box) == 0
+        a, c = offset - rows.T @ (rows @ box.forces), box.forces
+        upper, lower = c == bounds, c == -bounds
+        assert (np.abs(c) <= bounds).all()
+        assert (a[upper] >= -1e-10).all() and (a[lower] <= 1e-10).all()
+        np.testing.assert_allclose(a[~(upper | lower)], 0.0, rtol=0.0, atol=1e-10)
+        driven += bool((np.abs(a) > 1e-6).any())
+    assert driven > 400
+
+
 @pytest.mark.slow
 def test_many_accelerations_are_those_of_bounded_least_squares() -> None:
     compare(10_000, False)

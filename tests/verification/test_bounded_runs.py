@@ -52,6 +52,15 @@ def test_short_sticks_are_found_in_long_steps(kind: str, seed: int) -> None:
     assert verdict.outcome == "right", verdict
 
 
+@pytest.mark.parametrize("run", ["dop853", "lagrange", ROWS])
+@pytest.mark.parametrize("seed", [pytest.param(25, marks=pytest.mark.slow), 28])
+def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest(seed: int, run: str) -> None:
+    """A pin rests, and the angle of another, which follows from it, is at a dead centre: its friction was lost."""
+    against, (verdict,) = examined(drawn("spatial-loop", seed), (run,), 1.0)
+    assert isinstance(against, Reference)
+    assert verdict.outcome == "right", verdict
+
+
 @cache
 def simulated(name: str) -> Reference:
     return reference(hard(name), 0.8)
