@@ -76,8 +76,10 @@ def test_a_change_of_the_file_is_another_version(tmp_path: Path) -> None:
 def test_names_of_modules_have_an_end():
     """Twelve free velocities of a loop in space made a name that the cache refuses."""
     method = METHODS.get("direct-correction", "method")
-    choices = [MethodChoice(method, {}, free=tuple(range(first, first + 12))) for first in (0, 12)]
+    choices = [
+        MethodChoice(method, method.complete_options({}), free=tuple(range(first, first + 12))) for first in (0, 12)
+    ]
     stems = [choice.stem for choice in choices]
     assert len({*stems}) == 2
     assert all(stem.isidentifier() and len(stem) < 64 for stem in stems)
-    assert MethodChoice(method, {}, free=(3, 4)).stem.endswith("_f3_f4")
+    assert MethodChoice(method, method.complete_options({}), free=(3, 4)).stem.endswith("_f3_f4")
