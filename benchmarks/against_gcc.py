@@ -23,11 +23,11 @@ from rich.console import Console
 from rich.table import Table
 
 from symgen.api import load
-from symgen.compiling.checked import checked
-from symgen.layout import abi
-from symgen.native import types
-from symgen.native.c99 import c_functions
-from symgen.store.jit import jit
+from symgen.compile.native import types
+from symgen.compile.native.c99 import c_functions
+from symgen.compile.store.jit import jit
+from symgen.run.compiling.checked import checked
+from symgen.run.layout import abi
 
 #: As the README of the C target has it, and with the liberty that emitted code has.
 FLAGS = {

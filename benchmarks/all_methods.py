@@ -19,11 +19,11 @@ from typing import Any, NamedTuple
 
 from benchmarks.page_tables import PageTable, list_of, number, print_tables
 from benchmarks.records import Line, Pair, Record
-from symgen.integrators import INTEGRATORS as KINDS
-from symgen.methods import METHODS
-from symgen.report.comparison_findings import WRONG
+from symgen.derive.methods import METHODS
 from symgen.result.result import FAILED, OK, UNVERIFIED
+from symgen.run.integrators import INTEGRATORS as KINDS
 from symgen.study.comparison.compare import compare
+from symgen.study.report.comparison_findings import WRONG
 
 MECHANISMS = ("four-bar", "spatial-slider-crank", "bricard", "front-suspension", "n-four-bar:2")
 INTEGRATORS = ("rk4", "dop853", "picard")

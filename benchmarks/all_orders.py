@@ -32,11 +32,11 @@ from benchmarks.pairs import allowed_pairs
 from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.base.settings import Settings
-from symgen.integrators import INTEGRATORS
-from symgen.loops.run_spec import RunSpec
-from symgen.methods import METHODS
-from symgen.running.prepare import prepare
-from symgen.runs.run import integrate
+from symgen.derive.methods import METHODS
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.loops.run_spec import RunSpec
+from symgen.run.planning.prepare import prepare
+from symgen.run.single.run import integrate
 
 Array = NDArray[np.float64]
 

@@ -27,7 +27,7 @@ from benchmarks.page_tables import DECADE, KEPT, PageTable, list_of, print_table
 from benchmarks.peers import models
 from benchmarks.peers.measure import Row
 from benchmarks.records import Line, Pair, Record
-from symgen.native.machine import vector_width
+from symgen.compile.native.machine import vector_width
 
 MECHANISMS = ("four-bar-peers", "four-bar", "andrews", "n-four-bar:10")
 OWN, NARROW, HEYOKA = "symgen", "symgen-avx2", "heyoka"

@@ -22,12 +22,12 @@ import numpy as np
 from benchmarks.against_gcc import _repeat_emitted
 from benchmarks.trees import Limb, limb_of, mechanism
 from symgen.api import Model
-from symgen.compiling.choices import on_tree, operations
-from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.layout import abi
-from symgen.layout import ensemble_abi as e
-from symgen.layout.probe import Ready
-from symgen.native import machine
+from symgen.compile.native import machine
+from symgen.run.compiling.choices import on_tree, operations
+from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.probe import Ready
 
 LINKS = (8, 10, 14, 20, 28, 40, 66)
 REPEATS, TURNS = 3, 15

@@ -21,15 +21,15 @@ import numpy as np
 import symgen
 from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
 from symgen.api import Model
-from symgen.compiling.choices import on_tree
-from symgen.compiling.closing import free_velocities
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.lower.law import lower_law
+from symgen.derive.lower.model import lower_model
+from symgen.derive.lower.plans import cheapest_plan, closing_plan
+from symgen.derive.methods import METHODS
 from symgen.describe.mechanism import Mechanism
-from symgen.formulate.formulate import formulate
-from symgen.lower.law import lower_law
-from symgen.lower.model import lower_model
-from symgen.lower.plans import cheapest_plan, closing_plan
-from symgen.methods import METHODS
 from symgen.result.points import Points
+from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.closing import free_velocities
 
 MODELS = (
     *("four-bar", "slider-crank", "andrews", "n-four-bar:10", "bricard", "spatial-slider-crank"),

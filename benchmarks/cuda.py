@@ -29,9 +29,9 @@ import symgen
 from benchmarks.show import show
 from symgen.base.memory import processors
 from symgen.base.settings import Settings
-from symgen.ensemble.device_runs import DeviceRuns, compilable, usable
-from symgen.ensemble.kernel import kernel_of
-from symgen.ensemble.sweep_plan import make_ensemble
+from symgen.study.ensemble.device_runs import DeviceRuns, compilable, usable
+from symgen.study.ensemble.kernel import kernel_of
+from symgen.study.ensemble.sweep_plan import make_ensemble
 
 #: Compute capability that is compiled for where there is no device: that of an A100.
 CAPABILITY = (8, 0)
@@ -97,7 +97,7 @@ def compile_all() -> None:
     from numba import cuda
     from numba.cuda import dispatcher
 
-    from symgen.rows.device import SIGNATURE, make_kernel
+    from symgen.run.rows.device import SIGNATURE, make_kernel
 
     ptxas = assembler()
     arch = ".".join(str(n) for n in CAPABILITY)

@@ -25,14 +25,14 @@ import symgen
 from benchmarks.extended import as_plain
 from benchmarks.show import show
 from symgen import Settings
-from symgen.catalogue import all_names
-from symgen.compiling.choices import on_tree
-from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.ir.numerics import SKIP
-from symgen.ir.program import COUNTERS
-from symgen.layout import abi
-from symgen.layout.probe import Ready, rate_functions
-from symgen.running.prepare import prepare
+from symgen.base.ir.numerics import SKIP
+from symgen.base.ir.program import COUNTERS
+from symgen.describe.catalogue import all_names
+from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.layout import abi
+from symgen.run.layout.probe import Ready, rate_functions
+from symgen.run.planning.prepare import prepare
 
 Array = NDArray[Any]
 EPSILON = float(np.finfo(float).eps)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.running.prepare import Prepared
+from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[Any]
 _STAGES = 8

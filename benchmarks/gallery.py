@@ -23,14 +23,14 @@ from statistics import median
 from typing import Any
 
 from symgen.api import load
-from symgen.catalogue import MACHINES, CatalogueEntry, entries
-from symgen.describe.digest import digest
-from symgen.drawing.traced import traced_points
-from symgen.report import words
-from symgen.report.document import Picture
+from symgen.describe.catalogue import MACHINES, CatalogueEntry, entries
+from symgen.describe.drawing.traced import traced_points
+from symgen.describe.facts.digest import digest
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row
 from symgen.study.comparison.comparison_study import Study
 from symgen.study.machine_class import machine_class, versions
+from symgen.study.report import words
+from symgen.study.report.document import Picture
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 FOLDER = DOCS / "gallery"
@@ -142,7 +142,7 @@ def measure(entry: CatalogueEntry) -> None:
 
 def draw(entry: CatalogueEntry) -> None:
     """Draw an entry in motion, from a run in the shape of code that all mechanisms without friction share."""
-    from symgen.drawing import Drawing
+    from symgen.describe.drawing import Drawing
 
     own, model = choice(entry.name), load(model_name(entry))
     window = own.window * (own.until or model.mechanism.defaults.until)
@@ -407,9 +407,9 @@ STRESSED_METHODS = ("lagrange", "baumgarte", "penalty", "augmented-lagrangian", 
 
 def readme_pictures() -> None:
     """Make the three pictures of README: error against run time, violation over time, stress map."""
-    from symgen.report.figures import pictures
-    from symgen.report.stress_figures import maps
     from symgen.study.comparison.compare import compare
+    from symgen.study.report.figures import pictures
+    from symgen.study.report.stress_figures import maps
     from symgen.study.stress.study import stress
 
     study: Study = compare("four-bar", integrators=("rk4", "dopri5", "dop853"), repeat=REPEAT)

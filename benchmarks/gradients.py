@@ -32,14 +32,14 @@ from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
-from symgen.describe.lifted import lifted
-from symgen.describe.origins import origin_of
-from symgen.layout import abi
+from symgen.describe.facts.lifted import lifted
+from symgen.describe.files.origins import origin_of
 from symgen.result.sensitivities import prepared
-from symgen.running.directions import named_directions
-from symgen.running.start_directions import StartDirections
-from symgen.runs.adjoint import run_for_adjoint
-from symgen.runs.directions import run_with_directions
+from symgen.run.layout import abi
+from symgen.run.planning.directions import named_directions
+from symgen.run.planning.start_directions import StartDirections
+from symgen.run.single.adjoint import run_for_adjoint
+from symgen.run.single.directions import run_with_directions
 
 ROOT = Path(__file__).resolve().parents[1]
 #: Errors at which times are compared.

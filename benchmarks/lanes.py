@@ -19,15 +19,15 @@ from rich.table import Table
 
 from benchmarks.show import show
 from symgen.api import load
-from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.ir.program import LANES, lane_bases
-from symgen.layout import abi
-from symgen.loopcode.bare import bare
-from symgen.loopcode.padding import aligned
-from symgen.native import types
-from symgen.native.machine import vector_width
-from symgen.rows.lanes import LANE_FUNCTION
-from symgen.store.jit import jit
+from symgen.base.ir.program import LANES, lane_bases
+from symgen.compile.loopcode.bare import bare
+from symgen.compile.loopcode.padding import aligned
+from symgen.compile.native import types
+from symgen.compile.native.machine import vector_width
+from symgen.compile.store.jit import jit
+from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.layout import abi
+from symgen.run.rows.lanes import LANE_FUNCTION
 
 METHOD = "direct-correction"
 REPEATS, COUNT = 30, 5000

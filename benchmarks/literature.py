@@ -24,12 +24,12 @@ from numpy.typing import NDArray
 from benchmarks.coordinates import span
 from benchmarks.page_tables import KEPT, ROUNDING, PageTable, list_of, number, print_tables, step_size
 from symgen.api import Model, load
+from symgen.base.ir.program import COUNTERS, STATUS
 from symgen.base.settings import Settings
 from symgen.describe import MechanismBuilder
-from symgen.integrators import INTEGRATORS
-from symgen.ir.program import COUNTERS, STATUS
 from symgen.result.result import FAILED, Result
-from symgen.running.prepare import first_rate
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.prepare import first_rate
 from symgen.study.stress.findings import slope
 
 Array = NDArray[np.float64]

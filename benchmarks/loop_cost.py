@@ -22,9 +22,9 @@ from rich.table import Table
 
 from benchmarks.against_gcc import _repeat_emitted
 from symgen.api import load
-from symgen.layout import abi
-from symgen.native import types
-from symgen.store.jit import jit
+from symgen.compile.native import types
+from symgen.compile.store.jit import jit
+from symgen.run.layout import abi
 
 MODELS = ("four-bar", "andrews", "bricard")
 INTEGRATORS = ("rk4", "dop853")

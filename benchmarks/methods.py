@@ -19,10 +19,10 @@ from rich.table import Table
 
 from benchmarks.show import show
 from symgen.api import Model, load
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
 from symgen.result.result import Result
-from symgen.running.automatic import constant_integrator
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.automatic import constant_integrator
 
 #: Model -> step [s], end [s].
 MODELS = {

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.api import Model
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
 from symgen.result.result import Result
+from symgen.run.integrators import INTEGRATORS
 
 Array = NDArray[np.float64]
 Options = Mapping[str, str | float]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from benchmarks.gallery import PICTURES
 from symgen.api import load
-from symgen.drawing.scene import COLOURS
+from symgen.describe.drawing.scene import COLOURS
 
 NAME = "four-bar-moving"
 #: Positions over one turn, seconds a turn, pixels a metre, pixels of the ground's origin.

@@ -2,7 +2,7 @@
 
 Every line is a process of its own; those of a pair share a cache, in which smaller mechanisms leave what looped code
 shares. Seconds are those of the processor, as the wall's depend on what else the machine does. Constants of
-`symgen.compiling.choices` come from these figures.
+`symgen.run.compiling.choices` come from these figures.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
         Of the code.
     """
     from symgen.api import load
-    from symgen.compiling.pipeline import choose_method, compile_model
-    from symgen.integrators import INTEGRATORS
-    from symgen.layout import abi
-    from symgen.loops import sparse
-    from symgen.loops.newton import Pattern, alpha_plan, stage_plan
+    from symgen.run.compiling.pipeline import choose_method, compile_model
+    from symgen.run.integrators import INTEGRATORS
+    from symgen.run.layout import abi
+    from symgen.run.loops import sparse
+    from symgen.run.loops.newton import Pattern, alpha_plan, stage_plan
 
     method, integrator, _ = PAIRS[pair]
     loaded = load(model)

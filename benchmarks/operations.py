@@ -18,15 +18,15 @@ from rich.table import Table
 
 import symgen
 from benchmarks.show import show
-from symgen.compiling.choices import on_tree
-from symgen.compiling.closing import free_velocities
-from symgen.formulate.equations import Equations
-from symgen.formulate.formulate import formulate
-from symgen.ir.program import BY_PIVOTS, Block, EliminationPlan
-from symgen.lower.law import lower_law
-from symgen.lower.model import lower_model
-from symgen.lower.plans import cheapest_plan, closing_plan
-from symgen.methods import METHODS
+from symgen.base.ir.program import BY_PIVOTS, Block, EliminationPlan
+from symgen.derive.formulate.equations import Equations
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.lower.law import lower_law
+from symgen.derive.lower.model import lower_model
+from symgen.derive.lower.plans import cheapest_plan, closing_plan
+from symgen.derive.methods import METHODS
+from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.closing import free_velocities
 
 MODELS = (
     *("four-bar", "slider-crank", "andrews", "jansen-leg", "n-four-bar:10", "spatial-slider-crank", "bricard"),
@@ -42,7 +42,7 @@ CORRECTION = ("geometry", "refactor", "spread")
 def blocks(equations: Equations, plan: EliminationPlan, free: tuple[int, ...] = ()) -> dict[str, Block]:
     """Return the emitted functions of `direct-correction` by name, with a plan of elimination and free velocities."""
     method = METHODS.get("direct-correction", "")
-    with patch("symgen.lower.model.cheapest_plan", return_value=plan):
+    with patch("symgen.derive.lower.model.cheapest_plan", return_value=plan):
         model = lower_model(equations, "")
     law = lower_law(equations, model, method, method.complete_options({}), closing=closing_plan(equations, plan, free))
     return {block.name: block for block in (*model.blocks, *law.blocks)}

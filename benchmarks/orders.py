@@ -19,9 +19,9 @@ from rich.console import Console
 from rich.table import Table
 
 from symgen.api import Model, load
-from symgen.integrators import INTEGRATORS
-from symgen.loops.run_spec import RunSpec
-from symgen.runs.run import integrate
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.loops.run_spec import RunSpec
+from symgen.run.single.run import integrate
 
 Array = NDArray[np.float64]
 

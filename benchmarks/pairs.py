@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import sys
 
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
+from symgen.run.integrators import INTEGRATORS
 
 INTRODUCTION = """# Pairs of method and integrator
 

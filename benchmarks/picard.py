@@ -27,8 +27,8 @@ from benchmarks.extended import reference
 from benchmarks.page_tables import KEPT, PageTable, list_of, number, print_tables
 from benchmarks.show import show
 from symgen import MechanismBuilder, Settings
-from symgen.running.prepare import Prepared, prepare
-from symgen.runs.outcome import Outcome
+from symgen.run.planning.prepare import Prepared, prepare
+from symgen.run.single.outcome import Outcome
 
 Array = NDArray[Any]
 INTEGRATORS = ("dop853", "picard")

@@ -16,10 +16,10 @@ import numpy as np
 from benchmarks.gallery import DOCS, PICTURES, put
 from symgen.analyses.animation import mode_recording
 from symgen.api import Model, load
-from symgen.describe.load import parse_toml
-from symgen.describe.validate import validate
-from symgen.drawing import Drawing
-from symgen.report.document import Picture
+from symgen.describe.drawing import Drawing
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.validate import validate
+from symgen.study.report.document import Picture
 
 
 def _leg() -> str:

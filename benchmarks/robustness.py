@@ -26,11 +26,11 @@ from benchmarks.motions import fine_integrator, motion, positions, run, second_o
 from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.base.errors import InputError
+from symgen.derive.methods import METHODS
 from symgen.describe import MechanismBuilder
-from symgen.methods import METHODS
 from symgen.result.points import Points
 from symgen.result.result import Result
-from symgen.running.automatic import constant_integrator
+from symgen.run.planning.automatic import constant_integrator
 
 Array = NDArray[np.float64]
 

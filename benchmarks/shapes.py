@@ -4,7 +4,7 @@ Every line is a process of its own with a cache of its own. ``cold`` finds nothi
 other mechanisms have left. ``--pieces`` compiles mechanisms one after the other on one cache, each with kernels that
 those before it have not, beside straight code of the same. Seconds are those of the processor, as the wall's depend on
 what else the machine does.
-The constants of `symgen.compiling.choices` come from these figures.
+The constants of `symgen.run.compiling.choices` come from these figures.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from typing import Any
 
 import numpy as np
 
-from symgen.layout import abi
-from symgen.native import types
-from symgen.store.jit import jit
+from symgen.compile.native import types
+from symgen.compile.store.jit import jit
+from symgen.run.layout import abi
 
 #: Straight code of larger mechanisms takes many minutes to compile.
 LARGEST_STRAIGHT = 40
@@ -73,7 +73,7 @@ def measure(model: str, shape: str, method: str) -> dict[str, Any]:
 def compile_pieces(model: str, method: str, form: str, shape: str) -> dict[str, Any]:
     """Compile a model and say what it took; called in a process of its own."""
     from symgen.api import load
-    from symgen.compiling.pipeline import choose_method
+    from symgen.run.compiling.pipeline import choose_method
 
     loaded = load(model)
     choice = replace(choose_method(method, implicit=form == "implicit"), shape=shape)

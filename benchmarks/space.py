@@ -27,12 +27,12 @@ import symgen
 from benchmarks import against_gcc
 from benchmarks.page_tables import KEPT, PageTable, list_of, print_tables
 from benchmarks.show import show
-from symgen.compiling.pipeline import choose_method
-from symgen.formulate.formulate import formulate
-from symgen.lower.law import lower_law
-from symgen.lower.model import lower_model
-from symgen.report.source import RATIOS
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.lower.law import lower_law
+from symgen.derive.lower.model import lower_model
+from symgen.run.compiling.pipeline import choose_method
 from symgen.study.references.reference import reference as second_derivation
+from symgen.study.report.source import RATIOS
 
 ROOT = Path(__file__).resolve().parents[1]
 Array = NDArray[np.float64]

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from benchmarks.motions import positions, run
 from benchmarks.page_tables import PageTable, Row, list_of, number, print_tables
 from symgen.api import Model, load
-from symgen.integrators import INTEGRATORS
 from symgen.result.points import Points
+from symgen.run.integrators import INTEGRATORS
 
 Array = NDArray[np.float64]
 

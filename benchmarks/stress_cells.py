@@ -26,8 +26,8 @@ import numpy as np
 from benchmarks.gallery import slim
 from benchmarks.page_tables import KEPT, ROOT, PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
-from symgen.methods import METHODS
-from symgen.running.automatic import AUTO
+from symgen.derive.methods import METHODS
+from symgen.run.planning.automatic import AUTO
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED, UNJUDGED
 from symgen.study.stress.families import FAMILIES
 from symgen.study.stress.findings import cause
@@ -259,7 +259,7 @@ def tables() -> dict[str, PageTable]:
 
 def picture(path: Path) -> None:
     """Draw the shares of accurate cells by pair and model."""
-    from symgen.report.stress_figures import overview_of
+    from symgen.study.report.stress_figures import overview_of
 
     cells = {(line["model"], name): Counter[str]() for line in lines_of() for name in line["cells"]}
     false = {key: 0 for key in cells}

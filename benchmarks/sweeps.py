@@ -25,8 +25,8 @@ import symgen
 from benchmarks.show import show
 from symgen.base.memory import processors
 from symgen.base.settings import Settings
-from symgen.ensemble.kernel import kernel_of
-from symgen.running.prepare import prepare
+from symgen.run.planning.prepare import prepare
+from symgen.study.ensemble.kernel import kernel_of
 
 #: Single runs that are timed from Python; the time of one does not depend on their number.
 SINGLE = 200

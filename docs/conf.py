@@ -50,6 +50,7 @@ NAVIGATION = {
     ),
     "Development": (
         "docs/architecture",
+        "docs/internals",
         "docs/extending",
         "CONTRIBUTING",
         "docs/decisions/README",

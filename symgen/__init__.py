@@ -21,17 +21,17 @@ if TYPE_CHECKING:
     from symgen.base.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
     from symgen.base.plugins import load_plugin
     from symgen.base.settings import Settings
-    from symgen.describe.builder import MechanismBuilder
+    from symgen.derive.methods import list_methods
+    from symgen.describe.files.builder import MechanismBuilder
     from symgen.describe.mechanism import Mechanism
-    from symgen.ensemble.sweep import sweep
-    from symgen.ensemble.sweep_study import Sweep
-    from symgen.integrators import list_integrators
-    from symgen.methods import list_methods
-    from symgen.report.write import write_report
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
-    from symgen.stepping.run import SteppedRun
+    from symgen.result.stepping.run import SteppedRun
+    from symgen.run.integrators import list_integrators
     from symgen.study.comparison.compare import Study, compare
+    from symgen.study.ensemble.sweep import sweep
+    from symgen.study.ensemble.sweep_study import Sweep
+    from symgen.study.report.write import write_report
 
 #: Public name -> its module.
 _WHERE = {
@@ -39,24 +39,24 @@ _WHERE = {
     "InputError": "symgen.base.errors",
     "Labelled": "symgen.result.labelled",
     "Mechanism": "symgen.describe.mechanism",
-    "MechanismBuilder": "symgen.describe.builder",
+    "MechanismBuilder": "symgen.describe.files.builder",
     "Model": "symgen.api",
     "Result": "symgen.result.result",
     "Settings": "symgen.base.settings",
     "SimulationError": "symgen.base.errors",
     "StepError": "symgen.base.errors",
-    "SteppedRun": "symgen.stepping.run",
+    "SteppedRun": "symgen.result.stepping.run",
     "Study": "symgen.study.comparison.compare",
-    "Sweep": "symgen.ensemble.sweep_study",
+    "Sweep": "symgen.study.ensemble.sweep_study",
     "SymgenError": "symgen.base.errors",
     "compare": "symgen.study.comparison.compare",
-    "list_integrators": "symgen.integrators",
-    "list_methods": "symgen.methods",
+    "list_integrators": "symgen.run.integrators",
+    "list_methods": "symgen.derive.methods",
     "load": "symgen.api",
     "load_plugin": "symgen.base.plugins",
     "simulate": "symgen.api",
-    "sweep": "symgen.ensemble.sweep",
-    "write_report": "symgen.report.write",
+    "sweep": "symgen.study.ensemble.sweep",
+    "write_report": "symgen.study.report.write",
 }
 
 __all__ = [

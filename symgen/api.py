@@ -16,28 +16,28 @@ from symgen.base.errors import InputError, nearest
 from symgen.base.keywords import RunKeywords, takes
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
-from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.describe.evaluate import parameter_values, scalars
-from symgen.describe.holds import holds_of
-from symgen.describe.load import load as load_mechanism
+from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.files.load import load as load_mechanism
+from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.start import described_start
-from symgen.describe.stops import refuse_bounds
-from symgen.layout.compiled import CompiledModel
-from symgen.reading.model_views import Shown
-from symgen.running.prepare import Prepared, prepare
-from symgen.running.starts import start_of
-from symgen.runs.run import Array
+from symgen.describe.parts.holds import holds_of
+from symgen.result.reading.model_views import Shown
+from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.layout.compiled import CompiledModel
+from symgen.run.planning.prepare import Prepared, prepare
+from symgen.run.planning.starts import start_of
+from symgen.run.single.run import Array
 
 if TYPE_CHECKING:
     from symgen import compare as _compare
     from symgen import sweep as _sweep
-    from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
-    from symgen.running.package import Package
-    from symgen.starts.assembly import Start
-    from symgen.starts.held import Held
-    from symgen.stepping.run import SteppedRun
+    from symgen.result.stepping.run import SteppedRun
+    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.planning.package import Package
+    from symgen.run.starts.assembly import Start
+    from symgen.run.starts.held import Held
 
 
 @in_sentences
@@ -164,7 +164,7 @@ class Model(Analysed, Shown):
         held: Held | Mapping[str, float] | None = None,
         ask_light: bool = False,
     ) -> Start:
-        """Return the consistent start of a run; see `symgen.running.starts.start_of`.
+        """Return the consistent start of a run; see `symgen.run.planning.starts.start_of`.
 
         Parameters
         ----------
@@ -230,7 +230,8 @@ class Model(Analysed, Shown):
         shape : {"straight", "looped"}
             Code for this mechanism alone, or loops over tables that all mechanisms share.
         target : str
-            Target of the code, one of `symgen.targets`: ``cpu``, ``lanes``, ``cuda``, ``javascript``, ``c``, ``fmu``.
+            Target of the code, one of `symgen.result.targets`: ``cpu``, ``lanes``, ``cuda``, ``javascript``, ``c``,
+            ``fmu``.
         fmi : {2, 3}
             Version of FMI of an FMU.
 
@@ -244,7 +245,7 @@ class Model(Analysed, Shown):
         InputError
             If an argument is wrong, or the folder cannot be written.
         """
-        from symgen.targets import TARGETS, Request
+        from symgen.result.targets import TARGETS, Request
 
         kind = TARGETS.get(arguments.text("target", target, "the name of a target"), "target")
         if not kind.bounded:
@@ -298,17 +299,17 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.reruns.verification import part_verified, verified
+        from symgen.compile.store.stats import seconds_in_cache
         from symgen.result.build import build_result
         from symgen.result.judge import is_long, unchecked
-        from symgen.runs.timing import timed
-        from symgen.store.stats import seconds_in_cache
+        from symgen.result.reruns.verification import part_verified, verified
+        from symgen.run.single.timing import timed
 
         arguments.function("progress", progress)
         settings = changed(settings, changes)
         before = seconds_in_cache()
         if by := arguments.words("sensitivities", sensitivities):
-            from symgen.describe.lifted import lifted
+            from symgen.describe.facts.lifted import lifted
             from symgen.result.sensitivities import Differentiated
 
             own = lifted("sensitivities", self.mechanism, by)
@@ -323,7 +324,7 @@ class Model(Analysed, Shown):
             free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by
             run, outcome, verification = verified(run, outcome, free)
             if settings.verify and run.plan.mechanism.beams:
-                from symgen.reruns.discretisation import discretisation
+                from symgen.result.reruns.discretisation import discretisation
 
                 words = discretisation(run, outcome, settings)
                 note = "; ".join(x for x in (verification.note, words) if x)
@@ -359,7 +360,7 @@ class Model(Analysed, Shown):
         StepError
             If the start violates a limit of the run.
         """
-        from symgen.stepping.run import SteppedRun
+        from symgen.result.stepping.run import SteppedRun
 
         settings = changed(settings, changes)
         for name in ("output_step", "times", "verify", "repeat"):

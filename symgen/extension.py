@@ -5,56 +5,12 @@ Worked examples are the guides "own method", "own joint" and "own integrator"; t
 """
 
 from symgen.analyses.kinds import ANALYSES, Analysis, AnalysisOutput, AnalysisTable, Option
+from symgen.base.ir.program import Correction
 from symgen.base.plugins import load_plugin
 from symgen.base.registry import Registry
-from symgen.describe.fields import (
-    Axis,
-    AxisPair,
-    BodyName,
-    BodyPair,
-    Point,
-    PointPair,
-    Scalar,
-    StateFunction,
-    Text,
-    TimeFunction,
-    Vector,
-)
-from symgen.describe.mechanism import Articulation, Force, Joint
-from symgen.describe.scope import Scope
-from symgen.forces import FORCES
-from symgen.integrators import INTEGRATORS
-from symgen.integrators._tableau import Tableau
-from symgen.ir.program import Correction
-from symgen.joints import JOINTS
-from symgen.layout import abi
-from symgen.layout.records import Sizes, Span, State
-from symgen.loopcode.bare import part
-from symgen.loopcode.padding import padded
-from symgen.loopcode.vectors import copied
-from symgen.loops.frame import loop
-from symgen.loops.frame_parts import evaluate
-from symgen.loops.integrator import Integrator, IntegratorParameter, Setup, law_functions
-from symgen.methods import METHODS
-from symgen.methods._base import (
-    Acceleration,
-    Descriptor,
-    Iteration,
-    Method,
-    MethodOption,
-    MethodParameter,
-    MultiplierMethod,
-    augmented_iteration,
-    multiplier_law,
-)
-from symgen.methods._formula import Matrix as FormulaMatrix
-from symgen.methods._formula import Scalar as FormulaScalar
-from symgen.methods._formula import System
-from symgen.methods._formula import Vector as FormulaVector
-from symgen.native import types
-from symgen.vocabulary.expressions import ONE, ZERO, call
-from symgen.vocabulary.expressions import literal_of as number
-from symgen.vocabulary.measures import (
+from symgen.base.vocabulary.expressions import ONE, ZERO, call
+from symgen.base.vocabulary.expressions import literal_of as number
+from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
     Bearing,
@@ -76,6 +32,50 @@ from symgen.vocabulary.measures import (
     Turn,
     axes,
 )
+from symgen.compile.loopcode.bare import part
+from symgen.compile.loopcode.padding import padded
+from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native import types
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import (
+    Acceleration,
+    Descriptor,
+    Iteration,
+    Method,
+    MethodOption,
+    MethodParameter,
+    MultiplierMethod,
+    augmented_iteration,
+    multiplier_law,
+)
+from symgen.derive.methods._formula import Matrix as FormulaMatrix
+from symgen.derive.methods._formula import Scalar as FormulaScalar
+from symgen.derive.methods._formula import System
+from symgen.derive.methods._formula import Vector as FormulaVector
+from symgen.describe.forces import FORCES
+from symgen.describe.joints import JOINTS
+from symgen.describe.mechanism import Articulation, Force, Joint
+from symgen.describe.parts.fields import (
+    Axis,
+    AxisPair,
+    BodyName,
+    BodyPair,
+    Point,
+    PointPair,
+    Scalar,
+    StateFunction,
+    Text,
+    TimeFunction,
+    Vector,
+)
+from symgen.describe.parts.scope import Scope
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.integrators._tableau import Tableau
+from symgen.run.layout import abi
+from symgen.run.layout.records import Sizes, Span, State
+from symgen.run.loops.frame import loop
+from symgen.run.loops.frame_parts import evaluate
+from symgen.run.loops.integrator import Integrator, IntegratorParameter, Setup, law_functions
 
 __all__ = [
     "ANALYSES",

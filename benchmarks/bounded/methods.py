@@ -79,8 +79,8 @@ class Line:
 
 def pairs(methods: list[str], integrators: list[str]) -> Iterator[tuple[str, str]]:
     """Yield methods with the integrators that they fit."""
-    from symgen.integrators import INTEGRATORS
-    from symgen.methods import METHODS
+    from symgen.derive.methods import METHODS
+    from symgen.run.integrators import INTEGRATORS
 
     for method in methods or METHODS.names:
         forms = set(METHODS.get(method).forms)
@@ -91,7 +91,7 @@ def pairs(methods: list[str], integrators: list[str]) -> Iterator[tuple[str, str
 
 def adaptive(integrator: str) -> bool:
     """Whether an integrator chooses its steps by a tolerance."""
-    from symgen.integrators import INTEGRATORS
+    from symgen.run.integrators import INTEGRATORS
 
     return bool(INTEGRATORS.get(integrator).adaptive)
 

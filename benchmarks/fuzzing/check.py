@@ -67,9 +67,9 @@ def _home() -> Path:
 def _warmed() -> None:
     """Import what a check imports, so that no file pays for it."""
     import symgen.api
-    import symgen.formulate.formulate
-    import symgen.joints
-    import symgen.starts.assembly  # noqa: F401  # loaded beforehand: its time is not that of a file
+    import symgen.derive.formulate.formulate
+    import symgen.describe.joints
+    import symgen.run.starts.assembly  # noqa: F401  # loaded beforehand: its time is not that of a file
 
     Path("file.toml").write_text('[mechanism]\nname = "a"\n[bodies.b]\ntype = "point"\nmass = 1\n', encoding="utf-8")
     _answer(["check", "file.toml"])
@@ -91,7 +91,7 @@ def _answer(words: list[str]) -> tuple[Any, str, str, str]:
 def _read(path: str) -> tuple[Any, str, str, str]:
     """Return the same for reading the file alone."""
     from symgen.base.errors import SymgenError
-    from symgen.describe.load import load
+    from symgen.describe.files.load import load
 
     try:
         load(path)

@@ -6,7 +6,7 @@ from typing import Any
 
 import casadi as ca
 
-from symgen.ir.program import Block
+from symgen.base.ir.program import Block
 
 
 def shared_by_casadi(block: Block) -> int:

@@ -27,15 +27,15 @@ import numpy as np
 from benchmarks.against_gcc import FLAGS, REPEATS, _repeat_emitted, c_function
 from benchmarks.trees import AXES, GRAVITY, TREES, Array, Limb, mechanism
 from symgen.base.settings import Settings
-from symgen.compiling.choices import on_tree
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.lower.law import lower_law
+from symgen.derive.lower.model import lower_model
+from symgen.derive.methods import METHODS
 from symgen.describe.mechanism import Mechanism
-from symgen.formulate.formulate import formulate
-from symgen.layout import abi
-from symgen.lower.law import lower_law
-from symgen.lower.model import lower_model
-from symgen.methods import METHODS
-from symgen.running.prepare import prepare
-from symgen.running.tree import TreeRun
+from symgen.run.compiling.choices import on_tree
+from symgen.run.layout import abi
+from symgen.run.planning.prepare import prepare
+from symgen.run.planning.tree import TreeRun
 
 
 def mjcf(limbs: list[Limb]) -> str:

@@ -19,28 +19,28 @@ from numpy.typing import NDArray
 from symgen.analyses.prescribed import drivers_of, instantaneous, without
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.compiling.side import compile_side
-from symgen.describe.evaluate import parameter_values, scalars
-from symgen.describe.lengths import datum_of
+from symgen.base.vocabulary.expressions import ZERO, Expr, Name, Number, Reading
+from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic
+from symgen.derive.lower.windings import winding_order
+from symgen.describe.facts.lengths import datum_of
+from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.formulas.readings import is_turning
 from symgen.describe.mechanism import Force, Joint, Mechanism, Parameter
-from symgen.describe.readings import is_turning
-from symgen.layout import abi
-from symgen.lower.windings import winding_order
 from symgen.result.saved import Recorded
 from symgen.result.signals import accelerated
-from symgen.running.dead_centre import DRIVER
-from symgen.running.plan import Purpose
-from symgen.running.prepare import make_plan
-from symgen.running.starts import closed_by, compiled_for
-from symgen.runs.outcome import PrescribedMotion
-from symgen.starts.assembly import assemble
-from symgen.vocabulary.expressions import ZERO, Expr, Name, Number, Reading
-from symgen.vocabulary.measures import Effort, Exerted, Holonomic
+from symgen.run.compiling.side import compile_side
+from symgen.run.layout import abi
+from symgen.run.planning.dead_centre import DRIVER
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import make_plan
+from symgen.run.planning.starts import closed_by, compiled_for
+from symgen.run.single.outcome import PrescribedMotion
+from symgen.run.starts.assembly import assemble
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
-    from symgen.layout.compiled import CompiledModel
-    from symgen.starts.assembly import Start
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembly import Start
 
 Array = NDArray[np.float64]
 

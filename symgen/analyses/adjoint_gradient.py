@@ -15,23 +15,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import AnalysisError
-from symgen.layout import abi
 from symgen.result.build import build_result
 from symgen.result.evaluated import Evaluated
 from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of, prepared
-from symgen.running.directions import Direction, named_directions
-from symgen.running.moving_breaks import with_moving_kinks
-from symgen.running.start_directions import StartDirections
-from symgen.runs.adjoint import Adjoint, Uncovered, run_for_adjoint
-from symgen.runs.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.runs.directions import Course, Part, run_with_directions
+from symgen.run.layout import abi
+from symgen.run.planning.directions import Direction, named_directions
+from symgen.run.planning.moving_breaks import with_moving_kinks
+from symgen.run.planning.start_directions import StartDirections
+from symgen.run.single.adjoint import Adjoint, Uncovered, run_for_adjoint
+from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
+from symgen.run.single.directions import Course, Part, run_with_directions
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel
     from symgen.result.result import Result
-    from symgen.running.prepare import Prepared
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import ModelInfo
+    from symgen.run.layout.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

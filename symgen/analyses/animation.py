@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.describe.evaluate import parameter_values
-from symgen.drawing.mechanism_scene import SHARE, build_scene
-from symgen.player.motion_page import Page, page
-from symgen.player.recording import Recording, position_groups
+from symgen.describe.drawing.mechanism_scene import SHARE, build_scene
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.result.player.motion_page import Page, page
+from symgen.result.player.recording import Recording, position_groups
 
 if TYPE_CHECKING:
     from symgen.analyses.modes import Modes

@@ -21,7 +21,7 @@ from symgen.analyses.settle import Settled, settle
 from symgen.analyses.stopped import fault
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError, counted
-from symgen.describe.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Friction, Mechanism
 
 Array = NDArray[np.float64]

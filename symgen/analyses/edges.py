@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.side import compile_side
-from symgen.describe.kinks import changing
+from symgen.describe.facts.kinks import changing
+from symgen.run.compiling.side import compile_side
 
 if TYPE_CHECKING:
     from symgen.analyses.large import Sparse

@@ -31,7 +31,7 @@ from symgen.base.errors import AnalysisError, InputError, counted
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import ModelInfo
+    from symgen.run.layout.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings, is_set
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.build import build_result
 from symgen.result.sensitivities import Differentiated
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-    from symgen.running.directions import Direction
-    from symgen.running.prepare import Prepared
+    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
 #: Bounds of a number.

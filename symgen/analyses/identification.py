@@ -17,9 +17,9 @@ from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bound
 from symgen.analyses.measured_data import Data, measured_columns
 from symgen.analyses.null_directions import null_directions
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, counted, nearest, quoted
-from symgen.describe.lifted import lifted
-from symgen.layout import abi
+from symgen.describe.facts.lifted import lifted
 from symgen.result.sensitivities import place_of
+from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings

@@ -16,16 +16,16 @@ from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
 from symgen.base.digits import cleaned
 from symgen.base.errors import InputError, counted
-from symgen.breaks.stops import stops_of
-from symgen.describe.evaluate import parameter_values
-from symgen.describe.inputs import are_words_of_data
-from symgen.describe.smooth_friction import with_sliding_friction
-from symgen.describe.stops import refuse_bounds
+from symgen.describe.bounds.smooth_friction import with_sliding_friction
+from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.parts.inputs import are_words_of_data
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
-from symgen.running.inputs import put_inputs
+from symgen.run.breaks.stops import stops_of
+from symgen.run.planning.inputs import put_inputs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

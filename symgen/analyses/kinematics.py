@@ -21,14 +21,14 @@ from symgen.analyses.transmission import transmission_angles
 from symgen.base import arguments
 from symgen.base.errors import InputError, counted, nearest
 from symgen.base.memory import require
-from symgen.layout import abi
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.plot import Plot, plotted
 from symgen.result.reactions import Forces, seats
 from symgen.result.signals import acceleration_table, multiplier_unit
 from symgen.result.tables import Measured, MotionTables
-from symgen.running.outputs import multiples, output_size
-from symgen.runs.outcome import PrescribedMotion
+from symgen.run.layout import abi
+from symgen.run.planning.outputs import multiples, output_size
+from symgen.run.single.outcome import PrescribedMotion
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings

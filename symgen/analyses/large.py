@@ -21,15 +21,15 @@ from symgen.analyses.settle import search
 from symgen.analyses.subject import Yardsticks, inputs_at_start
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.settings import Settings
-from symgen.layout import abi
-from symgen.layout.probe import Ready
-from symgen.loops.newton import Pattern
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
+from symgen.run.layout import abi
+from symgen.run.layout.probe import Ready
+from symgen.run.loops.newton import Pattern
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel
+    from symgen.run.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from symgen.analyses.algebra import json_form
 from symgen.analyses.places import Array, NamedPlace, modes_at, range_of
 from symgen.base.errors import InputError, SymgenError, counted
 from symgen.base.units import SI, Unit
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.plot import Plot, plotted
 from symgen.result.plots import COLOURS, label
 

@@ -26,7 +26,7 @@ from symgen.analyses.reduced import StateTangent, accelerations, tangent
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import Subject
 from symgen.base.errors import counted
-from symgen.compiling.linearised import Evaluated
+from symgen.run.compiling.linearised import Evaluated
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.breaks.in_time import InTime
-from symgen.describe.formula_text import to_text
+from symgen.base.vocabulary.expressions import Expr, names_in
+from symgen.base.vocabulary.measures import Holonomic
+from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Mechanism
-from symgen.vocabulary.expressions import Expr, names_in
-from symgen.vocabulary.measures import Holonomic
+from symgen.run.breaks.in_time import InTime
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import CompiledModel
+    from symgen.run.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 

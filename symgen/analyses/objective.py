@@ -19,19 +19,19 @@ from symgen.analyses.adjoint_gradient import adjoint_gradient, is_cheaper
 from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
-from symgen.describe.inputs import put
-from symgen.describe.lifted import lifted
+from symgen.describe.facts.lifted import lifted
 from symgen.describe.mechanism import Mechanism, Output
-from symgen.describe.scope import Context, Scope
-from symgen.layout import abi
+from symgen.describe.parts.inputs import put
+from symgen.describe.parts.scope import Context, Scope
 from symgen.result.sensitivities import derivative_unit, place_of
-from symgen.runs.adjoint import Uncovered
+from symgen.run.layout import abi
+from symgen.run.single.adjoint import Uncovered
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.result.result import Result
-    from symgen.running.directions import Direction
-    from symgen.running.prepare import Prepared
+    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
 

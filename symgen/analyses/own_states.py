@@ -17,10 +17,10 @@ from symgen.analyses.passing import coordinate_rates
 from symgen.analyses.prescribed import PrescribedRun
 from symgen.analyses.tracing import trace
 from symgen.base.errors import AnalysisError
-from symgen.breaks.in_time import InTime
-from symgen.compiling.side import Side, compile_side
-from symgen.describe.kinks import jumps_in_time
-from symgen.layout import abi
+from symgen.describe.facts.kinks import jumps_in_time
+from symgen.run.breaks.in_time import InTime
+from symgen.run.compiling.side import Side, compile_side
+from symgen.run.layout import abi
 
 Array = NDArray[np.float64]
 

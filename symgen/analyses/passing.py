@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import KroghInterpolator
 
-from symgen.layout.model_arrays import velocity_of
-from symgen.running.dead_centre import dead_centre
+from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.planning.dead_centre import dead_centre
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import ModelInfo
+    from symgen.run.layout.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 

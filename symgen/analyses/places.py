@@ -24,7 +24,7 @@ from symgen.analyses.stopped import refuse_fault
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.formulas.evaluate import parameter_values
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings

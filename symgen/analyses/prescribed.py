@@ -12,28 +12,28 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import coordinate_differences
 from symgen.base.errors import AssemblyError, InputError, nearest
-from symgen.breaks.stops import stops_of
-from symgen.describe.evaluate import parameter_values, scalars
-from symgen.describe.friction import without_friction
+from symgen.base.vocabulary.expressions import readings
+from symgen.base.vocabulary.measures import GROUND, Integral
+from symgen.describe.bounds.friction import without_friction
+from symgen.describe.bounds.stops import without_stops
+from symgen.describe.formulas.evaluate import parameter_values, scalars
+from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
-from symgen.describe.start import described_start
-from symgen.describe.stops import without_stops
-from symgen.layout import abi
-from symgen.layout.probe import Ready
-from symgen.running.dead_centre import DRIVER, jacobian_at
-from symgen.running.inputs import put_inputs
-from symgen.running.plan import Plan, Purpose
-from symgen.running.prepare import preparation
-from symgen.running.starts import compiled_for, start_of
-from symgen.vocabulary.expressions import readings
-from symgen.vocabulary.measures import GROUND, Integral
+from symgen.run.breaks.stops import stops_of
+from symgen.run.layout import abi
+from symgen.run.layout.probe import Ready
+from symgen.run.planning.dead_centre import DRIVER, jacobian_at
+from symgen.run.planning.inputs import put_inputs
+from symgen.run.planning.plan import Plan, Purpose
+from symgen.run.planning.prepare import preparation
+from symgen.run.planning.starts import compiled_for, start_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from symgen.base.settings import Settings
-    from symgen.layout.compiled import CompiledModel
-    from symgen.starts.assembly import Start
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembly import Start
 
 Array = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ class PrescribedRun:
     compiled, start : CompiledModel, Start
         Its code, and its consistent start at t = 0.
     held : tuple of (float, Array)
-        Parameters of earlier stops, see `symgen.runs.outcome.Motion`.
+        Parameters of earlier stops, see `symgen.run.single.outcome.Motion`.
     p : Array
         Parameters of the last stop.
     inputs : mapping

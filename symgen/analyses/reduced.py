@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.subject import RATE, Subject
 from symgen.base.errors import AnalysisError, InputError, nearest
-from symgen.compiling.linearised import Evaluated
+from symgen.run.compiling.linearised import Evaluated
 
 Array = NDArray[np.float64]
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import Solver, largest_magnitude, level, solver
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError
-from symgen.compiling.linearised import Evaluated
+from symgen.run.compiling.linearised import Evaluated
 
 if TYPE_CHECKING:
     from symgen.analyses.large import Sparse

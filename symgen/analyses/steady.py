@@ -18,9 +18,9 @@ from symgen.analyses.reduced import StateQuantity, StateTangent, quantities_of, 
 from symgen.analyses.settle import TOLERANCE
 from symgen.analyses.subject import RATE, Subject
 from symgen.base.errors import AnalysisError, InputError
-from symgen.ir.program import COUNTERS
-from symgen.layout.model_arrays import velocity_of
-from symgen.layout.probe import rate_function
+from symgen.base.ir.program import COUNTERS
+from symgen.run.layout.model_arrays import velocity_of
+from symgen.run.layout.probe import rate_function
 
 Array = NDArray[np.float64]
 

@@ -13,20 +13,20 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.base.errors import AnalysisError, InputError
-from symgen.compiling.side import compile_side
+from symgen.base.vocabulary.measures import FormulaMeasure, Holonomic
+from symgen.describe.bounds.stops import gap_of
+from symgen.describe.joints.rows import tied
 from symgen.describe.mechanism import EndStop, Joint
-from symgen.describe.stops import gap_of
-from symgen.joints.rows import tied
-from symgen.layout import abi
-from symgen.runs.bounded_rows import STILL, TOUCHING
-from symgen.vocabulary.measures import FormulaMeasure, Holonomic
+from symgen.run.compiling.side import compile_side
+from symgen.run.layout import abi
+from symgen.run.single.bounded_rows import STILL, TOUCHING
 
 if TYPE_CHECKING:
     from symgen.analyses.subject import Subject
+    from symgen.base.vocabulary.expressions import Expr
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel
-    from symgen.starts.assembly import Start
-    from symgen.vocabulary.expressions import Expr
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembly import Start
 
 Array = NDArray[np.float64]
 

@@ -14,23 +14,23 @@ from symgen.analyses.algebra import null_space_split
 from symgen.analyses.stopped import closed_stops, mode_of, with_rows
 from symgen.base.errors import InputError, nearest
 from symgen.base.settings import Settings
-from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
-from symgen.compiling.side import compile_side
-from symgen.describe.digest import digest
-from symgen.describe.friction import without_friction
-from symgen.describe.stops import without_stops
-from symgen.layout import abi
-from symgen.layout.probe import Ready
-from symgen.lower.windings import winding_order
-from symgen.running.inputs import Inputs, put_inputs
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
+from symgen.derive.lower.windings import winding_order
+from symgen.describe.bounds.friction import without_friction
+from symgen.describe.bounds.stops import without_stops
+from symgen.describe.facts.digest import digest
+from symgen.run.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
+from symgen.run.compiling.side import compile_side
+from symgen.run.layout import abi
+from symgen.run.layout.probe import Ready
+from symgen.run.planning.inputs import Inputs, put_inputs
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from symgen.describe.mechanism import EndStop, Mechanism
-    from symgen.layout.compiled import CompiledModel
+    from symgen.run.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 

@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from symgen.analyses.passing import Curve, Passage, coordinate_rates, curve_through
 from symgen.analyses.prescribed import PrescribedRun
-from symgen.layout import abi
-from symgen.layout.manifold import stay
-from symgen.layout.model_arrays import entries_of, lengths_of, velocity_of
-from symgen.layout.probe import Ready
-from symgen.loopcode.exact import compiled_form
-from symgen.loops import following as f
-from symgen.running.dead_centre import free_and_held, jacobian_at
-from symgen.starts import decisions
-from symgen.starts.assembler import row_chooser
+from symgen.compile.loopcode.exact import compiled_form
+from symgen.run.layout import abi
+from symgen.run.layout.manifold import stay
+from symgen.run.layout.model_arrays import entries_of, lengths_of, velocity_of
+from symgen.run.layout.probe import Ready
+from symgen.run.loops import following as f
+from symgen.run.planning.dead_centre import free_and_held, jacobian_at
+from symgen.run.starts import decisions
+from symgen.run.starts.assembler import row_chooser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -147,7 +147,7 @@ class Tracer:
 
     @property
     def clock(self) -> Array:
-        """Time, sine and the like, see `symgen.loops.following`."""
+        """Time, sine and the like, see `symgen.run.loops.following`."""
         clock: Array = self.stand.clock
         return clock
 

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.evaluate import evaluate
+from symgen.base.vocabulary.measures import GROUND, Component
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.result.labelled import Labelled
-from symgen.vocabulary.measures import GROUND, Component
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Joint, Mechanism
-    from symgen.runs.outcome import Motion
+    from symgen.run.single.outcome import Motion
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from symgen.base.escapes import printable
 
 if TYPE_CHECKING:
-    from symgen.vocabulary.quantities import Counted
+    from symgen.base.vocabulary.quantities import Counted
 
 #: Characters at most of a part of a message, such as what was found, of the place it begins with, whose names come from
 #: files, and of a text that it repeats in quotes.

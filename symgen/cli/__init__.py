@@ -185,7 +185,7 @@ def in_line(error: InputError) -> str:
     """Return the sentence of an error, with the line of the mechanism file that it is about."""
     if error.file is None:
         return str(error)
-    from symgen.describe.problems import in_line
+    from symgen.describe.files.problems import in_line
 
     return in_line(error)
 

@@ -111,9 +111,9 @@ def _in_si(name: str, value: Any, model: str) -> Any:
     """Return the value of an option with its numbers in SI units."""
     if not isinstance(value, _Range):
         return numbers_in_si(f"--{name}", value, (model,))
-    from symgen.describe.load import load
-    from symgen.describe.typed_units import units_of_number
-    from symgen.ensemble.axes import axis_values
+    from symgen.describe.facts.typed_units import units_of_number
+    from symgen.describe.files.load import load
+    from symgen.study.ensemble.axes import axis_values
 
     units = units_of_number(load(model), value.name)
     return value.name, axis_values(value.text, f"{value.flag} {value.name}", units)
@@ -127,7 +127,7 @@ def _range(flag: str, text: str) -> _Range:
     InputError
         If it has another form.
     """
-    from symgen.ensemble.axes import check_axis
+    from symgen.study.ensemble.axes import check_axis
 
     name, equals, values = text.partition("=")
     if not equals or not name.strip() or not values.strip():

@@ -16,9 +16,9 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from symgen import catalogue
 from symgen.base.errors import SymgenError
 from symgen.base.settings import COORDINATES, SHAPES
+from symgen.describe import catalogue
 
 #: Files above this size in bytes are not read at a key press.
 LARGEST = 1_000_000
@@ -183,13 +183,13 @@ def _assigned(candidates: Callable[[click.Context], list[str]]) -> Candidates:
 
 
 def _methods(context: click.Context) -> tuple[str, ...]:
-    from symgen.methods import METHODS
+    from symgen.derive.methods import METHODS
 
     return METHODS.names
 
 
 def _integrators(context: click.Context) -> tuple[str, ...]:
-    from symgen.integrators import INTEGRATORS
+    from symgen.run.integrators import INTEGRATORS
 
     return INTEGRATORS.names
 

@@ -94,11 +94,11 @@ def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
     InputError
         If a unit is none, or none of the quantity, or models have different ones for a name.
     """
-    from symgen.describe.typed_units import Typed, in_si
+    from symgen.describe.facts.typed_units import Typed, in_si
 
     if not isinstance(numbers, Mapping) or not any(isinstance(x, Typed) for x in numbers.values()):
         return numbers
-    from symgen.describe.load import load
+    from symgen.describe.files.load import load
 
     found = [in_si(load(model), numbers, option) for model in models if not model.lower().endswith(".nc")]
     for other in found[1:]:
@@ -151,7 +151,7 @@ def jobs_option(text: str) -> Callable[[F], F]:
 
 def target_option(text: str) -> Callable[[F], F]:
     """Return the option ``--target``; `text` is its help."""
-    from symgen.ir.program import TARGETS
+    from symgen.base.ir.program import TARGETS
 
     return click.option("--target", type=click.Choice(TARGETS), default="cpu", show_default=True, help=text)
 
@@ -240,7 +240,7 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
 
 def _typed(where: str, text: str) -> float:
     """Return a finite number that may have a unit."""
-    from symgen.describe.typed_units import Typed
+    from symgen.describe.facts.typed_units import Typed
 
     amount = read_amount(text)
     if amount is None or not math.isfinite(amount.number):
@@ -336,7 +336,7 @@ def time_list(option: str, text: str) -> tuple[float, ...]:
         If it is neither.
     """
     if "(" in text:
-        from symgen.ensemble.axes import axis_values
+        from symgen.study.ensemble.axes import axis_values
 
         return tuple(axis_values(text, option, ("s", "s")).tolist())
     return tuple(

@@ -11,13 +11,13 @@ if TYPE_CHECKING:
 def latex_of(name: str, settings: Settings, select: str | None, symbols: bool, whole: bool) -> str:
     """Return the equations as LaTeX: a document, or a part of one."""
     from symgen.api import Model
-    from symgen.compiling.choices import choose_coordinates
-    from symgen.describe.load import read_raw
-    from symgen.describe.validate import validate
-    from symgen.reading.inspection import method_of
-    from symgen.reading.latex_document import document
-    from symgen.reading.law import law
-    from symgen.reading.lengths import with_symbols
+    from symgen.describe.files.load import read_raw
+    from symgen.describe.files.validate import validate
+    from symgen.result.reading.inspection import method_of
+    from symgen.result.reading.latex_document import document
+    from symgen.result.reading.law import law
+    from symgen.result.reading.lengths import with_symbols
+    from symgen.run.compiling.choices import choose_coordinates
 
     raw, source = read_raw(name)
     model = Model(validate(with_symbols(raw) if symbols else raw, source))

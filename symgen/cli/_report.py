@@ -90,7 +90,7 @@ def study_files(row: str) -> Callable[[F], F]:
 def _report_file(text: str | None) -> Path | None:
     if text is None:
         return None
-    from symgen.report.write import check_report
+    from symgen.study.report.write import check_report
 
     check_report("--output", Path(text))
     return Path(text)
@@ -125,7 +125,7 @@ def sketches_of(
     models: Sequence[Model], parameters: Mapping[str, float] | None = None, start: Mapping[str, float] | None = None
 ) -> dict[str, str]:
     """Return sketches of mechanisms at their starts for the head of a report, by name."""
-    from symgen.report.picture import MOST_BODIES
+    from symgen.study.report.picture import MOST_BODIES
 
     small = [model for model in models if len(model.mechanism.bodies) <= MOST_BODIES]
     return {model.name: model.draw(parameters, start).svg for model in small}

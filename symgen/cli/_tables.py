@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from symgen.ensemble.sweep_study import Sweep
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
     from symgen.study.comparison.comparison_rows import Row
+    from symgen.study.ensemble.sweep_study import Sweep
     from symgen.study.stress.stress_rows import Stress
 
 

@@ -27,16 +27,16 @@ def info_command(as_json: bool) -> int:
 @json_option
 def clear_command(as_json: bool) -> int:
     """Remove all files of symgen from the cache."""
-    from symgen.store import upkeep
-    from symgen.store.paths import cache_root
+    from symgen.compile.store import upkeep
+    from symgen.compile.store.paths import cache_root
 
     upkeep.clear(cache_root())
     return _show(as_json, "cleared; ")
 
 
 def _show(as_json: bool, done: str) -> int:
-    from symgen.store import upkeep
-    from symgen.store.paths import cache_location
+    from symgen.compile.store import upkeep
+    from symgen.compile.store.paths import cache_location
 
     place = cache_location()
     held = upkeep.info(place.path)

@@ -15,7 +15,7 @@ from symgen.cli._options import examples, json_option, setting_options
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.describe.problems import Problem
+    from symgen.describe.files.problems import Problem
 
 #: Problems of a file that are written to standard error at most; JSON has all.
 MOST_SHOWN = 100
@@ -53,7 +53,7 @@ def command(
         raise
     if picture is not None:
         from symgen.base.files import check_path
-        from symgen.drawing.drawing import PICTURES
+        from symgen.describe.drawing.drawing import PICTURES
 
         file = check_path("--draw", Path(picture), PICTURES, "plot")
         loaded.draw(parameters, start).save(file)
@@ -84,9 +84,9 @@ def command(
 
 def _problems(file: Path) -> Sequence[Problem]:
     """Return what is wrong in a file; nothing if it was changed into a valid one in the meantime."""
-    from symgen.describe.load import read_text
-    from symgen.describe.origins import Source
-    from symgen.describe.problems import problems
+    from symgen.describe.files.load import read_text
+    from symgen.describe.files.origins import Source
+    from symgen.describe.files.problems import problems
 
     return problems(read_text(file), Source.of(file))
 

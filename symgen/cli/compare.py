@@ -168,8 +168,8 @@ def command(
             show_study(study)
 
     def write_report(file: Path) -> None:
-        from symgen.report.comparison import comparison
-        from symgen.report.write import write
+        from symgen.study.report.comparison import comparison
+        from symgen.study.report.write import write
 
         sketches = sketches_of(loaded, values["parameters"], values["start"])
         texts = [text for option, text in _ranges(step_list, rtol_list, bool(errors)).items() if used[option]]
@@ -187,8 +187,8 @@ def command(
 
 def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:
     """Return the settings of --steps and --rtols: a label and words."""
-    from symgen.report.words import exact_number
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, RTOLS_AT, STEP_FACTORS, STEP_FACTORS_AT
+    from symgen.study.report.words import exact_number
 
     own = f"{', '.join(f'{x:g}' for x in (STEP_FACTORS_AT if at else STEP_FACTORS))} times the mechanism's own"
     relative = ", ".join(exact_number(x) for x in rtols or (RTOLS_AT if at else RTOLS))

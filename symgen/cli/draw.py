@@ -14,7 +14,7 @@ from symgen.cli._options import examples, json_option, setting_options
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.drawing import Drawing, View
+    from symgen.describe.drawing import Drawing, View
 
 
 @click.command(
@@ -53,7 +53,7 @@ def command(
     """
     from symgen.api import load
     from symgen.base.files import check_path
-    from symgen.drawing.drawing import PICTURES
+    from symgen.describe.drawing.drawing import PICTURES
 
     view = _view(angles)
     loaded = load(model)
@@ -100,7 +100,7 @@ def _drawing(
 
 
 def _view(angles: str | None) -> View | None:
-    from symgen.drawing import View
+    from symgen.describe.drawing import View
 
     if angles is None:
         return None

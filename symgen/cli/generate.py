@@ -10,7 +10,7 @@ from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options, tell
 
 #: By name alone: files of targets are imported when one is chosen.
-_TARGETS: Registry[object] = Registry("symgen.targets", "target")
+_TARGETS: Registry[object] = Registry("symgen.result.targets", "target")
 _LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
 
 

@@ -33,10 +33,10 @@ def command(file: str, output: str | None, floating: bool, stops: bool, as_json:
     """
     from symgen.base.errors import InputError, quoted
     from symgen.base.files import check_writable, write_whole
-    from symgen.describe.builder import to_toml
+    from symgen.describe.files.builder import to_toml
+    from symgen.describe.files.validate import validate
     from symgen.describe.formats import FORMATS, LeftOut, format_of, read_robot
-    from symgen.describe.mesh_files import with_mesh_folder
-    from symgen.describe.validate import validate
+    from symgen.describe.parts.mesh_files import with_mesh_folder
 
     if as_json and output == "-":
         raise InputError("--json", "a file to write (-o FILE), or none", "-o -", "standard output takes one of both")

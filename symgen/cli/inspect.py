@@ -52,7 +52,7 @@ def command(
     """
     from symgen.api import load
     from symgen.base.settings import Settings
-    from symgen.reading.inspection import as_text, equation_facts, method_of, write_page
+    from symgen.result.reading.inspection import as_text, equation_facts, method_of, write_page
 
     named = method or "direct-correction"
     own = {f"method.{key}": value for key, value in _own(options, named).items()}
@@ -64,7 +64,7 @@ def command(
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
             raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON with it")
-        from symgen.reading.listing import text_of
+        from symgen.result.reading.listing import text_of
 
         written = write_page(load(model).mechanism, settings, Path(output), "inspect: -o", text_of(model))
         click.echo(f"{written}  {written.stat().st_size} bytes")

@@ -43,7 +43,7 @@ def command(what: str, as_json: bool) -> int:
             click.echo(str(listing))
         return OK
 
-    from symgen import catalogue
+    from symgen.describe import catalogue
 
     rows = []
     for entry in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES)):

@@ -25,7 +25,7 @@ from symgen.cli._options import examples
 def command(name: str, output: str | None, space: str) -> int:
     """Write a commented mechanism file that runs without changes and shows every key. Never overwrites a file."""
     from symgen.base.files import check_writable, write_whole
-    from symgen.describe.template import template
+    from symgen.describe.files.template import template
 
     text = template(name, space)
     if output == "-":

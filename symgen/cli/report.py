@@ -35,9 +35,9 @@ def command(model: str, over: str, output: str | None, **values: Any) -> int:
     """
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.report.machine import machine
-    from symgen.report.paper import printer
-    from symgen.report.write import check_report, write
+    from symgen.study.report.machine import machine
+    from symgen.study.report.paper import printer
+    from symgen.study.report.write import check_report, write
 
     settings = Settings(**values)
     loaded = load(model)

@@ -100,7 +100,7 @@ def command(
 
         settings = replace(settings, start=read_last_state("--from", Path(whence)))  # type: ignore[arg-type]  # one of two
     if save_path is not None:
-        from symgen.running.outputs import check_saving
+        from symgen.run.planning.outputs import check_saving
 
         check_saving(loaded.mechanism, settings)
     _prepare(loaded, settings, quantities, over or "t")
@@ -133,9 +133,9 @@ def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...], over
     if not quantities and over == "t":
         return
     from symgen.result.signals import check_single, choose, of_run
-    from symgen.running.plan import Purpose
-    from symgen.running.prepare import make_plan
-    from symgen.running.starts import compiled_for
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import make_plan
+    from symgen.run.planning.starts import compiled_for
 
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     tables = of_run(plan.mechanism, compiled_for(plan.mechanism, plan.choice).info)

@@ -16,7 +16,7 @@ def command() -> int:
     """Print the JSON schema (draft 2020-12) of mechanism files; editors complete and check files with it."""
     import json
 
-    from symgen.describe.schema import schema
+    from symgen.describe.files.schema import schema
 
     click.echo(json.dumps(schema(), indent=2))
     return OK

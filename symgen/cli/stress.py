@@ -56,8 +56,8 @@ def command(
     case_list, method_list = comma_list("--cases", cases), comma_list("--methods", methods)
 
     from symgen.base.memory import processors
-    from symgen.catalogue import names
     from symgen.cli._progress import Lines
+    from symgen.describe.catalogue import names
     from symgen.study.journal import Journal
     from symgen.study.stress.stress_rows import save_stress_csv
     from symgen.study.stress.study import stress
@@ -82,8 +82,8 @@ def command(
 
     def write_report(file: Path) -> None:
         from symgen.api import load
-        from symgen.report.stress import stress_report
-        from symgen.report.write import write
+        from symgen.study.report.stress import stress_report
+        from symgen.study.report.write import write
 
         mechanisms = [load(name) for name in dict.fromkeys(models)]
         write(stress_report(study, command_again(), sketches_of(mechanisms)), file)
@@ -95,7 +95,7 @@ def command(
 
 
 def _exit_code(study: Stress, stored: bool) -> int:
-    from symgen.running.automatic import AUTO
+    from symgen.run.planning.automatic import AUTO
 
     if study.interrupted:
         return interrupted("cell", stored)

@@ -23,7 +23,7 @@ from symgen.cli._options import (
 )
 
 if TYPE_CHECKING:
-    from symgen.ensemble.sweep_study import Sweep
+    from symgen.study.ensemble.sweep_study import Sweep
 
 
 @click.command(
@@ -102,8 +102,8 @@ def command(
     if over not in (None, "t", *axes):  # what is drawn over is kept as well
         quantities = (*(quantities or ("q", "v")), str(over))
 
-    from symgen.ensemble.device_runs import check_target
-    from symgen.ensemble.sweep import output_folder
+    from symgen.study.ensemble.device_runs import check_target
+    from symgen.study.ensemble.sweep import output_folder
 
     check_target(target, scheduler)
 
@@ -112,7 +112,7 @@ def command(
 
     from symgen.api import load
     from symgen.cli._progress import Bar
-    from symgen.ensemble.sweep import sweep
+    from symgen.study.ensemble.sweep import sweep
 
     loaded = load(model)
     with Bar(f"{loaded.name}, {', '.join(axes)}", 1.0) as bar:
@@ -147,7 +147,7 @@ def command(
 
 def _axes(words: tuple[str, ...]) -> dict[str, str]:
     """Return the text of the values by name; names may not repeat."""
-    from symgen.ensemble.axes import check_axis
+    from symgen.study.ensemble.axes import check_axis
 
     form = "NAME=VALUES, such as crank_mass=lin(1,3,21)"
     axes = pairs("--vary", [word.replace("(0)=", "=", 1) for word in words], form)

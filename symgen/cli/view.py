@@ -14,7 +14,7 @@ from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
 
 if TYPE_CHECKING:
-    from symgen.player.recording import Recording
+    from symgen.result.player.recording import Recording
     from symgen.result.result import Result
 
 
@@ -90,8 +90,8 @@ def command(
 
     from symgen.api import load
     from symgen.base.files import check_path
-    from symgen.player.motion_page import PAGES, Page
-    from symgen.player.moving import check_film, write_film
+    from symgen.result.player.motion_page import PAGES, Page
+    from symgen.result.player.moving import check_film, write_film
     from symgen.result.viewed import mechanism_name, playable_motion, recorded_file, view_file
 
     model = load(described or mechanism_name("view", Path(what)) if stored else what)
@@ -134,9 +134,9 @@ def command(
 
 def _live(settings: Settings) -> bool | str:
     """Return the live method of a page: the one that was named, whose gains have sliders, if pages can run it."""
-    from symgen.methods import METHODS
+    from symgen.derive.methods import METHODS
     from symgen.result.viewed import is_live
-    from symgen.running.automatic import AUTO
+    from symgen.run.planning.automatic import AUTO
 
     if not is_set(settings, "method") or settings.method == AUTO:
         return True

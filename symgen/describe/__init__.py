@@ -4,13 +4,13 @@ TOML, catalogue entries and a `MechanismBuilder` become the same nested dictiona
 
 In: a file, a catalogue entry or the keys of a builder.
 Out: a `Mechanism` with its inputs, events, tables and described start.
-Imports: msgspec; mujoco for MJCF; `catalogue` and rooms below; `forces`, `joints` by name.
+Imports: msgspec; `base`; kinds of `forces` and `joints` by name.
 """
 
 from __future__ import annotations
 
-from symgen.describe.builder import MechanismBuilder
-from symgen.describe.load import load
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.files.load import load
 from symgen.describe.mechanism import Mechanism
 
 __all__ = ["Mechanism", "MechanismBuilder", "load"]

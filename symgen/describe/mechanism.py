@@ -10,10 +10,10 @@ import msgspec
 from symgen.base.arguments import shown
 from symgen.base.errors import InputError, nearest
 from symgen.base.units import Unit, known
+from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
+from symgen.base.vocabulary.rotations import IDENTITY, Orientation
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import ZERO, Expr
-from symgen.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
-from symgen.vocabulary.rotations import IDENTITY, Orientation
 
 T = TypeVar("T")
 
@@ -388,7 +388,7 @@ class StateVariable(msgspec.Struct, frozen=True):
 
 
 class Output(msgspec.Struct, frozen=True):
-    """A formula that results report; it may read quantities of outputs (`symgen.describe.readings`)."""
+    """A formula that results report; it may read quantities of outputs (`symgen.describe.formulas.readings`)."""
 
     name: str
     value: Expr

@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import msgspec
 
-from symgen.ir.interpolation import Interpolation, cubic_pieces, cubic_slopes, pchip_slopes, periodic_slopes
-from symgen.vocabulary.expressions import SMOOTH
+from symgen.base.ir.interpolation import Interpolation, cubic_pieces, cubic_slopes, pchip_slopes, periodic_slopes
+from symgen.base.vocabulary.expressions import SMOOTH
 
 
 class Table(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -25,7 +25,7 @@ class Table(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def function(self) -> str:
-        """Function of its calls in an expression, see `symgen.vocabulary.expressions.Call`."""
+        """Function of its calls in an expression, see `symgen.base.vocabulary.expressions.Call`."""
         return f"table:{'' if self.interpolation == 'linear' else SMOOTH}{self.name}"
 
     @property

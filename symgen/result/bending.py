@@ -7,11 +7,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.evaluate import evaluate
+from symgen.base.vocabulary.expressions import Expr
+from symgen.base.vocabulary.measures import GROUND, Component, Direction, Flexure, Marker, Sum
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import rotation_matrices
-from symgen.vocabulary.expressions import Expr
-from symgen.vocabulary.measures import GROUND, Component, Direction, Flexure, Marker, Sum
 
 Array = NDArray[np.float64]
 

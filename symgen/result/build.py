@@ -9,28 +9,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.digest import digest
-from symgen.describe.evaluate import parameter_values
-from symgen.layout import abi
+from symgen.describe.facts.digest import digest
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.judge import judge, unchecked
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, UNVERIFIED, Rank, Result, Seconds
 from symgen.result.tables import Measured
-from symgen.running.automatic import stiff_by_steps
-from symgen.running.continuation import made_of
-from symgen.running.dead_centre import dead_centre_at_end
-from symgen.running.tree import CarriedOutcome
-from symgen.running.undefined import undefined_at_end
-from symgen.runs.events import brought_to_rest, record_of, stopped, struck_at_once
-from symgen.runs.last_state import LastState
-from symgen.runs.simulation import SHOWN
+from symgen.run.layout import abi
+from symgen.run.planning.automatic import stiff_by_steps
+from symgen.run.planning.continuation import made_of
+from symgen.run.planning.dead_centre import dead_centre_at_end
+from symgen.run.planning.tree import CarriedOutcome
+from symgen.run.planning.undefined import undefined_at_end
+from symgen.run.single.events import brought_to_rest, record_of, stopped, struck_at_once
+from symgen.run.single.last_state import LastState
+from symgen.run.single.simulation import SHOWN
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import CompiledModel
     from symgen.result.points import Verification
-    from symgen.running.prepare import Prepared
-    from symgen.runs.outcome import Outcome
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.planning.prepare import Prepared
+    from symgen.run.single.outcome import Outcome
 
 
 def build_result(

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.events import STOP
-from symgen.layout import abi
+from symgen.describe.parts.events import STOP
 from symgen.result.step_errors import least_sizes
-from symgen.running.prepare import Prepared
-from symgen.runs.directed_model import DirectedModel
-from symgen.runs.directed_observer import Observer
-from symgen.runs.directions import Course, Part
+from symgen.run.layout import abi
+from symgen.run.planning.prepare import Prepared
+from symgen.run.single.directed_model import DirectedModel
+from symgen.run.single.directed_observer import Observer
+from symgen.run.single.directions import Course, Part
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import CompiledModel
-    from symgen.running.directions import Direction
-    from symgen.runs.outcome import Outcome
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.planning.directions import Direction
+    from symgen.run.single.outcome import Outcome
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.files import headed, need, write_csv, write_whole
-from symgen.describe.columns import column_name
+from symgen.describe.parts.columns import column_name
 from symgen.result.contract import contract
 from symgen.result.signals import TABLES
 

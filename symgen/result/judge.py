@@ -11,15 +11,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from symgen.ir.numerics import WARN
-from symgen.layout import abi
+from symgen.base.ir.numerics import WARN
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
+from symgen.run.layout import abi
 
 if TYPE_CHECKING:
+    from symgen.base.vocabulary.infos import LawInfo
     from symgen.result.points import Verification
-    from symgen.running.prepare import Prepared
-    from symgen.runs.outcome import Ended, Outcome
-    from symgen.vocabulary.infos import LawInfo
+    from symgen.run.planning.prepare import Prepared
+    from symgen.run.single.outcome import Ended, Outcome
 
 #: Energy jump over a passage, as a fraction of the energy in motion: beyond the first a run is in doubt, beyond the
 #: second it has failed.

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from symgen.compiling.checked import checked_function
-from symgen.compiling.side import READ, compile_side
-from symgen.describe.events import RESET
+from symgen.base.vocabulary.expressions import Expr, readings
+from symgen.base.vocabulary.measures import GROUND, Integral
+from symgen.compile.native.javascript import HELPERS, javascript
+from symgen.compile.native.read import Foreign
+from symgen.describe.formulas.readings import TABLES as FORMULAS
+from symgen.describe.formulas.readings import integrals
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.readings import TABLES as FORMULAS
-from symgen.describe.readings import integrals
-from symgen.layout import abi
-from symgen.layout import ensemble_abi as e
-from symgen.native.javascript import HELPERS, javascript
-from symgen.native.read import Foreign
+from symgen.describe.parts.events import RESET
 from symgen.result.signals import Signal, of_run
-from symgen.vocabulary.expressions import Expr, readings
-from symgen.vocabulary.measures import GROUND, Integral
+from symgen.run.compiling.checked import checked_function
+from symgen.run.compiling.side import READ, compile_side
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
 
 if TYPE_CHECKING:
-    from symgen.layout.compiled import CompiledModel
-    from symgen.native.language import Function
-    from symgen.starts.assembly import Start
+    from symgen.compile.native.language import Function
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembly import Start
 
 #: Tables that need a state of bodies.
 _OF_BODIES = ("lam", "reactions", "body_reactions", "magnitudes", "joint_coordinates", "violations")

@@ -2,7 +2,8 @@
 
 The points of a body are its centre of mass and the tips of its axes at the body's own length, so that an error of an
 angle counts as the distance it moves the body's far end. The limit of agreement is a share of the mechanism's size: no
-unit of length matters. Nothing inside one run sees its global error; a second run estimates it (`symgen.reruns`).
+unit of length matters. Nothing inside one run sees its global error; a second run estimates it
+(`symgen.result.reruns`).
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.evaluate import scalars
-from symgen.describe.lengths import datum_of, own_length
+from symgen.base.vocabulary.rotations import matrix
+from symgen.describe.facts.lengths import datum_of, own_length
+from symgen.describe.formulas.evaluate import scalars
 from symgen.describe.mechanism import Mechanism
-from symgen.vocabulary.rotations import matrix
 
 Array = NDArray[np.float64]
 
@@ -34,7 +35,7 @@ class Points:
     slender : bool
         Whether some bodies are nodes of beams, whose own lengths say nothing of these.
     datum : tuple of float
-        The place that a point is measured from (`symgen.describe.lengths.datum_of`).
+        The place that a point is measured from (`symgen.describe.facts.lengths.datum_of`).
     speeds : tuple of int
         For each body where its velocities begin.
     """

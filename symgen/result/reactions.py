@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.base.errors import counted
-from symgen.describe.evaluate import evaluate
-from symgen.ir.program import MODE_NUMBERS
-from symgen.layout import abi
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.result.labelled import Array, Labelled
 from symgen.result.points import rotation_matrices
 from symgen.result.signals import SignalTables, filled, of_forces
-from symgen.vocabulary.measures import GROUND
+from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel, ModelInfo
-    from symgen.runs.outcome import Motion
+    from symgen.run.layout.compiled import CompiledModel, ModelInfo
+    from symgen.run.single.outcome import Motion
 
 
 @dataclass(frozen=True)
@@ -292,7 +292,7 @@ class Forces:
 
     def _entries(self) -> Array:
         """Return the entries of D that vary at all outputs, as ``geometry`` leaves them."""
-        from symgen.layout.probe import Ready
+        from symgen.run.layout.probe import Ready
 
         o, geometry = self.outcome, Ready(self.compiled.model.geometry, abi.MEASURE)
         w = o.w.copy()
@@ -306,7 +306,7 @@ class Forces:
 
 def constraint_jacobian(outcome: Motion, t: float, y: Array) -> Array:
     """Return D at one state, shape (m, nv)."""
-    from symgen.layout.probe import Ready
+    from symgen.run.layout.probe import Ready
 
     w = outcome.w.copy()
     Ready(outcome.compiled.model.geometry, abi.MEASURE)(float(t), y.copy(), outcome.p, w)

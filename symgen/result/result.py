@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from symgen.result.reactions import Forces
     from symgen.result.sensitivities import Sensitivities
     from symgen.result.tables import Measured
-    from symgen.runs.events import EventRecord
-    from symgen.runs.last_state import LastState
-    from symgen.runs.outcome import Outcome, RankEvent
+    from symgen.run.single.events import EventRecord
+    from symgen.run.single.last_state import LastState
+    from symgen.run.single.outcome import Outcome, RankEvent
 
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"

@@ -14,12 +14,12 @@ import numpy as np
 
 from symgen.base.errors import InputError, quoted
 from symgen.base.files import check_name, check_rows, need, unheaded
-from symgen.describe.columns import FORMS
 from symgen.describe.mechanism import ACCELERATIONS
+from symgen.describe.parts.columns import FORMS
 from symgen.result.export import LAST_HEADER, LAST_PREFIX, SAVED
 from symgen.result.labelled import Array
 from symgen.result.signals import TABLES
-from symgen.runs.last_state import LastState
+from symgen.run.single.last_state import LastState
 
 if TYPE_CHECKING:
     import xarray as xr

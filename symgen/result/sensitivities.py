@@ -14,27 +14,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.compiling.side import compile_side
-from symgen.describe.kinks import discontinuities_of
-from symgen.describe.readings import TABLES as FORMULAS
-from symgen.describe.stops import refuse_bounds
-from symgen.integrators import INTEGRATORS
+from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.facts.kinks import discontinuities_of
+from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
 from symgen.result.step_errors import DOUBTFUL, errors_of_steps
-from symgen.running.directions import named_directions
-from symgen.running.moving_breaks import with_moving_kinks
-from symgen.running.prepare import Preparation, Prepared, preparation
-from symgen.running.start_directions import StartDirections
-from symgen.runs.directions import Course, run_with_directions
+from symgen.run.compiling.side import compile_side
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.directions import named_directions
+from symgen.run.planning.moving_breaks import with_moving_kinks
+from symgen.run.planning.prepare import Preparation, Prepared, preparation
+from symgen.run.planning.start_directions import StartDirections
+from symgen.run.single.directions import Course, run_with_directions
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel
-    from symgen.loops.run_spec import RunSpec
     from symgen.result.result import Result
-    from symgen.runs.outcome import Outcome
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.loops.run_spec import RunSpec
+    from symgen.run.single.outcome import Outcome
 
 Array = NDArray[np.float64]
 

@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING
 
 from symgen.base.arguments import words
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.columns import column_name
+from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.describe.mechanism import ACCELERATIONS
-from symgen.describe.readings import TABLES as FORMULAS
-from symgen.layout import abi
-from symgen.layout import ensemble_abi as e
+from symgen.describe.parts.columns import column_name
 from symgen.result.labelled import Array, Labelled
-from symgen.vocabulary.measures import GROUND
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import ModelInfo
+    from symgen.run.layout.compiled import ModelInfo
 
 #: Table -> the dimension of its columns in data sets: tables of the state and of what follows from it, of forces, and
 #: of the file's own quantities.
@@ -58,7 +58,7 @@ class Signal:
     unit : str
         Unit.
     source, column : int
-        Its source, as in `symgen.layout.ensemble_abi`, and its place there.
+        Its source, as in `symgen.run.layout.ensemble_abi`, and its place there.
     """
 
     table: str

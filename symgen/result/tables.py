@@ -17,23 +17,23 @@ from symgen.base.arguments import one_of, shown, switch, text, words
 from symgen.base.arguments import path as argument_path
 from symgen.base.errors import InputError, counted
 from symgen.base.files import check_path
-from symgen.compiling.side import compile_side
-from symgen.describe.columns import column_name
-from symgen.describe.readings import TABLES as FORMULAS
+from symgen.describe.formulas.readings import TABLES as FORMULAS
+from symgen.describe.parts.columns import column_name
 from symgen.result.contract import series
 from symgen.result.export import COLUMNS, data_frame, write_columns
 from symgen.result.labelled import Array, Labelled, labelled
 from symgen.result.plot import Plot, plotted
 from symgen.result.plots import drawing
 from symgen.result.signals import SignalTables, check_single, choose, of_formulas
+from symgen.run.compiling.side import compile_side
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.player.motion_page import Page
+    from symgen.result.player.motion_page import Page
     from symgen.result.reactions import Forces
-    from symgen.runs.outcome import Motion
+    from symgen.run.single.outcome import Motion
 
 
 @dataclass(frozen=True, repr=False)

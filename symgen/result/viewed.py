@@ -12,31 +12,31 @@ import numpy as np
 
 from symgen.base.digits import cleaned
 from symgen.base.errors import AssemblyError, InputError
-from symgen.describe.evaluate import independent_values, parameter_values
-from symgen.describe.events import DOES
-from symgen.describe.inputs import are_words_of_data
+from symgen.base.vocabulary.measures import GROUND
+from symgen.derive.methods import METHODS
+from symgen.describe.formulas.evaluate import independent_values, parameter_values
 from symgen.describe.mechanism import ACCELERATIONS
-from symgen.integrators import INTEGRATORS
-from symgen.layout import abi
-from symgen.methods import METHODS
-from symgen.player.live import NONE, Live, live_part
-from symgen.player.motion_page import Page, page
-from symgen.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
+from symgen.describe.parts.events import DOES
+from symgen.describe.parts.inputs import are_words_of_data
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
 from symgen.result.live_columns import live_columns
+from symgen.result.player.live import NONE, Live, live_part
+from symgen.result.player.motion_page import Page, page
+from symgen.result.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
 from symgen.result.plots import panels
 from symgen.result.saved import check_names, checked_file, dataset_of
 from symgen.result.signals import TABLES
-from symgen.vocabulary.measures import GROUND
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
     from symgen.result.tables import MotionTables
-    from symgen.running.prepare import Prepared
-    from symgen.running.tree import TreeRun
+    from symgen.run.planning.prepare import Prepared
+    from symgen.run.planning.tree import TreeRun
 
 
 #: The scheme of pages.
@@ -202,8 +202,8 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
     Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
     """
     from symgen.base.settings import Settings
-    from symgen.running.plan import Purpose
-    from symgen.running.prepare import prepare
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import prepare
 
     inputs, formulas, initial = run["inputs"], dict(mechanism.input_formulas), run["start"]
     if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
@@ -240,10 +240,10 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
 
 def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
     """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
-    from symgen.running.plan import Purpose
-    from symgen.running.prepare import prepare
-    from symgen.running.start_lines import exported_start
-    from symgen.running.tree import begin_on_tree, carried_of
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import prepare
+    from symgen.run.planning.start_lines import exported_start
+    from symgen.run.planning.tree import begin_on_tree, carried_of
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
     values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
@@ -319,7 +319,7 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
 def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
     """Return the live part of a page of a file: of the mechanism by its name, with the facts of the run in the file."""
     from symgen.base.settings import Settings
-    from symgen.running.inputs import put_inputs
+    from symgen.run.planning.inputs import put_inputs
 
     run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
     own = {p.name for p in mechanism.parameters} - set(mechanism.inputs)

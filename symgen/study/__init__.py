@@ -2,5 +2,5 @@
 
 In: mechanisms, methods, integrators and steps.
 Out: rows of numbers, a journal, findings.
-Imports: filelock, msgspec, NumPy, pandas, SciPy; Numba, SymPy in `references`; `api` and rooms below.
+Imports: filelock; `api` and streets below.
 """

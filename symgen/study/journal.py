@@ -22,9 +22,9 @@ from symgen.base.escapes import printable
 from symgen.base.files import check_name
 from symgen.base.plugins import stamps
 from symgen.base.version import __version__
-from symgen.store.identity import combined_digest
-from symgen.store.locks import file_lock
-from symgen.store.sources import package_digest
+from symgen.compile.store.identity import combined_digest
+from symgen.compile.store.locks import file_lock
+from symgen.compile.store.sources import package_digest
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
@@ -65,8 +65,8 @@ def _plain(value: Any) -> dict[str, Any]:
 
 def code_identity() -> str:
     """Return a digest of the computing code: the version, the emitted form, the whole package and plugins."""
-    from symgen.compiling.pipeline import generator_digest
-    from symgen.ir.program import FORMAT
+    from symgen.base.ir.program import FORMAT
+    from symgen.run.compiling.pipeline import generator_digest
 
     return combined_digest(__version__, str(FORMAT), generator_digest(), package_digest(), *stamps())
 

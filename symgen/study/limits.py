@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from symgen.layout import abi
+from symgen.run.layout import abi
 
 if TYPE_CHECKING:
-    from symgen.running.prepare import Prepared
+    from symgen.run.planning.prepare import Prepared
 
 #: Limits of a run that does not watch itself.
 UNWATCHED: dict[str, Any] = {"max_violation": 1e30, "max_energy_error": 1e30}

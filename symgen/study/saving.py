@@ -38,7 +38,7 @@ def save_study(study: Study | Stress, path: str | PathLike[str], save_rows: Call
     file = argument_path("save", path)
     ending = file.suffix.lower()
     if ending in REPORTS:
-        from symgen import write_report
+        from symgen.study.report.write import write_report
 
         return write_report(study, file)
     if ending != ".csv":

@@ -1,14 +1,14 @@
 """Gradients by the adjoint: against models without symgen, forward directions, and what is refused."""
 
 import pytest
-from running.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, SLIDER_CRANK, model
-from running.test_reset_sensitivities import BALL
+from run.planning.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, SLIDER_CRANK, model
+from run.planning.test_reset_sensitivities import BALL
 
 import symgen
 from symgen import InputError
 from symgen.base.errors import AnalysisError
-from symgen.methods import METHODS
-from symgen.runs import adjoint
+from symgen.derive.methods import METHODS
+from symgen.run.single import adjoint
 
 TIGHT = {"rtol": 1e-13, "atol": 1e-13, "integrator": "dop853"}
 #: Methods with an adjoint, and those whose iterations have none.

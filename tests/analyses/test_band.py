@@ -9,8 +9,8 @@ import pytest
 from scipy.optimize import brentq
 
 import symgen
-from symgen.describe.load import parse_toml, read_raw
-from symgen.describe.validate import validate
+from symgen.describe.files.load import parse_toml, read_raw
+from symgen.describe.files.validate import validate
 
 PIN = """
 [mechanism]

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 from support.beams import at_end
 
 from symgen import Model
-from symgen.describe.builder import MechanismBuilder
+from symgen.describe.files.builder import MechanismBuilder
 
 STIFF = {"axial": 200.0, "shear": 80.0, "bending": 2.0, "mass": 1.5, "rotary": 1e-3}
 CORNER = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.7)]

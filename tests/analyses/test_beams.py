@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from support.beams import at_end, cantilever
 
 from symgen import Model
-from symgen.describe.builder import MechanismBuilder
+from symgen.describe.files.builder import MechanismBuilder
 
 #: (k L)^2 of a cantilever, the same under half of its buckling load.
 FREE = np.array([3.516015268500151, 22.03449156466677, 61.6972144135491])

@@ -93,7 +93,7 @@ from symgen.analyses.kinds import Analysis, Option, AnalysisOutput, settings_of
 
 def mass(model, settings=None, **changes):
     """Return the mass of all bodies [kg]."""
-    from symgen.describe.evaluate import parameter_values, scalars
+    from symgen.describe.formulas.evaluate import parameter_values, scalars
 
     whole = settings_of("mass", settings, changes, ("parameters",))
     value = scalars(parameter_values(model.mechanism, whole.parameters)).value

@@ -7,7 +7,7 @@ import pytest
 import symgen
 from symgen.api import Model
 from symgen.cli import main
-from symgen.describe.builder import MechanismBuilder
+from symgen.describe.files.builder import MechanismBuilder
 
 #: Force along y of a point that springs hold along x, and whether it has a derivative at rest.
 CASES = {

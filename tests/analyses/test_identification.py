@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from running.lengths import FOUR_BAR, ROD, model
+from run.planning.lengths import FOUR_BAR, ROD, model
 
 from symgen import InputError
 from symgen.analyses.null_directions import null_directions

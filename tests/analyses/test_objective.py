@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from running.differences import differences
-from running.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, ROD_STATE, SLIDER_CRANK, STATE, G, model
+from run.planning.differences import differences
+from run.planning.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, ROD_STATE, SLIDER_CRANK, STATE, G, model
 from scipy.optimize import minimize
 
 from symgen import InputError

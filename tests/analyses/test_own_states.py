@@ -29,7 +29,7 @@ MOTOR = {"motor": {"type": "torque", "body": "a", "torque": "3"}}
 
 def model_of(description):
     from symgen.api import Model
-    from symgen.describe.validate import validate
+    from symgen.describe.files.validate import validate
 
     return Model(validate(description, "test"))
 

@@ -8,10 +8,10 @@ import pytest
 
 import symgen
 from symgen.base.settings import Settings
-from symgen.describe.switching import with_switchable
-from symgen.layout import abi
-from symgen.running.prepare import prepare
-from symgen.runs.modes import set_modes
+from symgen.describe.facts.switching import with_switchable
+from symgen.run.layout import abi
+from symgen.run.planning.prepare import prepare
+from symgen.run.single.modes import set_modes
 
 RUN = {"method": "lagrange", "integrator": "rk4", "step": 1e-3, "until": 0.2}
 

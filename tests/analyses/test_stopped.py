@@ -8,7 +8,7 @@ import pytest
 import symgen
 from symgen.api import Model
 from symgen.base.errors import AnalysisError, InputError
-from symgen.describe.validate import validate
+from symgen.describe.files.validate import validate
 
 G = 9.81
 OPEN, CLOSED = "stops as at the start: {} open, left out", "stops as at the start: {} closed, held as rows"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-import symgen.catalogue
+import symgen.describe.catalogue
 from analyses import rods
 from benchmarks.rescale import Units, rescaled
 from symgen.base.errors import AssemblyError, InputError
@@ -121,7 +121,7 @@ STEADY = {
 @pytest.mark.parametrize("entry", STEADY)
 def test_steady_motions_are_found_in_all_units(entry, tmp_path):
     """Shifts of 0.3 m and 0.3 s and speeds of 1 m/s were taken to ask what depends on what."""
-    source = (Path(symgen.catalogue.__file__).parent / f"{entry}.toml").read_text(encoding="utf-8")
+    source = (Path(symgen.describe.catalogue.__file__).parent / f"{entry}.toml").read_text(encoding="utf-8")
 
     def found(name, units):
         path = tmp_path / f"{name}.toml"
@@ -152,7 +152,7 @@ def test_what_no_start_closes_settles_alike_in_all_units(monkeypatch):
         pull = [0.0, -rods.GRAVITY * length]
         return rods.model({"link": link}, {"pin": pin}, gravity=pull, forces=forces).equilibrium()
 
-    monkeypatch.setattr("symgen.running.prepare.begun", no_start)
+    monkeypatch.setattr("symgen.run.planning.prepare.begun", no_start)
     usual = found(1.0)
     for power in (-20, -10, 12):
         other = found(2.0**power)

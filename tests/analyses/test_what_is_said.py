@@ -8,9 +8,9 @@ import pytest
 
 import symgen
 from analyses import rods
-from symgen import catalogue
 from symgen.base.errors import AnalysisError, InputError
 from symgen.base.settings import Settings
+from symgen.describe import catalogue
 
 
 def column(frame="body", bodies=None, joints=None, forces=None):

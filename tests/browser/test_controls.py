@@ -10,7 +10,7 @@ from PIL import Image
 
 from symgen.api import Model, load
 from symgen.base.errors import AssemblyError, InputError
-from symgen.describe.validate import validate
+from symgen.describe.files.validate import validate
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

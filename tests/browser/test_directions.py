@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from symgen.describe.builder import MechanismBuilder
-from symgen.player.motion_page import page
-from symgen.player.recording import Recording
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.result.player.motion_page import page
+from symgen.result.player.recording import Recording
 from tests.browser.chromium import WITHOUT_WEBGL, Chromium
 
 pytestmark = pytest.mark.browser

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from symgen import catalogue
 from symgen.api import load
 from symgen.base.settings import Settings
 from symgen.cli import main
-from symgen.reading.inspection import run_at_start
+from symgen.describe import catalogue
+from symgen.result.reading.inspection import run_at_start
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

@@ -10,7 +10,7 @@ from support.emitted import mechanism_of
 from support.twin import spatial_twin
 
 from symgen.api import Model, load
-from symgen.catalogue import raw
+from symgen.describe.catalogue import raw
 from symgen.result.labelled import unit_scales
 from tests.browser.chromium import Chromium
 from tests.browser.test_controls import field, settled, typed

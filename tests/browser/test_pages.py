@@ -11,13 +11,13 @@ import pytest
 from support.emitted import mechanism_of
 from support.random_closed import make
 
-from symgen import catalogue
 from symgen.api import Model, load
-from symgen.describe.builder import MechanismBuilder
-from symgen.native.javascript import HELPERS
-from symgen.player.live import live_part
-from symgen.player.motion_page import page
-from symgen.player.recording import Recording
+from symgen.compile.native.javascript import HELPERS
+from symgen.describe import catalogue
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.result.player.live import live_part
+from symgen.result.player.motion_page import page
+from symgen.result.player.recording import Recording
 from tests.browser.chromium import WITHOUT_WEBGL, Chromium
 from tests.browser.uncontracted import Uncontracted, prepared
 

@@ -3,10 +3,10 @@
 import json
 
 import pytest
-from native import printed, printed_search
+from compile.native import printed, printed_search
 
-from symgen.loops import searching
-from symgen.native import javascript as js
+from symgen.compile.native import javascript as js
+from symgen.run.loops import searching
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

@@ -8,15 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from native import printed, printed_starts
-from native.printed_starts import FEW, MANY
+from compile.native import printed, printed_starts
+from compile.native.printed_starts import FEW, MANY
 
 from symgen import Settings, load
-from symgen.layout import abi
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
-from symgen.starts.starting import close_rows
-from symgen.store.jit import RuntimeFunction
+from symgen.compile.store.jit import RuntimeFunction
+from symgen.run.layout import abi
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
+from symgen.run.starts.starting import close_rows
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 import symgen
-from symgen.report.document import Document
-from symgen.report.machine import machine
-from symgen.report.picture import sketched
-from symgen.report.write import html, write
+from symgen.study.report.document import Document
+from symgen.study.report.machine import machine
+from symgen.study.report.picture import sketched
+from symgen.study.report.write import html, write
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser

@@ -20,8 +20,8 @@ import numpy as np
 
 from symgen.api import load
 from symgen.base.settings import Settings
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 

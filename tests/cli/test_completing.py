@@ -7,10 +7,10 @@ import pytest
 from click.shell_completion import BashComplete
 
 import symgen
-from symgen import catalogue
 from symgen.cli import group
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
+from symgen.describe import catalogue
+from symgen.run.integrators import INTEGRATORS
 
 MECHANISM = """
 [mechanism]

@@ -12,12 +12,12 @@ from support.models import EVERYTHING
 
 import symgen
 from symgen.cli import main
-from symgen.describe.validate import validate
-from symgen.formulate.formulate import formulate
-from symgen.reading.boxes import latex, name
-from symgen.reading.quantity_names import functions, input_names
-from symgen.reading.symbolic import exact_literal
-from symgen.reading.typeset import texts
+from symgen.derive.formulate.formulate import formulate
+from symgen.describe.files.validate import validate
+from symgen.result.reading.boxes import latex, name
+from symgen.result.reading.quantity_names import functions, input_names
+from symgen.result.reading.symbolic import exact_literal
+from symgen.result.reading.typeset import texts
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def worth(text, values, tables=()):
 
 
 def test_shown_expressions_have_the_values_of_the_graph(equations, monkeypatch):
-    monkeypatch.setattr("symgen.reading.typeset.LONGEST", 10_000)
+    monkeypatch.setattr("symgen.result.reading.typeset.LONGEST", 10_000)
     rng = random.Random(3)
     q, v = ([rng.uniform(-1.0, 1.0) for _ in range(n)] for n in (equations.nq, equations.nv))
     p = [rng.uniform(0.5, 1.5) for _ in equations.parameters]
@@ -64,7 +64,7 @@ def test_shown_expressions_have_the_values_of_the_graph(equations, monkeypatch):
 
 
 def test_long_expressions_are_counted_instead(equations, monkeypatch):
-    monkeypatch.setattr("symgen.reading.typeset.LONGEST", 3)
+    monkeypatch.setattr("symgen.result.reading.typeset.LONGEST", 3)
     assert texts(equations)(equations.kinetic).endswith(" operations>")
 
 

@@ -97,7 +97,7 @@ def test_the_line_to_try_can_be_typed(said):
 def test_steps_of_huge_gains_are_those_of_their_roots(alpha, beta):
     from decimal import Decimal
 
-    from symgen.methods import METHODS
+    from symgen.derive.methods import METHODS
 
     a, b = Decimal(alpha), Decimal(beta)
     root = a + (a * a - b * b).sqrt() if a >= b else b

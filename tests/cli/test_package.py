@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen import catalogue
 from symgen.cli import main
-from symgen.layout import abi
-from symgen.layout.probe import Ready
-from symgen.methods import METHODS
-from symgen.running.prepare import prepare
-from symgen.store.modules import load_module, plain_function
+from symgen.compile.store.modules import load_module, plain_function
+from symgen.derive.methods import METHODS
+from symgen.describe import catalogue
+from symgen.run.layout import abi
+from symgen.run.layout.probe import Ready
+from symgen.run.planning.prepare import prepare
 
 #: What numpy and numba consist of.
 ALONE = ("numpy", "numpy.libs", "numba", "llvmlite", "numba.libs", "llvmlite.libs")

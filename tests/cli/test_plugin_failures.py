@@ -4,8 +4,8 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.kinds import FORCES, JOINTS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
+from symgen.describe.parts.kinds import FORCES, JOINTS
 from symgen.study.journal import Journal
 from symgen.study.runner import Cell, run_cells
 

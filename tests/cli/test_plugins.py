@@ -11,10 +11,10 @@ from support.processes import symgen
 from symgen.base import plugins
 from symgen.base.errors import InputError
 from symgen.base.plugins import load_plugin
-from symgen.ensemble import recipe
-from symgen.methods import METHODS
-from symgen.methods._base import MultiplierMethod
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import MultiplierMethod
 from symgen.study import journal
+from symgen.study.ensemble import recipe
 from symgen.study.journal import Journal
 from symgen.study.runner import Cell, run_cells
 

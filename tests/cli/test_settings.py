@@ -13,7 +13,7 @@ from symgen.base import settings
 from symgen.base.errors import InputError
 from symgen.cli import group, main
 from symgen.cli.generate import command as generate
-from symgen.loops.run_spec import RunSpec
+from symgen.run.loops.run_spec import RunSpec
 from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"

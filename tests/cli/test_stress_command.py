@@ -67,7 +67,7 @@ def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path, fur
 
 
 def test_the_whole_catalogue_and_a_time_of_compilation(cli, monkeypatch):
-    from symgen import catalogue
+    from symgen.describe import catalogue
 
     asked = []
 

@@ -69,7 +69,7 @@ def test_the_last_state_of_a_large_mechanism_is_whole(narrow: None, capsys: pyte
 
 
 def test_names_of_the_list_are_whole(narrow: None, capsys: pytest.CaptureFixture[str]) -> None:
-    from symgen import catalogue
+    from symgen.describe import catalogue
 
     assert main(["list"]) == 0
     words = capsys.readouterr().out.split()

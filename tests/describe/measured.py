@@ -5,10 +5,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from symgen.describe.evaluate import evaluate
+from symgen.base.vocabulary.expressions import Name, Number
+from symgen.base.vocabulary.measures import Angle, Component, Distance, Holonomic, LinkStretch
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.vocabulary.expressions import Name, Number
-from symgen.vocabulary.measures import Angle, Component, Distance, Holonomic, LinkStretch
 
 
 class Posed:

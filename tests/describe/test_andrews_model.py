@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from measured import Posed, complex_value
 
+from describe.measured import Posed, complex_value
+from symgen.base.vocabulary.expressions import ZERO
 from symgen.describe import load
-from symgen.vocabulary.expressions import ZERO
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "andrews_ivp.json").read_text())
 PARAMETERS = DATA["parameters"]

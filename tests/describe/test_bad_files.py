@@ -9,8 +9,8 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.describe import load
-from symgen.describe.load import LARGEST_FILE, parse_toml
-from symgen.describe.validate import errors_of, validate
+from symgen.describe.files.load import LARGEST_FILE, parse_toml
+from symgen.describe.files.validate import errors_of, validate
 
 GOOD = """
 [mechanism]

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe.validate import errors_of, validate
+from symgen.describe.files.validate import errors_of, validate
 
 RIGID = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "points": {"P": [0.1, 0.0, 0.0]}}
 GOOD = {

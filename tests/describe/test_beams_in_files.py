@@ -7,8 +7,8 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.beam_lines import weights
-from symgen.describe.finer_beams import refined
+from symgen.describe.beams.beam_lines import weights
+from symgen.describe.facts.finer_beams import refined
 from symgen.describe.mechanism import Mechanism
 
 STIFF = {"axial": 1e4, "bending": 1.0, "mass": 2.0, "rotary": 1e-3}

@@ -9,15 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.texts import texts
 
-from symgen import catalogue
 from symgen.base.errors import InputError
-from symgen.describe import MechanismBuilder, load
-from symgen.describe.builder import to_toml
-from symgen.describe.load import read_raw
-from symgen.describe.schema import schema
-from symgen.describe.validate import validate
-from symgen.forces import FORCES
-from symgen.joints import JOINTS
+from symgen.describe import MechanismBuilder, catalogue, load
+from symgen.describe.files.builder import to_toml
+from symgen.describe.files.load import read_raw
+from symgen.describe.files.schema import schema
+from symgen.describe.files.validate import validate
+from symgen.describe.forces import FORCES
+from symgen.describe.joints import JOINTS
 
 PENDULUM = """
 [mechanism]

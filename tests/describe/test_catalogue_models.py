@@ -9,17 +9,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from measured import Posed
 
-from symgen import catalogue
+from describe.measured import Posed
 from symgen.base.errors import InputError
-from symgen.describe import load
-from symgen.describe.builder import to_toml
-from symgen.describe.load import read_raw
-from symgen.describe.template import template
-from symgen.describe.validate import validate
-from symgen.forces import FORCES
-from symgen.joints import JOINTS
+from symgen.describe import catalogue, load
+from symgen.describe.files.builder import to_toml
+from symgen.describe.files.load import read_raw
+from symgen.describe.files.template import template
+from symgen.describe.files.validate import validate
+from symgen.describe.forces import FORCES
+from symgen.describe.joints import JOINTS
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FILES = sorted(EXAMPLES.glob("*.toml"))

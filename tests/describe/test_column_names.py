@@ -7,7 +7,7 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.columns import FORMS, column_name
+from symgen.describe.parts.columns import FORMS, column_name
 
 #: A door with a motor, a second bar on a pin, and a spring: every kind of column.
 _NEUTRAL = ("one", "two", "post", "pin", "motor", "hand", "spring", "tip")

@@ -8,9 +8,9 @@ from support.emitted import mechanism_of
 
 from symgen.base.errors import LONGEST_PART, InputError, nearest, quoted
 from symgen.base.escapes import printable
-from symgen.describe.load import LONGEST_KEY, load, parse_toml
-from symgen.describe.validate import validate
-from symgen.formulate.formulate import formulate
+from symgen.derive.formulate.formulate import formulate
+from symgen.describe.files.load import LONGEST_KEY, load, parse_toml
+from symgen.describe.files.validate import validate
 
 HEAD = '[mechanism]\nname = "x"\n'
 BODY = "[bodies.b]\nmass = 1.0\ninertia = 1.0\n"

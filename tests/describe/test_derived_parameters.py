@@ -9,11 +9,11 @@ from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe import load as load_mechanism
-from symgen.describe.builder import MechanismBuilder
-from symgen.describe.digest import digest
-from symgen.describe.evaluate import evaluation_order, parameter_values
-from symgen.describe.parser import FormulaNames, parse
-from symgen.ensemble.sweep import sweep
+from symgen.describe.facts.digest import digest
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.formulas.evaluate import evaluation_order, parameter_values
+from symgen.describe.formulas.parser import FormulaNames, parse
+from symgen.study.ensemble.sweep import sweep
 
 #: In an order that no formula could be worked out in from the top.
 DERIVED = {"inertia": "mass*length**2/12", "mass": "density*length", "density": 1.9, "length": 0.8, "half": "length/2"}

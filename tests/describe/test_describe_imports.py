@@ -12,10 +12,10 @@ HEAVY = {"sympy", "numpy", "numba", "scipy", "jinja2", "rich", "click", "matplot
     "statement",
     [
         "from symgen.describe import load; [load(name) for name in ('andrews', 'n-four-bar:3', 'driven-four-bar')]",
-        "import symgen.describe.schema as s; s.schema()",
-        "from symgen import catalogue; catalogue.entries()",
-        "from symgen.describe.template import template; template()",
-        "from symgen.describe.digest import digest; from symgen.describe import load; digest(load('four-bar'))",
+        "import symgen.describe.files.schema as s; s.schema()",
+        "from symgen.describe import catalogue; catalogue.entries()",
+        "from symgen.describe.files.template import template; template()",
+        "from symgen.describe.facts.digest import digest; from symgen.describe import load; digest(load('four-bar'))",
     ],
 )
 def test_nothing_heavy_is_imported(statement):
@@ -27,7 +27,11 @@ def test_nothing_heavy_is_imported(statement):
 def test_kinds_are_imported_only_when_asked_for():
     code = (
         "from symgen.describe import load; load('four-bar')\nimport sys\n"
-        "print(*sorted(m for m in sys.modules if m.startswith(('symgen.joints.', 'symgen.forces.'))))"
+        "print(*sorted(m for m in sys.modules if m.startswith(('symgen.describe.joints.', 'symgen.describe.forces.'))))"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert result.stdout.split() == ["symgen.joints._paired", "symgen.joints._space", "symgen.joints.revolute"]
+    assert result.stdout.split() == [
+        "symgen.describe.joints._paired",
+        "symgen.describe.joints._space",
+        "symgen.describe.joints.revolute",
+    ]

@@ -7,10 +7,9 @@ import tomllib
 
 import pytest
 
-from symgen import catalogue
-from symgen.describe import load
-from symgen.describe.digest import canonical, digest
-from symgen.describe.validate import validate
+from symgen.describe import catalogue, load
+from symgen.describe.facts.digest import canonical, digest
+from symgen.describe.files.validate import validate
 
 TEXT = """
 [mechanism]
@@ -125,7 +124,10 @@ def test_the_canonical_text_has_floats_to_the_last_digit():
 
 
 def test_the_same_in_every_process():
-    code = "from symgen.describe import load; from symgen.describe.digest import digest; print(digest(load('andrews')))"
+    code = (
+        "from symgen.describe import load; "
+        "from symgen.describe.facts.digest import digest; print(digest(load('andrews')))"
+    )
     found = set()
     for seed in ("1", "2"):
         result = subprocess.run(

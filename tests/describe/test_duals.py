@@ -6,10 +6,10 @@ import mpmath
 import pytest
 
 import symgen
-from symgen.describe.duals import Dual, Duals, applied, dual, parameter_duals
-from symgen.describe.evaluate import parameter_values
-from symgen.vocabulary.expressions import FUNCTIONS
-from symgen.vocabulary.functions import ELEMENTARY
+from symgen.base.vocabulary.expressions import FUNCTIONS
+from symgen.base.vocabulary.functions import ELEMENTARY
+from symgen.describe.formulas.duals import Dual, Duals, applied, dual, parameter_duals
+from symgen.describe.formulas.evaluate import parameter_values
 
 POINT = {"acosh": 1.7}
 EXACT = {

@@ -12,11 +12,11 @@ import pytest
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.compiling.closing import free_velocities
+from symgen.describe.files.load import load
+from symgen.describe.files.validate import validate
 from symgen.describe.formats import Import, format_of, read_robot
 from symgen.describe.formats._frames import Frame, axis_rotation, of_quaternion, of_rpy, quaternion, times
-from symgen.describe.load import load
-from symgen.describe.validate import validate
+from symgen.run.compiling.closing import free_velocities
 
 #: A lever of two links that a fixed joint holds together, a slide on it, a follower, and a link without mass.
 ARM = """<?xml version="1.0"?>
@@ -253,7 +253,7 @@ def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(
     path.write_text(text.format(h=1e-4, d=0.9), encoding="utf-8")
     run = model_of(read_robot(path, "mjcf", stops=True)).simulate(until=0.3, rtol=1e-10, atol=1e-11)
     assert run.status == "ok" and run.events  # the limit is met
-    monkeypatch.setattr("symgen.compiling.closing.DEPENDENT", -1.0)  # the loop is closed by a row that is left out
+    monkeypatch.setattr("symgen.run.compiling.closing.DEPENDENT", -1.0)  # the loop is closed by a row that is left out
     model = model_of(read_robot(path, "mjcf", stops=True))
     closed = model.simulate(until=0.3, rtol=1e-10, atol=1e-11)
     assert free_velocities(model.mechanism) and abs(closed["slide.x"][-1] - run["slide.x"][-1]) < 1e-9

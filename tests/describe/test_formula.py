@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 from support.texts import texts
 
 from symgen.base.errors import InputError
-from symgen.describe.evaluate import evaluate
-from symgen.describe.formula_text import to_text
-from symgen.describe.names import CALLABLE
-from symgen.describe.parser import FormulaNames, parse
+from symgen.base.vocabulary.expressions import FUNCTIONS, Call, Name, Number
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.formulas.names import CALLABLE
+from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.tables import Table
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Name, Number
 
 NAMES = FormulaNames(
     "a formula",

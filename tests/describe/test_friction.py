@@ -7,11 +7,11 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.digest import canonical, digest, identity
-from symgen.describe.friction import mode_events, without_friction
-from symgen.describe.load import read_raw
+from symgen.describe.bounds.friction import mode_events, without_friction
+from symgen.describe.facts.digest import canonical, digest, identity
+from symgen.describe.files.load import read_raw
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.validate import validate
 
 GONE = object()
 

@@ -7,8 +7,8 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.base.registry import Registry
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
+from symgen.run.integrators import INTEGRATORS
 
 
 @pytest.fixture

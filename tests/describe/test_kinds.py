@@ -4,16 +4,16 @@ import math
 
 import numpy as np
 import pytest
-from measured import Posed
 
+from describe.measured import Posed
 from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import ZERO, Name, Number
+from symgen.base.vocabulary.measures import Angle, Component, Distance, Nonholonomic
 from symgen.describe import MechanismBuilder
-from symgen.describe.formula_text import to_text
-from symgen.describe.schema import described
-from symgen.forces import FORCES
-from symgen.joints import JOINTS
-from symgen.vocabulary.expressions import ZERO, Name, Number
-from symgen.vocabulary.measures import Angle, Component, Distance, Nonholonomic
+from symgen.describe.files.schema import described
+from symgen.describe.forces import FORCES
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.joints import JOINTS
 
 OUT_OF_THE_WAY = {"mass": 1.0, "inertia": 1.0}
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from symgen.describe.places import places
+from symgen.describe.files.places import places
 
 WORDS = ("a", "b-1", "3", "true", "x_y")
 QUOTED = ('"a.b"', "'c d'", '"q\\"#"', '"\\u00e9"', "''", '"[d]"', "'='")

@@ -7,9 +7,9 @@ import pytest
 
 from symgen.base.errors import InputError
 from symgen.describe import load
-from symgen.describe.load import LARGEST_FILE
-from symgen.describe.problems import in_line, problems
-from symgen.describe.validate import errors_of, validate
+from symgen.describe.files.load import LARGEST_FILE
+from symgen.describe.files.problems import in_line, problems
+from symgen.describe.files.validate import errors_of, validate
 
 GOOD = """\
 [mechanism]

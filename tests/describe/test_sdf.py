@@ -10,8 +10,8 @@ import pytest
 
 from symgen.api import Model
 from symgen.base.errors import InputError
+from symgen.describe.files.validate import validate
 from symgen.describe.formats import Import, format_of, read_robot
-from symgen.describe.validate import validate
 
 
 def imported(tmp_path: Path, text: str, name: str = "file.sdf", **options: bool) -> Import:

@@ -9,10 +9,10 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.load import parse_toml
+from symgen.describe.facts.typed_units import units_of_number
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.typed_units import units_of_number
-from symgen.describe.validate import validate
 
 #: Words in capitals are names that the tests choose; the actuator reads its own `length` and `rate` beside them.
 FILE = """

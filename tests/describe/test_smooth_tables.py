@@ -7,15 +7,15 @@ import pytest
 from support.curves import curve
 
 from symgen.base.errors import InputError
-from symgen.describe.builder import MechanismBuilder, to_toml
-from symgen.describe.digest import digest
-from symgen.describe.evaluate import evaluate
-from symgen.describe.parser import FormulaNames, parse
+from symgen.base.ir.derivative import jacobian
+from symgen.base.ir.graph import Graph
+from symgen.base.ir.program import of_table
+from symgen.describe.facts.digest import digest
+from symgen.describe.files.builder import MechanismBuilder, to_toml
+from symgen.describe.files.validate import validate
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.tables import Table
-from symgen.describe.validate import validate
-from symgen.ir.derivative import jacobian
-from symgen.ir.graph import Graph
-from symgen.ir.program import of_table
 
 KINDS = [("cubic", False), ("cubic", True), ("pchip", False), ("pchip", True)]
 

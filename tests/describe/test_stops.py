@@ -6,11 +6,11 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.digest import canonical, identity
-from symgen.describe.load import read_raw
+from symgen.describe.bounds.stops import stop_events, without_stops
+from symgen.describe.facts.digest import canonical, identity
+from symgen.describe.files.load import read_raw
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.stops import stop_events, without_stops
-from symgen.describe.validate import validate
 
 
 def four_bar(stop: object = None, gap: object = None, **more: object) -> Mechanism:

@@ -16,10 +16,10 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.unit_symbols import BASES, PLAIN, PREFIXABLE, PREFIXES, SYMBOLS
 from symgen.base.units import Unit, known, read_amount, read_unit, unit_of
-from symgen.describe.load import parse_toml, with_parameters
+from symgen.describe.facts.typed_units import Typed, in_si, units_of_number
+from symgen.describe.files.load import parse_toml, with_parameters
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.typed_units import Typed, in_si, units_of_number
-from symgen.describe.validate import validate
 
 PAGE = Path(__file__).parents[2] / "docs" / "file-format" / "units.md"
 INCH, POUND = 0.0254, 0.45359237
@@ -234,7 +234,7 @@ def rod(text: str = ROD) -> Mechanism:
 def test_a_file_in_other_units_is_that_in_si_units():
     from msgspec import structs
 
-    from symgen.describe.digest import digest, identity
+    from symgen.describe.facts.digest import digest, identity
 
     text = ROD
     for written, plain in IN_SI.items():

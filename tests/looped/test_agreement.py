@@ -16,11 +16,11 @@ import pytest
 from support.emitted import mechanism_of
 from support.models import parallelogram
 
-from symgen import catalogue
 from symgen.api import load
-from symgen.lower.looped.forms import form_key
-from symgen.methods import METHODS
-from symgen.methods._base import EXPLICIT_FORMS
+from symgen.derive.lower.looped.forms import form_key
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS
+from symgen.describe import catalogue
 
 TESTS = Path(__file__).resolve().parents[1]
 #: Where rows depend on each other, pivots near the threshold divide rounding.

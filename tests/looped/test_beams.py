@@ -5,9 +5,9 @@ import pytest
 from support.beams import at_end, cantilever
 
 import symgen
-from symgen.describe.builder import MechanismBuilder
-from symgen.lower.looped.instances import instances
-from symgen.lower.looped.kernels import kernel_stem
+from symgen.derive.lower.looped.instances import instances
+from symgen.derive.lower.looped.kernels import kernel_stem
+from symgen.describe.files.builder import MechanismBuilder
 
 
 def spatial(elements, **keys):
@@ -124,7 +124,7 @@ def test_automatic_choice_for_beams():
     keys = {"axial": 1e9, "rotary": 1e-7, "parameters": {"P": 1e-3}, "forces": {"tip": at_end(0.0, "-P*t")}}
     for damping, integrator in ((0.0, "generalized-alpha"), (1e-2, "radau5")):
         model = cantilever(4, damping=damping, **keys)
-        found = symgen.running.prepare.make_plan(
+        found = symgen.run.planning.prepare.make_plan(
             model.mechanism, symgen.Settings(method="auto", integrator="auto", until=1.0)
         )
         assert found.integrator.name == integrator

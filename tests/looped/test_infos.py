@@ -13,12 +13,12 @@ from support.emitted import mechanism_of
 from support.random_mechanisms import descriptions
 from support.random_space import make
 
-from symgen.compiling.looped import compile_looped
-from symgen.compiling.pipeline import choose_method, generator_digest, model_info
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.lower.model import lower_model
+from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.repeats import without_repeats
-from symgen.formulate.formulate import formulate
-from symgen.lower.model import lower_model
+from symgen.run.compiling.looped import compile_looped
+from symgen.run.compiling.pipeline import choose_method, generator_digest, model_info
 
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")

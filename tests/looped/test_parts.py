@@ -12,20 +12,20 @@ from support.checks import RANDOM
 from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
-from symgen.compiling.choices import choose_shape
-from symgen.compiling.looped import generate_looped
-from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
-from symgen.lower.factor import Elimination
-from symgen.lower.looped.forms import form_key
-from symgen.lower.looped.instances import instances
-from symgen.lower.looped.law import is_loopable, refuse_dense
-from symgen.methods import METHODS
-from symgen.methods._base import MultiplierMethod
-from symgen.running import automatic
-from symgen.running.prepare import make_plan
-from symgen.starts import decisions
-from symgen.store.paths import ENVIRONMENT_VARIABLE
-from symgen.store.stats import cache_stats
+from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
+from symgen.compile.store.stats import cache_stats
+from symgen.derive.lower.factor import Elimination
+from symgen.derive.lower.looped.forms import form_key
+from symgen.derive.lower.looped.instances import instances
+from symgen.derive.lower.looped.law import is_loopable, refuse_dense
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import MultiplierMethod
+from symgen.run.compiling.choices import choose_shape
+from symgen.run.compiling.looped import generate_looped
+from symgen.run.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
+from symgen.run.planning import automatic
+from symgen.run.planning.prepare import make_plan
+from symgen.run.starts import decisions
 
 DATA = Path(__file__).parents[1] / "data"
 

@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-from symgen.ensemble.table import DONE
+from symgen.study.ensemble.table import DONE
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Where an installation puts `symgen`, `dask` and `python`.

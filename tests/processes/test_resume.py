@@ -4,7 +4,7 @@ import json
 import shutil
 
 import symgen
-from symgen.ensemble.table import DONE
+from symgen.study.ensemble.table import DONE
 from tests.processes.programs import PROGRAMS, ROOT, Program, chunks, command_of, shell
 
 SWEEP = 'symgen sweep four-bar --vary "crank_mass=lin(1,3,40)" --integrator rk4 --step 1e-3 --until 1 -o folder'
@@ -58,7 +58,7 @@ def test_a_sweep_of_other_code_is_refused_and_left(tmp_path):
     shell(copied, tmp_path, **more)
     done = (tmp_path / "folder" / DONE).read_text()
     shell(f"{copied} --resume", tmp_path, **more)
-    file = package / "effects" / "impulse.py"
+    file = package / "run" / "effects" / "impulse.py"
     file.write_text(file.read_text() + "\n")
     _, said = shell(f"{copied} --resume", tmp_path, code=2, **more)
     assert said.count("\n") == 1 and "one by another version of symgen" in said

@@ -9,7 +9,7 @@ import symgen
 
 #: Arguments that a function takes at most.
 MOST = 12
-PACKAGES = "breaks", "ensemble", "layout", "loopcode", "loops", "rows", "runs", "starts"
+PACKAGES = "compile", "run", "study/ensemble"
 
 
 def arguments_of(source: str) -> dict[str, int]:

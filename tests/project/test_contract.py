@@ -19,10 +19,10 @@ import pytest
 import symgen
 from symgen.base.settings import Settings
 from symgen.cli import COMMANDS, group, main
-from symgen.describe.schema import schema
-from symgen.ensemble.sweep import sweep
+from symgen.describe.files.schema import schema
 from symgen.result.labelled import Labelled
 from symgen.result.result import Result
+from symgen.study.ensemble.sweep import sweep
 
 KEPT = Path(__file__).resolve().parents[1] / "data" / "contract.json"
 

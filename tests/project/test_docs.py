@@ -16,12 +16,16 @@ from support.processes import COMMAND, python
 import symgen
 from benchmarks import gallery
 from symgen.api import load
-from symgen.describe.beam_sections import BeamSection
-from symgen.describe.digest import digest
-from symgen.describe.events import EventSection
-from symgen.describe.load import parse_toml
-from symgen.describe.names import CALLABLE
-from symgen.describe.sections import (
+from symgen.derive.methods import METHODS
+from symgen.describe.beams.beam_sections import BeamSection
+from symgen.describe.facts.digest import digest
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.validate import validate
+from symgen.describe.forces import FORCES
+from symgen.describe.formulas.names import CALLABLE
+from symgen.describe.joints import JOINTS
+from symgen.describe.parts.events import EventSection
+from symgen.describe.parts.sections import (
     BodySection,
     InputSection,
     MechanismSection,
@@ -32,11 +36,7 @@ from symgen.describe.sections import (
     StateSection,
     TableSection,
 )
-from symgen.describe.validate import validate
-from symgen.forces import FORCES
-from symgen.integrators import INTEGRATORS
-from symgen.joints import JOINTS
-from symgen.methods import METHODS
+from symgen.run.integrators import INTEGRATORS
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (

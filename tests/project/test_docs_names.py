@@ -40,8 +40,8 @@ def test_what_a_page_names_is_there(page: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "there"),
     [
-        *((name, True) for name in ("symgen.loops.frame.loop", "symgen.loopcode.padding.BLOCK")),
-        *((name, False) for name in ("symgen.runtime.frame", "symgen.loops.frame.nothing", "nowhere.at.all")),
+        *((name, True) for name in ("symgen.run.loops.frame.loop", "symgen.compile.loopcode.padding.BLOCK")),
+        *((name, False) for name in ("symgen.runtime.frame", "symgen.run.loops.frame.nothing", "nowhere.at.all")),
     ],
 )
 def test_names_that_moved_are_noticed(name: str, there: bool) -> None:

@@ -11,10 +11,10 @@ from support import notebooks
 from support.processes import COMMAND, python
 
 from symgen.base.registry import Registry
-from symgen.forces import FORCES
-from symgen.integrators import INTEGRATORS
-from symgen.joints import JOINTS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
+from symgen.describe.forces import FORCES
+from symgen.describe.joints import JOINTS
+from symgen.run.integrators import INTEGRATORS
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted(path for path in (ROOT / "examples").iterdir() if path.is_file())

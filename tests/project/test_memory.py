@@ -18,7 +18,7 @@ from symgen.describe.mechanism import Defaults
 #: of the memory the process has taken at most until then.
 SCRIPT = """\
 import contextlib, io, json, re, resource, sys
-import numba, numpy, symgen.api, symgen.ensemble.sweep, symgen.study.comparison.compare, symgen.study.stress.study
+import numba, numpy, symgen.api, symgen.study.ensemble.sweep, symgen.study.comparison.compare, symgen.study.stress.study
 from symgen.cli import main
 limit = 6_000_000_000
 resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
@@ -132,7 +132,7 @@ def test_this_machine_says_something():
 
 def test_constant_steps_have_an_output_each_whoever_names_the_integrator(monkeypatch):
     from symgen.base.settings import Settings
-    from symgen.running.outputs import check_saving
+    from symgen.run.planning.outputs import check_saving
 
     mechanism = msgspec.structs.replace(load("four-bar").mechanism, defaults=Defaults(until=10.0, step=1e-3))
     monkeypatch.setattr(memory, "available", lambda: 1e9)

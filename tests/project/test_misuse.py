@@ -328,7 +328,7 @@ def rows():
     yield "draw parameters", lambda x: x.model.draw({"nothing": 1.0}), "parameter 'nothing': expected a parameter"
     yield "draw start", lambda x: x.model.draw(start={"nothing": 1.0}), "start 'nothing'"
     yield from each("draw q", ("q", [1.0], np.zeros((2, 2)), [None], 3), lambda x, v: x.model.draw(q=v), "q: expected")
-    yield "draw view", lambda x: x.model.draw(view=(1, 2)), "view: expected a symgen.drawing.View, got"
+    yield "draw view", lambda x: x.model.draw(view=(1, 2)), "view: expected a symgen.describe.drawing.View, got"
     counts = (0, 1.5, "3", None)
     yield from each(
         "compare repeat", counts, lambda x, v: symgen.compare(x.model, repeat=v), "repeat: expected a whole"

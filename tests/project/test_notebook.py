@@ -17,9 +17,10 @@ import sympy
 
 import symgen
 from symgen.base import keywords, settings
-from symgen.describe import builder_keys, sections
-from symgen.describe.builder import MechanismBuilder
-from symgen.describe.events import EventSection
+from symgen.describe.files import builder_keys
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.parts import sections
+from symgen.describe.parts.events import EventSection
 
 #: Cells, each with what its last line shows: the name of the method, and something that is in it.
 CELLS = (

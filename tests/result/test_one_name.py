@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen import catalogue
 from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.describe.columns import column_name
+from symgen.describe import catalogue
+from symgen.describe.parts.columns import column_name
 
 #: Mechanisms of more coordinates take a while to derive.
 LARGE = 20

@@ -5,8 +5,8 @@ import pytest
 
 import symgen
 from symgen.cli import main
-from symgen.ensemble.sweep_plot import sweep_figure
 from symgen.result.plots import drawing, paths
+from symgen.study.ensemble.sweep_plot import sweep_figure
 
 SVG = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}
 

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 import symgen
-from symgen.describe.digest import identity
+from symgen.describe.facts.digest import identity
 
 
 @pytest.fixture(scope="module")

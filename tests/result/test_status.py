@@ -9,11 +9,11 @@ from support.models import parallelogram
 
 import symgen
 from symgen.base.settings import Settings
-from symgen.reruns.verification import verified
 from symgen.result.judge import JUMP_DOUBT, JUMP_FAILURE, judge
 from symgen.result.points import Points
-from symgen.running.prepare import prepare
-from symgen.runs.outcome import RankEvent
+from symgen.result.reruns.verification import verified
+from symgen.run.planning.prepare import prepare
+from symgen.run.single.outcome import RankEvent
 from symgen.study.references.reference import reference
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from support.spatial_runs import columns, run
 
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
 from symgen.result.points import Points
-from symgen.running.automatic import constant_integrator
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.automatic import constant_integrator
 
 TIMES = np.linspace(0.0, 0.3, 7)
 #: Of second order, or with an error of its own as the penalty has: they need more room [m].

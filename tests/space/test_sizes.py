@@ -5,8 +5,8 @@ import pytest
 from support.emitted import Emitted
 
 from symgen.describe import load
-from symgen.describe.evaluate import scalars
-from symgen.describe.start import described_start
+from symgen.describe.formulas.evaluate import scalars
+from symgen.describe.formulas.start import described_start
 
 #: Entry -> bodies, coordinates, velocities, rows, rank.
 SIZES = {

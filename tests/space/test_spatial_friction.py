@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 import symgen
 from symgen.base.errors import InputError
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.validate import validate
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 EXACT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-12}

@@ -5,7 +5,7 @@ import pytest
 from support.spatial_runs import columns, point, run, start_of
 
 from symgen.describe import load
-from symgen.describe.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.result.points import Points
 from symgen.study.references.reference import reference
 

@@ -6,21 +6,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from report import made
 from support.emitted import mechanism_of
 from support.runs import interrupt
 
 import symgen
-import symgen.methods
+import symgen.derive.methods
+from study.report import made
 from symgen.base.errors import InputError, SimulationError
 from symgen.cli._tables import show_study
-from symgen.report.comparison import comparison
 from symgen.study.comparison import combinations
 from symgen.study.comparison import compare as whole
 from symgen.study.comparison import model_comparison as module
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import with_ratios
 from symgen.study.journal import Journal
+from symgen.study.report.comparison import comparison
 from symgen.study.stress.study import stress
 
 ROW_KEYS = {
@@ -251,7 +251,9 @@ def test_methods_of_all_that_no_integrator_suits_are_left_out(cli):
 def test_without_methods_the_six_of_the_source_are_compared():
     assert combinations._named((), combinations.DEFAULT_METHODS, ()) == combinations.DEFAULT_METHODS
     assert (
-        len(combinations._named(("all",), (), symgen.methods.METHODS.names)) == len(symgen.methods.METHODS.names) > 15
+        len(combinations._named(("all",), (), symgen.derive.methods.METHODS.names))
+        == len(symgen.derive.methods.METHODS.names)
+        > 15
     )
 
 

@@ -6,13 +6,12 @@ import pytest
 import symgen
 from symgen.base.errors import SimulationError
 from symgen.base.settings import Settings
-from symgen.methods import METHODS
-from symgen.running.automatic import AUTO, constant_integrator
-from symgen.running.prepare import make_plan
-from symgen.study.references import routes
+from symgen.derive.methods import METHODS
+from symgen.run.planning.automatic import AUTO, constant_integrator
+from symgen.run.planning.prepare import make_plan
+from symgen.study.references import effort, routes
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff
-from symgen.study.stress import effort
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
 from symgen.study.stress.families import levels_of
@@ -76,13 +75,13 @@ def test_a_prediction_is_below_what_a_run_takes():
 def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     level = levels_of("damping", Base.of("four-bar"), False)[4]
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "length": 1.0, "parameters": {}}
-    monkeypatch.setattr("symgen.running.prepare.code_and_start", None)
+    monkeypatch.setattr("symgen.run.planning.prepare.code_and_start", None)
     found = compute_cell(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
 
 
 def test_cells_without_a_reference_are_not_run(monkeypatch):
-    monkeypatch.setattr("symgen.running.prepare.code_and_start", None)
+    monkeypatch.setattr("symgen.run.planning.prepare.code_and_start", None)
     level = levels_of("gravity", Base.of("pendulum"), True)[0]
     for known, why in (
         ({"unusable": "none at hand"}, "none at hand"),

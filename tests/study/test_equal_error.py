@@ -4,15 +4,15 @@ import math
 from dataclasses import replace
 
 import pytest
-from report import made
 
 import symgen
+from study.report import made
 from symgen.base.errors import InputError
 from symgen.cli._tables import show_study
-from symgen.report.comparison import comparison
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.equal_error import front, interpolated, times_at
 from symgen.study.journal import Journal
+from symgen.study.report.comparison import comparison
 
 
 def line(method, errors, **changes):

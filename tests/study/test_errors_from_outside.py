@@ -67,7 +67,7 @@ def lengths_of(mechanism):
     """Largest distance of a named point from the centre of mass, at least the radius of gyration; from the file."""
     import tomllib
 
-    path = Path(symgen.__file__).parent / "catalogue" / f"{mechanism}.toml"
+    path = Path(symgen.__file__).parent / "describe" / "catalogue" / f"{mechanism}.toml"
     found = {}
     for name, body in tomllib.loads(path.read_text())["bodies"].items():
         centre = np.array(body.get("centre_of_mass", (0.0, 0.0)))

@@ -7,9 +7,9 @@ from click.testing import CliRunner
 import symgen
 from symgen.base.errors import InputError
 from symgen.cli.compare import command
-from symgen.report.comparison import comparison
 from symgen.study.comparison.gradients import slopes_of
 from symgen.study.journal import Journal
+from symgen.study.report.comparison import comparison
 
 RUNS = {
     "methods": ["lagrange", "direct-correction", "ggl"],

@@ -6,7 +6,7 @@ from support.checks import close
 from support.emitted import Emitted, mechanism_of
 from support.random_space import make
 
-from symgen.describe.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.study.references.independent import IndependentEquations
 
 GROUPS = [

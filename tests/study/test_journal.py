@@ -16,8 +16,8 @@ from symgen.study.comparison.comparison_rows import check_entry, to_entry
 from symgen.study.journal import HEADER, Journal, cell_key
 from symgen.study.runner import Cell, run_cells
 from symgen.study.stress.study import check_motion
-from tests.report.made import row, trace
 from tests.study import killed_study
+from tests.study.report.made import row, trace
 
 ROOT = Path(__file__).resolve().parents[2]
 

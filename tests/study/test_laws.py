@@ -9,9 +9,9 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.load import parse_toml
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.validate import validate
 
 #: A load that is thrown upwards in a clamp, stops after 0.1 s and 0.1125 m, and is held by 25 N against 20 N.
 LOAD = """

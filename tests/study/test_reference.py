@@ -9,7 +9,7 @@ import pytest
 import symgen
 from symgen.base.errors import InputError
 from symgen.describe import MechanismBuilder
-from symgen.describe.lengths import own_length
+from symgen.describe.facts.lengths import own_length
 from symgen.describe.mechanism import bounded
 from symgen.result.points import Points
 from symgen.study.references.closed_forms import CLOSED
@@ -17,7 +17,7 @@ from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.motion import CompiledEquations, motion
 from symgen.study.references.reference import reference
 from symgen.study.references.solvers import SOLVERS
-from tests.methods.test_hard_cases import two_links
+from tests.derive.methods.test_hard_cases import two_links
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -138,7 +138,7 @@ def test_a_regular_mechanism_with_short_links_is_not_taken_for_a_singular_one():
 def test_redundant_rows_do_no_harm():
     """Two rows more than needed change nothing: the same crank pinned twice."""
     joint = {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], [-0.5, 0.0]]}
-    from symgen.describe.validate import validate
+    from symgen.describe.files.validate import validate
 
     raw = {
         "mechanism": {"name": "rod", "gravity": [0.0, -9.81]},

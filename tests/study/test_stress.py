@@ -152,7 +152,7 @@ def test_families_make_cases(family, quick):
 
 def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
     """What compiles is told by the digest: the base, two redundant ones, and the linkage of adjustable lengths."""
-    from symgen.describe.digest import digest
+    from symgen.describe.facts.digest import digest
 
     base = Base.of("four-bar")
     found = {digest(level.mechanism) for name in FAMILIES for level in levels_of(name, base, False)}
@@ -300,8 +300,8 @@ def test_what_is_too_slow_is_told_without_a_clock():
 def test_a_measured_budget_stops_a_run():
 
     from symgen.base.settings import Settings
-    from symgen.layout import abi
-    from symgen.running.prepare import prepare
+    from symgen.run.layout import abi
+    from symgen.run.planning.prepare import prepare
 
     model = symgen.load("four-bar")
     settings = Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3)

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from report.made import stress_row
 
-from symgen.report import stress as report
-from symgen.report.stress import FEW_MODELS
+from study.report.made import stress_row
+from symgen.study.report import stress as report
+from symgen.study.report.stress import FEW_MODELS
 from symgen.study.stress.findings import cause, findings
 from symgen.study.stress.stress_rows import Limit, Stress, outcomes_of_models, shares_of_models
 

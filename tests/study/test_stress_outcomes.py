@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from report.made import stress_row
 
+from study.report.made import stress_row
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
 from symgen.study.stress.cells import largest_number
 from symgen.study.stress.findings import cause, explained, findings, largest_root

@@ -1,7 +1,7 @@
 """Beams of tests: cantilevers in the plane by their stiffnesses."""
 
 import symgen
-from symgen.describe.builder import MechanismBuilder
+from symgen.describe.files.builder import MechanismBuilder
 
 
 def cantilever(elements, *, axial=1e8, bending=1.0, length=1.0, parameters=None, forces=None, joints=None, **keys):

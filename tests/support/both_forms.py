@@ -9,9 +9,9 @@ import numpy as np
 
 from support.both_shapes import off_constraints, report
 from symgen.api import Model
-from symgen.compiling.pipeline import choose_method, compile_model
-from symgen.ir.program import STATUS
-from symgen.lower.record import BEHIND
+from symgen.base.ir.program import STATUS
+from symgen.derive.lower.record import BEHIND
+from symgen.run.compiling.pipeline import choose_method, compile_model
 
 #: Methods whose constraints differ; all mechanisms see the first.
 METHODS = (

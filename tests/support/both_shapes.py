@@ -11,15 +11,15 @@ import numpy as np
 
 from support.emitted import mechanism_of
 from support.models import EVERYTHING, READING, ROUGH, parallelogram
-from symgen import catalogue
 from symgen.api import Model, load
 from symgen.base.errors import AssemblyError
-from symgen.describe.builder import MechanismBuilder
-from symgen.ir.program import BY_PIVOTS, COUNTERS, STATUS
-from symgen.layout.abi import N_COUNTERS
-from symgen.lower.looped.law import is_loopable
-from symgen.methods import METHODS
-from symgen.methods._base import EXPLICIT_FORMS
+from symgen.base.ir.program import BY_PIVOTS, COUNTERS, STATUS
+from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS
+from symgen.describe import catalogue
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.run.layout.abi import N_COUNTERS
 
 #: Methods that solve with large penalties amplify rounding by them.
 PENALTY = {"penalty": 1e3}

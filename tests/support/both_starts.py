@@ -6,9 +6,9 @@ from support.emitted import mechanism_of
 from support.random_closed import make
 from symgen.api import Model, load
 from symgen.base.errors import AssemblyError
-from symgen.layout.compiled import CompiledModel
-from symgen.starts import decisions
-from symgen.starts.assembly import Held, Start
+from symgen.run.layout.compiled import CompiledModel
+from symgen.run.starts import decisions
+from symgen.run.starts.assembly import Held, Start
 
 SEEDS = range(4)
 

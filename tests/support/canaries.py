@@ -8,9 +8,9 @@ import numpy as np
 
 from support.models import EVERYTHING
 from support.random_space import make
-from symgen.describe.schema import schema
-from symgen.forces import FORCES
-from symgen.joints import JOINTS
+from symgen.describe.files.schema import schema
+from symgen.describe.forces import FORCES
+from symgen.describe.joints import JOINTS
 
 #: What would run if it left the comment or docstring that it is printed into.
 CODE = "import builtins; builtins.planted = True"

@@ -11,14 +11,14 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from symgen.compiling.pipeline import choose_method, for_coordinates, generate
+from symgen.base.ir.program import COUNTERS, SCALES, STATUS
+from symgen.base.vocabulary.infos import LawInfo
+from symgen.compile.store.emitted import EmittedFunction, Origin, imported
+from symgen.compile.store.identity import combined_digest
+from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.validate import validate
-from symgen.ir.program import COUNTERS, SCALES, STATUS
-from symgen.layout.compiled import ModelInfo
-from symgen.store.emitted import EmittedFunction, Origin, imported
-from symgen.store.identity import combined_digest
-from symgen.vocabulary.infos import LawInfo
+from symgen.run.compiling.pipeline import choose_method, for_coordinates, generate
+from symgen.run.layout.compiled import ModelInfo
 
 _counter = itertools.count()
 

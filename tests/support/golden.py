@@ -5,15 +5,15 @@ from collections.abc import Callable, Mapping
 from functools import cache, partial
 from pathlib import Path
 
-from symgen.compiling.choices import on_tree
-from symgen.compiling.closing import at_start
-from symgen.compiling.looped import generate_looped
-from symgen.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe import load
 from symgen.describe.mechanism import Mechanism
-from symgen.lower.looped.law import is_loopable
-from symgen.methods import METHODS
-from symgen.methods._base import EXPLICIT_FORMS
+from symgen.run.compiling.choices import on_tree
+from symgen.run.compiling.closing import at_start
+from symgen.run.compiling.looped import generate_looped
+from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
 
 MODELS = (
     *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),

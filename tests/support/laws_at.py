@@ -4,18 +4,18 @@ from pathlib import Path
 
 import numpy as np
 
-import symgen.catalogue
+import symgen.describe.catalogue
 from support import reference
 from support.plain import Plain
 from symgen.api import Model
-from symgen.describe.load import parse_toml
-from symgen.describe.validate import validate
-from symgen.ir.program import COUNTERS, STATUS
+from symgen.base.ir.program import COUNTERS, STATUS
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.validate import validate
 
 
 def described(name: str) -> dict:
     """The raw description of a mechanism of the catalogue."""
-    file = Path(symgen.catalogue.__file__).parent / f"{name}.toml"
+    file = Path(symgen.describe.catalogue.__file__).parent / f"{name}.toml"
     return parse_toml(file.read_text(encoding="utf-8"), name)
 
 

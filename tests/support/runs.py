@@ -4,9 +4,9 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.settings import Settings
-from symgen.running.prepare import make_plan
-from symgen.runs.outcome import Outcome
-from symgen.runs.run import integrate
+from symgen.run.planning.prepare import make_plan
+from symgen.run.single.outcome import Outcome
+from symgen.run.single.run import integrate
 
 
 def run(model: Model, **settings) -> Outcome:

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import symgen
-from symgen.describe.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate
 
 DATA = Path(__file__).parents[1] / "data"
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from symgen import catalogue
+from symgen.describe import catalogue
 
 #: A ball that bounces and loses energy; the state `last` is the time of the last impact.
 BALL = """

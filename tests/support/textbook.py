@@ -4,7 +4,7 @@ import numpy as np
 
 from support import reference
 from support.plain import Plain
-from symgen.describe.load import read_raw
+from symgen.describe.files.load import read_raw
 
 
 class Textbook:

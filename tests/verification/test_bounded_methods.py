@@ -3,7 +3,7 @@
 import pytest
 
 from benchmarks.bounded.methods import Line, examine
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
 
 #: An integrator with adaptive steps, and one with constant ones.
 BOTH = ["dop853", "rk4"]

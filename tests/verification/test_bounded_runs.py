@@ -11,7 +11,7 @@ from benchmarks.bounded.chains import HARD, hard
 from benchmarks.bounded.compare import ROWS, RUNS, Reference, Verdict, compared, examined, judged, reference
 from benchmarks.bounded.draw import KINDS, drawn
 from benchmarks.mechanisms.toml import text
-from symgen.describe.validate import validate
+from symgen.describe.files.validate import validate
 
 #: Kinds of runs, and mechanisms that have them all.
 ALL, SOME = (*RUNS, ROWS), ("dop853", ROWS)

@@ -18,8 +18,8 @@ from benchmarks.rescale import LENGTH, MASS, TIME, Units, dimension_of, rescaled
 from benchmarks.verification.judge import NEARLY
 from benchmarks.verification.runs import DENSE, METHODS
 from benchmarks.verification.shrink import smallest
-from symgen.forces import FORCES
-from symgen.joints import JOINTS
+from symgen.describe.forces import FORCES
+from symgen.describe.joints import JOINTS
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -52,12 +52,12 @@ def test_symgen_takes_what_is_drawn(tmp_path: Path) -> None:
 
 def test_the_reference_knows_every_kind() -> None:
     assert set(joints_plane.KINDS) | set(joints_space.KINDS) >= set(JOINTS)
-    # beam elements have an energy of their own in tests/formulate/test_beam_element.py
+    # beam elements have an energy of their own in tests/derive/formulate/test_beam_element.py
     assert set(forces.KINDS) >= set(FORCES) - {"beam"}
 
 
 def test_every_method_is_verified() -> None:
-    from symgen.methods import METHODS as known
+    from symgen.derive.methods import METHODS as known
 
     assert set(METHODS) == set(known) - {"implicit-constraint"}
     assert set(DENSE) | set(NEARLY) <= set(METHODS)

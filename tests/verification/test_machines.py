@@ -18,9 +18,9 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.linalg import solve_continuous_are
 
 import symgen
-from symgen import catalogue
-from symgen.describe.load import parse_toml
-from symgen.describe.validate import validate
+from symgen.describe import catalogue
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.validate import validate
 
 NAMES = (
     *("belt-oscillator", "bent-arc", "bicycle", "cam-follower", "cantilever", "cart-pole"),
@@ -106,7 +106,7 @@ def test_the_part_of_a_file_on_a_page_stands_in_the_entry():
     root = Path(__file__).parents[2]
     page = (root / "docs" / "tutorials" / "scissor-lift.md").read_text(encoding="utf-8")
     (text,) = re.findall(r"^```text\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    whole = (root / "symgen" / "catalogue" / "machines" / "scissor-lift.toml").read_text(encoding="utf-8")
+    whole = (root / "symgen" / "describe" / "catalogue" / "machines" / "scissor-lift.toml").read_text(encoding="utf-8")
     assert set(text.splitlines()) <= set(whole.splitlines())
 
 

@@ -18,7 +18,7 @@ DATA = ROOT / "tests" / "data"
 
 
 def catalogue(name: str) -> dict:
-    return tomllib.loads((ROOT / "symgen" / "catalogue" / f"{name}.toml").read_text(encoding="utf-8"))
+    return tomllib.loads((ROOT / "symgen" / "describe" / "catalogue" / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def moved(raw: dict, times, rtol: float = 1e-12):

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from symgen.base.settings import Settings
-from symgen.compiling.choices import on_tree
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
+from symgen.run.compiling.choices import on_tree
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
 from verification.running import model_of, of_bodies, rates
 
 #: Starts are closed to 1e-13 or so; accelerations and powers of such mechanisms follow them to some digits less.

@@ -13,11 +13,11 @@ from benchmarks.plain.start import choose_turns
 from benchmarks.plain.system import read
 from symgen.api import load
 from symgen.base.settings import Settings
+from symgen.compile.store.modules import plain_function
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.topology import spanning_tree
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
-from symgen.store.modules import plain_function
+from symgen.describe.parts.topology import spanning_tree
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
 from verification.running import model_of, of_bodies
 
 SEED = 12

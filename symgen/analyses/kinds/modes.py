@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from symgen.analyses.locus import Locus
     from symgen.analyses.model_methods import Analysed
     from symgen.analyses.modes import Modes
-    from symgen.player.motion_page import Page
+    from symgen.result.player.motion_page import Page
 
     Array = NDArray[np.float64]
 

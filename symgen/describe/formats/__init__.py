@@ -5,7 +5,7 @@ and connections; `symgen.describe.formats._raw` makes bodies, joints and forces 
 
 In: the path of a URDF, MJCF or SDF file.
 Out: an `Import`: the description, not yet validated, and what it leaves out.
-Imports: the standard library; `mujoco` for MJCF, where it is used.
+Imports: mujoco for MJCF, where it is used; `parts`, `formulas`.
 """
 
 from __future__ import annotations

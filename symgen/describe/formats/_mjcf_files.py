@@ -10,7 +10,7 @@ from typing import Any
 from symgen.base.errors import InputError, quoted
 from symgen.describe.formats._frames import UNIT, Frame, matrix_vector, of_quaternion, scaled, transpose
 from symgen.describe.formats._xml import read_tree
-from symgen.describe.mesh_files import MeshFiles
+from symgen.describe.parts.mesh_files import MeshFiles
 
 #: Files that a file may include, one in another.
 _MOST_INCLUDES = 100

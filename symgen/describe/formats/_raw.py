@@ -10,7 +10,6 @@ from typing import Any
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
-from symgen.describe.bodies import MOST
 from symgen.describe.formats._frames import (
     Frame,
     Matrix,
@@ -35,7 +34,8 @@ from symgen.describe.formats._robot import (
     turned_inertia,
 )
 from symgen.describe.formats._solids import Solid, sum_of_solids
-from symgen.describe.names import LONGEST, RESERVED
+from symgen.describe.formulas.names import LONGEST, RESERVED
+from symgen.describe.parts.bodies import MOST
 
 _ANGLE, _SLIDE = "angle", "displacement"
 #: Share of the largest number of a vector or tensor below which a number is rounding.

@@ -12,7 +12,7 @@ from symgen.base.errors import InputError, quoted
 from symgen.describe.formats._frames import Frame, Matrix
 from symgen.describe.formats._robot import LeftOut
 from symgen.describe.formats._xml import decimals, read_tree, triple
-from symgen.describe.mesh_files import MeshFiles
+from symgen.describe.parts.mesh_files import MeshFiles
 
 
 class RobotReader(ABC):

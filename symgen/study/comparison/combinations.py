@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import COORDINATES, Settings
-from symgen.integrators import INTEGRATORS
-from symgen.loops.integrator import adapts
-from symgen.methods import METHODS
+from symgen.derive.methods import METHODS
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.loops.integrator import adapts
 
 #: Default constant steps of a study, as multiples of the mechanism's own.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)

@@ -14,14 +14,14 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import Settings, default
-from symgen.describe.evaluate import parameter_values
-from symgen.describe.friction import without_friction
+from symgen.compile.store.paths import cache_location
+from symgen.describe.bounds.friction import without_friction
+from symgen.describe.bounds.stops import without_stops
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
-from symgen.describe.stops import without_stops
-from symgen.running.outputs import multiples, output_size
-from symgen.running.plan import refuse_events
-from symgen.running.prepare import preparation
-from symgen.store.paths import cache_location
+from symgen.run.planning.outputs import multiples, output_size
+from symgen.run.planning.plan import refuse_events
+from symgen.run.planning.prepare import preparation
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Trace
 from symgen.study.comparison.comparison_study import Study, save_csv

@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.evaluate import parameter_values
-from symgen.layout import abi
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.labelled import Labelled
 from symgen.result.points import Points
 from symgen.result.reactions import Forces, Seat, seats
-from symgen.runs.outcome import PrescribedMotion
+from symgen.run.layout import abi
+from symgen.run.single.outcome import PrescribedMotion
 from symgen.study.comparison.laws import rates_of_friction, resting
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.layout.compiled import CompiledModel
-    from symgen.runs.outcome import Outcome
-    from symgen.starts.assembly import Start
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.single.outcome import Outcome
+    from symgen.run.starts.assembly import Start
     from symgen.study.references.reference import Reference
 
 Array = NDArray[np.float64]

@@ -15,17 +15,17 @@ from numpy.typing import NDArray
 
 from symgen.analyses.adjoint_gradient import adjoint_gradient
 from symgen.base.errors import InputError, SymgenError, nearest, quoted
-from symgen.describe.evaluate import parameter_values
-from symgen.describe.stops import refuse_bounds
-from symgen.layout import abi
+from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.sensitivities import SCHEMES, Differentiated
-from symgen.running.prepare import prepare
-from symgen.runs.timing import timed
+from symgen.run.layout import abi
+from symgen.run.planning.prepare import prepare
+from symgen.run.single.timing import timed
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.describe.mechanism import Mechanism
-    from symgen.running.prepare import Prepared
+    from symgen.run.planning.prepare import Prepared
     from symgen.study.comparison.distances import Distances
 
 Array = NDArray[np.float64]

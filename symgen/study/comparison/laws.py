@@ -12,18 +12,18 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.compiling.side import compile_side
-from symgen.describe.evaluate import evaluate
-from symgen.describe.friction import MODE, rate_of, without_friction
-from symgen.describe.losses import LOSS, loss_of
+from symgen.base.vocabulary.expressions import Expr, Number, call
+from symgen.describe.bounds.friction import MODE, rate_of, without_friction
+from symgen.describe.bounds.losses import LOSS, loss_of
+from symgen.describe.bounds.smooth_friction import with_smooth_friction
+from symgen.describe.bounds.stops import HIT
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import EndStop, Friction, Mechanism, Output
-from symgen.describe.smooth_friction import with_smooth_friction
-from symgen.describe.stops import HIT
+from symgen.run.compiling.side import compile_side
 from symgen.study.comparison.combinations import variant_of
-from symgen.vocabulary.expressions import Expr, Number, call
 
 if TYPE_CHECKING:
-    from symgen.runs.outcome import Motion, Outcome
+    from symgen.run.single.outcome import Motion, Outcome
 
 Array = NDArray[np.float64]
 

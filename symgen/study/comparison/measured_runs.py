@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.layout import abi
 from symgen.result.judge import judge
+from symgen.run.layout import abi
 from symgen.study.comparison.comparison_rows import Row, Trace
 from symgen.study.comparison.laws import contact_of
 
 if TYPE_CHECKING:
-    from symgen.running.prepare import Prepared
-    from symgen.runs.outcome import Outcome
-    from symgen.runs.timing import Timed
+    from symgen.run.planning.prepare import Prepared
+    from symgen.run.single.outcome import Outcome
+    from symgen.run.single.timing import Timed
     from symgen.study.comparison.distances import Distances
 
 Array = NDArray[np.float64]

@@ -13,12 +13,12 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import SimulationError, SymgenError
 from symgen.base.settings import Settings
-from symgen.describe.digest import digest, identity
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.facts.digest import digest, identity
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.running.plan import Plan, Purpose
-from symgen.running.prepare import Assembled, Preparation, Prepared, prepare
-from symgen.runs.timing import timed
+from symgen.run.planning.plan import Plan, Purpose
+from symgen.run.planning.prepare import Assembled, Preparation, Prepared, prepare
+from symgen.run.single.timing import timed
 from symgen.study.comparison.combinations import words_of_variant
 from symgen.study.comparison.comparison_rows import check_entry, from_entry, to_entry, with_ratios
 from symgen.study.comparison.comparison_study import Study

@@ -10,7 +10,7 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, SimulationError
-from symgen.describe.load import load
+from symgen.describe.files.load import load
 from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.describe.evaluate import evaluate
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.study.references.differences import difference_jacobian
 from symgen.study.references.sympy_formulas import TENSOR, ReferenceFormulas

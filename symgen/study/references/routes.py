@@ -17,17 +17,17 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import SimulationError
 from symgen.base.settings import Settings
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.layout import abi
-from symgen.layout.compiled import CompiledModel
 from symgen.result.points import Points
 from symgen.result.reactions import Forces, seats
-from symgen.running.automatic import linearised
-from symgen.running.prepare import prepare
-from symgen.starts.assembly import Start
+from symgen.run.layout import abi
+from symgen.run.layout.compiled import CompiledModel
+from symgen.run.planning.automatic import linearised
+from symgen.run.planning.prepare import prepare
+from symgen.run.starts.assembly import Start
+from symgen.study.references.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
 from symgen.study.references.reference import Reference
-from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from symgen.base.arguments import one_of
 from symgen.base.errors import SimulationError
-from symgen.breaks.stops import foreseen
-from symgen.describe.kinks import compares_state, longest_step
+from symgen.describe.facts.kinks import compares_state, longest_step
+from symgen.run.breaks.stops import foreseen
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations

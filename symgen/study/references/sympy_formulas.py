@@ -14,10 +14,8 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.describe.mechanism import Mechanism, SpatialBody
-from symgen.formulate.translate import to_sympy
-from symgen.vocabulary.expressions import ZERO, Expr, Reading, names_in, readings
-from symgen.vocabulary.measures import (
+from symgen.base.vocabulary.expressions import ZERO, Expr, Reading, names_in, readings
+from symgen.base.vocabulary.measures import (
     GROUND,
     Angle,
     Bearing,
@@ -46,6 +44,8 @@ from symgen.vocabulary.measures import (
     Sum,
     Turn,
 )
+from symgen.derive.formulate.translate import to_sympy
+from symgen.describe.mechanism import Mechanism, SpatialBody
 
 #: Phi, the entries of D by column, nu and gamma of a row.
 Row = tuple[Any, dict[int, Any], Any, Any]

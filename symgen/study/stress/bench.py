@@ -16,11 +16,11 @@ from typing import Any
 
 from symgen.base.errors import InputError, SymgenError, quoted
 from symgen.base.settings import Settings
-from symgen.describe.evaluate import evaluate
-from symgen.describe.load import read_raw
+from symgen.describe.files.load import read_raw
+from symgen.describe.files.validate import validate
+from symgen.describe.forces import FORCES
+from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.validate import validate
-from symgen.forces import FORCES
 
 #: Handles of a stressed mechanism and their neutral values.
 STIFFNESS, DAMPING, FREE_LENGTH = "stress_stiffness", "stress_damping", "stress_free_length"
@@ -158,7 +158,7 @@ class Base:
     @cached_property
     def rate(self) -> float | None:
         """Rate rms(v') / rms(v) of the first second [1/s], None where nothing moves."""
-        from symgen.running.prepare import first_rate
+        from symgen.run.planning.prepare import first_rate
 
         return first_rate(self.without_events().mechanism, Settings(until=self.nominal))[0]
 
@@ -235,7 +235,7 @@ class Base:
     @cached_property
     def size(self) -> float:
         """Half of the largest distance between bodies and points at the start [m], at least 1e-3."""
-        from symgen.describe.lengths import own_length
+        from symgen.describe.facts.lengths import own_length
 
         places = [self.centre(body.name) for body in self.mechanism.bodies]
         spread = max(math.dist(a, b) for a in [*places, (0.0,) * len(places[0])] for b in places)

@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import AssemblyError, InputError, SimulationError
 from symgen.base.settings import Settings
-from symgen.breaks.motions import refuse_jumps
-from symgen.describe.digest import digest
-from symgen.describe.evaluate import parameter_values
-from symgen.describe.load import load as load_mechanism
-from symgen.layout import abi
-from symgen.layout.compiled import CompiledModel
-from symgen.layout.probe import Ready
+from symgen.describe.facts.digest import digest
+from symgen.describe.files.load import load as load_mechanism
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.points import Points
-from symgen.running.plan import Purpose
-from symgen.running.prepare import prepare
-from symgen.starts.assembly import Start
+from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.layout import abi
+from symgen.run.layout.compiled import CompiledModel
+from symgen.run.layout.probe import Ready
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
+from symgen.run.starts.assembly import Start
 from symgen.study.references.closed_forms import Closed, closed_form, parallel_cranks
 from symgen.study.references.reference import scaled_values
 from symgen.study.references.routes import fastest_decay, two_routes

@@ -15,29 +15,29 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.settings import Settings
-from symgen.compiling.choices import choose_coordinates
-from symgen.compiling.pipeline import for_coordinates
-from symgen.describe.evaluate import parameter_values
+from symgen.derive.lower.looped.law import is_loopable
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
-from symgen.integrators import INTEGRATORS
-from symgen.layout import abi
-from symgen.loops.integrator import adapts
-from symgen.lower.looped.law import is_loopable
-from symgen.reruns.verification import verified
 from symgen.result.contract import json_value
 from symgen.result.judge import judge
 from symgen.result.points import Points
+from symgen.result.reruns.verification import verified
 from symgen.result.result import INTERRUPTED
-from symgen.running.automatic import AUTO
-from symgen.running.options import split_options
-from symgen.running.prepare import preparation
-from symgen.runs.outcome import Outcome
+from symgen.run.compiling.choices import choose_coordinates
+from symgen.run.compiling.pipeline import for_coordinates
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.layout import abi
+from symgen.run.loops.integrator import adapts
+from symgen.run.planning.automatic import AUTO
+from symgen.run.planning.options import split_options
+from symgen.run.planning.prepare import preparation
+from symgen.run.single.outcome import Outcome
 from symgen.study.limits import UNWATCHED, WATCHES, unlimited
+from symgen.study.references.effort import budget_of, further_budget, predicted
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
 from symgen.study.stress.cell_references import EmittedGeometry, equations_of, reference_of, times_of, without_reference
-from symgen.study.stress.effort import budget_of, further_budget, predicted
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]

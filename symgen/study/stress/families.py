@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from symgen.describe.builder import MechanismBuilder
-from symgen.describe.builder_keys import BodyKeys
-from symgen.describe.evaluate import evaluate
+from symgen.derive.methods import METHODS
+from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.files.builder_keys import BodyKeys
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.joints import JOINTS
 from symgen.describe.mechanism import Mechanism
-from symgen.joints import JOINTS
-from symgen.methods import METHODS
 from symgen.study.stress.bench import DAMPING, GRAVITY, MASS, STIFFNESS, Base, Level, NotApplicable
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.base.errors import counted
-from symgen.running.automatic import AUTO
+from symgen.run.planning.automatic import AUTO
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
 from symgen.study.stress.stress_rows import Map, map_rows, plane_rows, shares_of_models
 

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 from symgen.base.files import check_writable, headed, need, write_csv
 from symgen.result.contract import json_value
+from symgen.study.references.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.saving import save_study
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
-from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -14,20 +14,20 @@ import msgspec
 from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings, default
-from symgen.describe.digest import identity
+from symgen.derive.methods import METHODS
+from symgen.describe.facts.digest import identity
 from symgen.describe.mechanism import bounded
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
 from symgen.result.result import FAILED, OK, UNVERIFIED
-from symgen.running.automatic import AUTO, constant_integrator
-from symgen.running.plan import refuse_events, refuse_weightless
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.automatic import AUTO, constant_integrator
+from symgen.run.planning.plan import refuse_events, refuse_weightless
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
+from symgen.study.references.effort import BUDGET, left_out
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.cell_references import without_reference
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
-from symgen.study.stress.effort import BUDGET, left_out
 from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 

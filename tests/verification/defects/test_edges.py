@@ -26,7 +26,7 @@ RUN = ["run", "pendulum", "--until", "0.01", "--step", "1e-3", "--json"]
 def test_where_no_file_can_be_written_one_sentence_says_so(tmp_path: Path) -> None:
     """No file may grow beyond a few bytes, as on full disks: under the cache, and where temporary folders are.
 
-    `tests/store` lets the cache's own folder fail alone, and sees the temporary one take its place.
+    `tests/compile/store` lets the cache's own folder fail alone, and sees the temporary one take its place.
     """
     script = f"""
 import resource, signal, sys

@@ -76,7 +76,7 @@ def test_both_shapes_have_the_same_rows(spelling: list[str], tmp_path: Path) -> 
 
 
 def catalogue(name: str) -> dict:
-    path = Path(symgen.__file__).parent / "catalogue" / f"{name}.toml"
+    path = Path(symgen.__file__).parent / "describe" / "catalogue" / f"{name}.toml"
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 

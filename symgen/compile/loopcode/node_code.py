@@ -1,0 +1,215 @@
+"""The functions of `symgen.compile.loopcode.nodes` in vectors of eight numbers, written with the builder of llvmlite.
+
+Each takes a builder and the arguments, arrays as addresses, and returns the result.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+
+from symgen.compile.loopcode.nodes import CORRECTIONS, DOUBLED, INTEGRALS, PLACES, POINTS, TERMS
+from symgen.compile.loopcode.vector_code import (
+    I32,
+    I64,
+    VECTOR,
+    ZERO,
+    added,
+    each_of,
+    folded,
+    load,
+    spread,
+    store,
+    variable,
+)
+from symgen.compile.native.types import NODES
+
+
+def _at(builder: Any, data: Any, index: Any) -> Any:
+    """Return an element of an array."""
+    return builder.load(builder.gep(data, [index]))
+
+
+def _eight(builder: Any, index: Any) -> Any:
+    return builder.mul(index, I64(NODES))
+
+
+def _vectors(builder: Any, data: Any, begin: int) -> list[Any]:
+    """Return rows of a table, kept in registers."""
+    return [load(builder, data, I64(begin + NODES * p)) for p in range(POINTS)]
+
+
+def _sum(builder: Any, factors: list[Any], vectors: list[Any]) -> Any:
+    """Return the sum of products of factors and vectors."""
+    total: Any = None
+    for factor, vector in zip(factors, vectors, strict=True):
+        total = builder.fmul(vector, factor) if total is None else added(builder, vector, factor, total)
+    return total
+
+
+def _rates(builder: Any, i: Any, first: Any, rates: Any) -> list[Any]:
+    """Return the rates of an element at the start and at the nodes, as vectors of equal numbers."""
+    numbers = [_at(builder, first, i)]
+    numbers += [_at(builder, rates, builder.add(_eight(builder, i), I64(p))) for p in range(NODES)]
+    return [spread(builder, number) for number in numbers]
+
+
+def _coordinate(builder: Any, rows: Any, c: Any) -> Any:
+    """Return the coordinate whose rate is an unknown element, and whether it exists."""
+    q = _at(builder, rows, builder.add(c, _at(builder, rows, I64(0))))
+    return q, builder.icmp_signed(">=", q, I64(0))
+
+
+def place(builder: Any, h: Any, rows: Any, y: Any, first: Any, rates: Any, table: Any, out: Any) -> None:
+    """Write `symgen.compile.loopcode.nodes.place`."""
+    h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
+    places = load(builder, table, I64(PLACES))
+    once, twice = _vectors(builder, table, INTEGRALS), _vectors(builder, table, DOUBLED)
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        numbers, begin = _rates(builder, i, first, rates), _at(builder, y, i)
+        moved = added(builder, h_all, _sum(builder, numbers, once), spread(builder, begin))
+        store(builder, moved, out, _eight(builder, i))
+        q, is_velocity = _coordinate(builder, rows, c)
+        with builder.if_then(is_velocity):
+            way = added(builder, places, spread(builder, builder.fmul(h, begin)), spread(builder, _at(builder, y, q)))
+            moved = added(builder, h_square, _sum(builder, numbers, twice), way)
+            store(builder, moved, out, _eight(builder, q))
+
+
+def _each_row(builder: Any, rows: Any) -> Any:
+    """Return a loop over the unknown rates; its variable counts them."""
+    return each_of(builder, I64(1), builder.add(_at(builder, rows, I64(0)), I64(1)), 1)
+
+
+def extrapolate(builder: Any, rows: Any, degree: Any, ratio: Any, places: Any, coefficients: Any, out: Any) -> None:
+    """Write `symgen.compile.loopcode.nodes.extrapolate`."""
+    one = ir.Constant(VECTOR, [1.0] * NODES)
+    twice = spread(builder, builder.fmul(ratio, ir.Constant(ir.DoubleType(), 2.0)))
+    x = added(builder, twice, load(builder, places, I64(0)), one)
+    polynomials = [one, x]
+    for p in range(2, POINTS):
+        up, down = (ir.Constant(VECTOR, [f] * NODES) for f in ((2 * p - 1) / p, -(p - 1) / p))
+        before, here = polynomials[-2:]
+        polynomials.append(added(builder, builder.fmul(up, x), here, builder.fmul(down, before)))
+    for p in range(2, POINTS):
+        within = builder.icmp_signed("<=", I64(p), degree)
+        polynomials[p] = builder.select(within, polynomials[p], ZERO)
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        first = builder.mul(i, I64(2 * NODES))
+        factors = [spread(builder, _at(builder, coefficients, builder.add(first, I64(p)))) for p in range(POINTS)]
+        store(builder, _sum(builder, factors, polynomials), out, _eight(builder, i))
+
+
+def distance(builder: Any, rows: Any, weights: Any, share: Any, rates: Any, before: Any) -> Any:
+    """Write `symgen.compile.loopcode.nodes.distance`."""
+    total = variable(builder, ZERO)
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        at = _eight(builder, i)
+        difference = builder.fsub(load(builder, rates, at), load(builder, before, at))
+        weighted = builder.fmul(difference, spread(builder, _at(builder, weights, i)))
+        builder.store(added(builder, weighted, difference, builder.load(total)), total)
+    return folded(builder, builder.fmul(builder.load(total), load(builder, share, I64(0))), builder.fadd)
+
+
+def expand(builder: Any, rows: Any, weights: Any, first: Any, rates: Any, table: Any, out: Any, squares: Any) -> None:
+    """Write `symgen.compile.loopcode.nodes.expand`."""
+    sums = [variable(builder, ZERO) for _ in range(2)]
+    halves = [
+        [load(builder, table, I64(2 * NODES * p + half * NODES)) for p in range(POINTS)] for half in range(len(sums))
+    ]
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        numbers, weight = _rates(builder, i, first, rates), spread(builder, _at(builder, weights, i))
+        for half, (sum_of_squares, vectors) in enumerate(zip(sums, halves, strict=True)):
+            total = _sum(builder, numbers, vectors)
+            store(builder, total, out, builder.add(builder.mul(i, I64(2 * NODES)), I64(half * NODES)))
+            weighted = builder.fmul(total, weight)
+            builder.store(added(builder, weighted, total, builder.load(sum_of_squares)), sum_of_squares)
+    for half, sum_of_squares in enumerate(sums):
+        store(builder, builder.load(sum_of_squares), squares, I64(half * NODES))
+
+
+def refine(builder: Any, rows: Any, table: Any, coefficients: Any, more: Any, out: Any) -> None:
+    """Write `symgen.compile.loopcode.nodes.refine`."""
+    polynomials, minus = _vectors(builder, table, 0), ir.Constant(VECTOR, [-1.0] * NODES)
+    undefined = ir.Constant(VECTOR, ir.Undefined)
+    halves = [[load(builder, table, I64(CORRECTIONS + p * TERMS + half)) for p in range(NODES)] for half in (0, NODES)]
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        first = builder.mul(i, I64(TERMS))
+        numbers = _numbers(builder, coefficients, first, 0, POINTS)
+        left = added(builder, minus, _sum(builder, numbers, polynomials), load(builder, more, _eight(builder, i)))
+        each = [
+            builder.shuffle_vector(left, undefined, ir.Constant(ir.VectorType(I32, NODES), [p] * NODES))
+            for p in range(NODES)
+        ]
+        for half, vectors in zip((0, NODES), halves, strict=True):
+            at = builder.add(first, I64(half))
+            total = load(builder, coefficients, at)
+            for number, vector in zip(each, vectors, strict=True):
+                total = added(builder, vector, number, total)
+            store(builder, total, out, at)
+
+
+def _numbers(builder: Any, data: Any, first: Any, start: int, stop: int) -> list[Any]:
+    """Return elements of an array behind its index `first`, as vectors of equal numbers."""
+    return [spread(builder, _at(builder, data, builder.add(first, I64(k)))) for k in range(start, stop)]
+
+
+def integrate_legendre(builder: Any, terms: Any, x: Any, once: Any, twice: Any) -> None:
+    """Write `symgen.compile.loopcode.nodes.integrate_legendre`: for the polynomials of a step, and for more."""
+    place = load(builder, x, I64(0))
+    z = added(builder, _all(2.0), place, _all(-1.0))
+    values, integrals = [_all(1.0), z], [place]
+    store(builder, place, once, I64(0))
+    store(builder, builder.fmul(builder.fmul(_all(0.5), place), place), twice, I64(0))
+
+    def up_to(last: int) -> None:
+        for k in range(len(integrals), last + 1):
+            lower, here = values[-2:]
+            falling = builder.fmul(_all(-k / (k + 1)), lower)
+            values.append(added(builder, builder.fmul(_all((2 * k + 1) / (k + 1)), z), here, falling))
+            integrals.append(builder.fmul(builder.fsub(values[-1], lower), _all(1 / (4 * k + 2))))
+            if k < TERMS:
+                store(builder, integrals[k], once, I64(k * NODES))
+            if k > 1:
+                doubled = builder.fmul(builder.fsub(integrals[k], integrals[k - 2]), _all(1 / (4 * k - 2)))
+                store(builder, doubled, twice, I64((k - 1) * NODES))
+
+    up_to(POINTS)
+    with builder.if_then(builder.icmp_signed(">", terms, I64(POINTS))):
+        up_to(TERMS)
+
+
+def _all(number: float) -> Any:
+    return ir.Constant(VECTOR, [number] * NODES)
+
+
+def sum_up(
+    builder: Any, h: Any, terms: Any, x: Any, rows: Any, y: Any, coefficients: Any, once: Any, twice: Any, out: Any
+) -> None:
+    """Write `symgen.compile.loopcode.nodes.sum_up`."""
+    h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
+    way = builder.fmul(h_all, load(builder, x, I64(0)))
+    tables = [[load(builder, table, I64(k * NODES)) for k in range(POINTS)] for table in (once, twice)]
+
+    def series(which: int, first: Any) -> Any:
+        total = variable(builder, _sum(builder, _numbers(builder, coefficients, first, 0, POINTS), tables[which]))
+        with each_of(builder, I64(POINTS), terms, 1) as k:
+            number = spread(builder, _at(builder, coefficients, builder.add(first, k)))
+            vector = load(builder, (once, twice)[which], _eight(builder, k))
+            builder.store(added(builder, vector, number, builder.load(total)), total)
+        return builder.load(total)
+
+    with _each_row(builder, rows) as c:
+        i = _at(builder, rows, c)
+        first, begin = builder.mul(i, I64(TERMS)), spread(builder, _at(builder, y, i))
+        store(builder, added(builder, h_all, series(0, first), begin), out, _eight(builder, i))
+        q, is_velocity = _coordinate(builder, rows, c)
+        with builder.if_then(is_velocity):
+            moved = added(builder, way, begin, spread(builder, _at(builder, y, q)))
+            store(builder, added(builder, h_square, series(1, first), moved), out, _eight(builder, q))

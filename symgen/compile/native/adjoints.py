@@ -1,0 +1,375 @@
+"""Straight functions of `symgen.compile.native.language` as text for LLVM in reverse: adjoints of what they read.
+
+Rules are the ones of `symgen.compile.native.tangents`: there they print directions, here each is noted as a sum of
+factors times earlier directions, and the notes are read backwards. Behind its own arguments a function takes the
+adjoint of each array of floats. Where the function stores, the adjoint goes to what was stored and is 0 before; where
+it reads, it is added. Values of the function itself are computed again, and nothing of it is stored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import msgspec
+
+from symgen.base.ir.graph import CARRIED
+from symgen.compile.native import language as lang
+from symgen.compile.native import sines
+from symgen.compile.native.llvm import FunctionPrinter, declarations, taken
+from symgen.compile.native.llvm_values import TYPES, literal
+from symgen.compile.native.read_values import Foreign
+from symgen.compile.native.tangents import Dual, TangentPrinter
+
+#: An element of an array.
+Place = tuple[str, int]
+#: A direction in a sum, and the text of its factor, which is printed where it is needed; None for 1.
+Term = tuple[str, Callable[[], str] | None]
+
+
+def module(function: lang.Function, name: str, ends: str, together: bool = True) -> str:
+    """Return the text of a module that defines the adjoint of a function.
+
+    Parameters
+    ----------
+    function : Function
+        The function.
+    name : str
+        Name of its adjoint in machine code.
+    ends : str
+        The array whose adjoint it takes: what it stores in others is not used.
+    together : bool
+        Whether sines and cosines of several angles are taken together.
+
+    Raises
+    ------
+    Foreign
+        If the function is not straight.
+    """
+    names: dict[object, str] = {}
+    text = AdjointPrinter(
+        function, lambda f: names.setdefault(f.key, f"{name}.{len(names)}"), name, ends, together
+    ).text()
+    parts = [text, *(sines.definition(n) for n in (sines.width(1), sines.MOST) if sines.sine_name(n) in text)]
+    return "\n".join([*parts, *declarations(parts), ""])
+
+
+class AdjointPrinter(TangentPrinter):
+    """Prints the adjoint of one function.
+
+    Parameters
+    ----------
+    function, symbol, together
+        As for `FunctionPrinter`; the symbols are those of the tables of functions.
+    name, ends : str
+        Name of the adjoint in machine code, and the array whose adjoint it takes.
+    """
+
+    def __init__(
+        self, function: lang.Function, symbol: Callable[[lang.Function], str], name: str, ends: str, together: bool
+    ) -> None:
+        super().__init__(function, symbol, 1, {}, together)
+        self.name, self.ends, self.together = name, ends, together
+        self.inner = dict[object, lang.Function]()
+        self.counters = dict[str, int]()  # of loops, which are written out
+        self.names = {p.name: p.name for p in function.parameters if p.array}  # arrays of this function, of a callee
+        self.sums: list[tuple[str, tuple[Term, ...]]] = []  # directions and their terms, in the order of the function
+        self.read: dict[Place, Dual] = {}
+        self.stored: dict[Place, Dual] = {}
+        self.result: Dual = "0", None
+
+    def text(self) -> str:
+        """Return the definition."""
+        f = self.function
+        FunctionPrinter.take_arguments(self)
+        self.inner[f.key] = f
+        self.statements(f.body)
+        self.go_back()
+        arguments = [f'{kind} %"{own}"' for p in f.parameters for kind, own in taken(p)]
+        arguments += [f'ptr %"{p.name}.bar", i64 %"{p.name}.bar.0"' for p in self.arrays()]
+        tables = [
+            f'@"{self.symbol(each)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
+            f"[{', '.join('double ' + literal(v) for v in x)}]"
+            for each in self.inner.values()
+            for name, x in each.tables.items()
+        ]
+        begin = f'define {TYPES[f.returned]} @"{self.name}"({", ".join(arguments)}) nounwind {{'
+        end = f"  ret {TYPES[f.returned]} {literal(0.0) if f.returned == 'float' else 0}"
+        return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, end, "}"])
+
+    def arrays(self) -> Iterator[lang.FunctionParameter]:
+        """Yield the arrays of floats."""
+        return (p for p in self.function.parameters if p.array and p.type == "float")
+
+    # -- the function, forwards
+
+    def begin(self, label: str) -> None:
+        """Refuse a second block."""
+        raise Foreign("a choice or a loop in a function with an adjoint")
+
+    def keep(self, name: str, directions: str | None) -> None:
+        """Refuse a variable that changes."""
+        raise Foreign(f"the variable '{name}', which changes, in a function with an adjoint")
+
+    def store(self, statement: lang.Store) -> None:
+        """Note what is stored."""
+        if statement.value.type == "float":
+            self.stored[self.names[statement.array], self.whole(statement.index)] = self.dual(statement.value)
+
+    def dual(self, e: lang.Expression) -> Dual:
+        """Print a float and return it with the name of its direction."""
+        if isinstance(e, lang.Variable):
+            if e.name not in self.values:
+                raise Foreign(f"the variable '{e.name}', which changes, in a function with an adjoint")
+            return self.values[e.name], self.tangents.get(e.name)
+        if isinstance(e, lang.ArrayElement):
+            if e.array in self.function.tables:
+                return FunctionPrinter.value(self, e), None
+            place = self.names[e.array], self.whole(e.index)
+            if place in self.stored:
+                return self.stored[place]
+            if place not in self.read:
+                own = self.put(f"getelementptr double, ptr {self.base(e.array)}, i64 {place[1]}")
+                self.read[place] = self.put(f"load double, ptr {own}"), self.summed()
+            return self.read[place]
+        if isinstance(e, lang.FunctionCall) and e.function.name not in CARRIED:
+            return self.called_here(e)
+        return super().dual(e)
+
+    def end(self, value: lang.Expression) -> None:
+        """Keep the result for a caller inside."""
+        self.result = self.dual(value) if value.type == "float" else (self.value(value), None)
+
+    def call(self, e: lang.FunctionCall) -> str:
+        """Print the statements of a callee."""
+        return self.called_here(e)[0]
+
+    def called_here(self, e: lang.FunctionCall) -> Dual:
+        """Print the statements of a callee, and return its result."""
+        f, names, views = e.function, dict[str, str](), dict[str, tuple[str, tuple[str, ...]]]()
+        values, tangents = dict[str, str](), dict[str, str | None]()
+        for parameter, argument in zip(f.parameters, e.arguments, strict=True):
+            if isinstance(argument, str):
+                names[parameter.name], views[parameter.name] = self.names[argument], self.views[argument]
+            elif argument.type == "float":
+                values[parameter.name], tangents[parameter.name] = self.dual(argument)
+            else:
+                values[parameter.name] = self.value(argument)
+        outside = self.function, self.names, self.views, self.values, self.tangents, self.sines, self.before
+        self.function, self.names, self.views, self.values, self.tangents = f, names, views, values, tangents
+        self.sines, groups = {}, sines.groups(f) if self.together else {}
+        self.before = {id(f.body[i]): calls for i, calls in groups.items()}
+        self.inner[f.key], self.result = f, ("0", None)
+        self.statements(f.body)
+        self.function, self.names, self.views, self.values, self.tangents, self.sines, self.before = outside
+        return self.result
+
+    def summed(self, *terms: tuple[str | None, Callable[[], str] | None]) -> str:
+        """Note a direction as a sum of terms."""
+        name = f"#{len(self.sums)}"
+        self.sums.append((name, tuple((own, factor) for own, factor in terms if own is not None)))
+        return name
+
+    def sum(self, a: str | None, b: str | None) -> str | None:
+        """Note the sum of two directions."""
+        if a is None or b is None:
+            return b if a is None else a
+        return self.summed((a, None), (b, None))
+
+    def difference(self, a: str | None, b: str | None) -> str | None:
+        """Note the difference of two directions."""
+        return a if b is None else self.summed((a, None), (b, lambda: literal(-1.0)))
+
+    def times(self, directions: str | None, factor: Callable[[], str]) -> str | None:
+        """Note the product of a direction and a number."""
+        return None if directions is None else self.summed((directions, factor))
+
+    def extreme(self, name: str, a: str, b: str, da: str | None, db: str | None) -> Dual:
+        """Print the least or greatest of two values; the direction is the one of the value taken."""
+        sign = "olt" if name == "min" else "ogt"
+        return self.either(self.put(f"fcmp{self.flag} {sign} double {b}, {a}"), (b, db), (a, da))
+
+    def chosen(self, e: lang.Choice) -> Dual:
+        """Print both values and choose one: a second block would have to be taken back as well."""
+        return self.either(self.value(e.test), self.dual(e.chosen), self.dual(e.otherwise))
+
+    def count_through(self, statement: lang.For) -> None:
+        """Print all passes through a loop of known length."""
+        for i in range(self.whole(statement.start), self.whole(statement.stop), statement.step):
+            self.counters[statement.name], self.values[statement.name] = i, str(i)
+            self.statements(statement.body)
+        self.counters.pop(statement.name, None)
+
+    def whole(self, e: lang.Expression) -> int:
+        """Return an index, which has to be known."""
+        return _whole(e, self.counters)
+
+    def either(self, test: str, yes: Dual, no: Dual) -> Dual:
+        """Print one of two values by a test."""
+        one, zero = literal(1.0), literal(0.0)
+        (a, da), (b, db) = yes, no
+        value = self.put(f"select i1 {test}, double {a}, double {b}")
+        if da is None and db is None:
+            return value, None
+        return value, self.summed(
+            (da, lambda: self.put(f"select i1 {test}, double {one}, double {zero}")),
+            (db, lambda: self.put(f"select i1 {test}, double {zero}, double {one}")),
+        )
+
+    # -- and backwards
+
+    def go_back(self) -> None:
+        """Print the adjoints. Each is read and written once, as repeated reads count as one where code is divided."""
+        bars = dict[str, str]()
+        stored = {place: dual for place, dual in self.stored.items() if place[0] == self.ends}
+        kept = {place: dual for place, dual in self.read.items() if place in stored or place not in self.stored}
+        adjoints = {place: self.address(place) for place in stored | kept}
+        for place, (_, direction) in stored.items():
+            if direction is not None:
+                self.gather(bars, direction, self.put(f"load double, ptr {adjoints[place]}"))
+        for name, terms in reversed(self.sums):
+            if name not in bars:
+                continue
+            for own, factor in terms:
+                bar = bars[name] if factor is None else self.product_of(factor(), bars[name])
+                self.gather(bars, own, bar)
+        for place, address in adjoints.items():
+            own = (kept[place][1] or "") if place in kept else ""
+            bar = bars.get(own, literal(0.0))
+            if place not in stored:
+                if own not in bars:
+                    continue
+                before = self.put(f"load double, ptr {address}")
+                bar = self.put(f"fadd{self.flag} double {before}, {bar}")
+            self.lines.append(f"  store double {bar}, ptr {address}")
+
+    def address(self, place: Place) -> str:
+        """Print the address of an adjoint."""
+        return self.put(f'getelementptr double, ptr %"{place[0]}.bar", i64 {place[1]}')
+
+    def gather(self, bars: dict[str, str], direction: str, bar: str) -> None:
+        """Add to the adjoint of a direction."""
+        bars[direction] = self.put(f"fadd{self.flag} double {bars[direction]}, {bar}") if direction in bars else bar
+
+    def product_of(self, factor: str, bar: str) -> str:
+        """Print the product of a factor and an adjoint."""
+        if factor == literal(-1.0):
+            return self.put(f"fneg double {bar}")
+        return self.put(f"fmul{self.flag} double {factor}, {bar}")
+
+
+def _whole(e: lang.Expression, counters: Mapping[str, int]) -> int:
+    """Return an index, which has to be known."""
+    if isinstance(e, lang.Constant):
+        return int(e.value)
+    if isinstance(e, lang.Variable) and e.name in counters:
+        return counters[e.name]
+    if isinstance(e, lang.ScalarOperation) and e.name in ("add", "sub", "mul"):
+        a, b = (_whole(argument, counters) for argument in e.arguments)
+        return {"add": a + b, "sub": a - b, "mul": a * b}[e.name]
+    raise Foreign("an index that changes in a function with an adjoint")
+
+
+def correction(accept: lang.Function, rounds: int) -> lang.Function:
+    """Return what ``accept`` does to a state in a number of rounds, as a straight function.
+
+    Parameters
+    ----------
+    accept : Function
+        Functions that it calls, then a loop whose last pass is the one in which a variable is true, then measures.
+    rounds : int
+        Number of passes before the last one.
+
+    Raises
+    ------
+    Foreign
+        If it is of another form.
+    """
+    kept, behind = list[lang.Statement](), False
+    for statement in accept.body:
+        own = accesses((statement,))
+        if not any(array in ("y", "w") for array, _ in own.stored):
+            continue
+        if behind and any(array == "y" for array, _ in own.stored):
+            raise Foreign("a correction behind another one")
+        if isinstance(statement, lang.For) and not behind:
+            kept += [*_pass(statement.body, False) * rounds, *_pass(statement.body, True)]
+            behind = True
+        elif not behind:
+            kept += _acting(statement)
+    return msgspec.structs.replace(accept, body=tuple(kept))
+
+
+def _acting(statement: lang.Statement) -> list[lang.Statement]:
+    """Return a statement that stores floats, without its result."""
+    if isinstance(statement, lang.Assign) and isinstance(statement.value, lang.FunctionCall):
+        return [lang.Evaluate(statement.value)]
+    if isinstance(statement, lang.Evaluate | lang.Store | lang.For):
+        return [statement]
+    raise Foreign("a correction that depends on the state")
+
+
+def _pass(body: tuple[lang.Statement, ...], last: bool) -> list[lang.Statement]:
+    """Return the statements of a pass through the rounds of a correction that store floats."""
+    kept, tests = list[lang.Statement](), set[str]()
+    for statement in body:
+        if isinstance(statement, lang.If):
+            if not isinstance(statement.test, lang.Variable):
+                raise Foreign("a correction with tests of other things than its last pass")
+            tests.add(statement.test.name)
+            for each in statement.then if last else statement.otherwise:
+                if isinstance(each, lang.Leave):
+                    return kept
+                kept += _acting(each)
+        elif any(array in ("y", "w") for array, _ in accesses((statement,)).stored):
+            kept += _acting(statement)
+    if last or len(tests) > 1:
+        raise Foreign("a correction without a last pass")
+    return kept
+
+
+@dataclass(frozen=True)
+class Accesses:
+    """What a function and those that it calls read before they store it, and what they store.
+
+    Attributes
+    ----------
+    read, stored : frozenset of (str, int)
+        Elements by array and index; index -1 means any.
+    """
+
+    read: frozenset[Place]
+    stored: frozenset[Place]
+
+
+def accesses(body: tuple[lang.Statement, ...]) -> Accesses:
+    """Return what statements read and store of arrays, which callees have under the same names."""
+    read, stored = set[Place](), set[Place]()
+
+    def index(e: lang.Expression) -> int:
+        try:
+            return _whole(e, {})
+        except Foreign:
+            return -1
+
+    def walk(part: object) -> None:
+        if isinstance(part, lang.Store):
+            walk(part.value)
+            stored.add((part.array, index(part.index)))
+        elif isinstance(part, lang.ArrayElement):
+            place = part.array, index(part.index)
+            if place not in stored:
+                read.add(place)
+        elif isinstance(part, lang.FunctionCall):
+            for argument in part.arguments:
+                walk(argument)
+            walk(part.function.body)
+        elif isinstance(part, tuple):
+            for each in part:
+                walk(each)
+        elif isinstance(part, lang.Statement | lang.Expression):
+            for name in part.__struct_fields__:
+                walk(getattr(part, name))
+
+    walk(body)
+    return Accesses(frozenset(read), frozenset(stored))

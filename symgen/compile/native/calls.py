@@ -1,0 +1,151 @@
+"""Calls of compiled functions from Python: arguments unpacked at every call, or laid out in memory in advance.
+
+A compiled function takes a number as it is, an array as the address of its elements and its lengths, another function
+as its address. A call unpacks its arguments every time: tens of microseconds for records of arrays and functions.
+Where only some numbers differ between calls, a trampoline loads them from slots of eight bytes and calls
+the function whose address precedes them.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import hashlib
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from symgen.compile.native import types
+from symgen.compile.native.machine import load
+
+#: Slots before the arguments: address of the function, its result; then memory to copy before: destination, source,
+#: number of bytes.
+FUNCTION, RESULT, COPY, SOURCE, BYTES, FIRST = range(6)
+_SLOTS = {types.float64: "double", types.int64: "i64", types.boolean: "i1"}
+_C: dict[Any, Any] = {"double": ctypes.c_double, "i64": ctypes.c_int64, "i1": ctypes.c_bool, "ptr": ctypes.c_void_p}
+_DTYPES = {types.float64: np.dtype(np.float64), types.int64: np.dtype(np.int64), types.uint32: np.dtype(np.uint32)}
+_NUMBERS = {dtype: number for number, dtype in _DTYPES.items()}
+
+
+def slots(kind: types.Kind) -> Iterator[str]:
+    """Yield LLVM's types of the slots of an argument."""
+    if isinstance(kind, types.RecordType):
+        for part in kind:
+            yield from slots(part)
+    elif isinstance(kind, types.FunctionType):
+        yield "ptr"
+    elif isinstance(kind, types.ArrayType):
+        yield from ("ptr", *("i64",) * kind.ndim)
+    else:
+        yield _SLOTS[kind]
+
+
+def slot_values(kind: types.Kind, value: Any) -> Iterator[int | float]:
+    """Yield the content of the slots of an argument: integers, addresses among them, and floating-point numbers.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the argument has another type.
+    """
+    if kind is types.float64:
+        yield float(value)
+    elif isinstance(kind, types.ArrayType):
+        if not isinstance(value, np.ndarray):
+            raise TypeError(f"expected an array {kind}, got {type(value).__name__}")
+        if not value.flags.c_contiguous or value.ndim != kind.ndim or value.dtype != _DTYPES[kind.dtype]:
+            raise TypeError(f"expected an array {kind}, got one of {value.ndim} dimensions of {value.dtype}")
+        yield value.__array_interface__["data"][0]
+        yield from value.shape
+    elif isinstance(kind, types.RecordType):
+        for part, item in zip(kind, value, strict=True):
+            yield from slot_values(part, item)
+    elif isinstance(kind, types.FunctionType):
+        yield value.address(kind.signature)
+    else:
+        yield int(value)
+
+
+def kind_of(value: Any) -> types.Kind:
+    """Return the type of an argument.
+
+    Raises
+    ------
+    TypeError
+        If compiled functions cannot take the argument.
+    """
+    if isinstance(value, float):
+        return types.float64
+    if isinstance(value, np.ndarray) and value.dtype in _NUMBERS:
+        return types.ArrayType(_NUMBERS[value.dtype], value.ndim)
+    if isinstance(value, bool | np.bool_):
+        return types.boolean
+    if isinstance(value, int | np.integer):
+        return types.int64
+    if isinstance(value, tuple):
+        return types.RecordType(tuple(map(kind_of, value)), type(value))
+    raise TypeError(f"compiled functions take numbers, arrays and records of these, no {type(value).__name__}")
+
+
+def caller(address: int, signature: types.Signature) -> Callable[..., Any]:
+    """Return a Python function that calls a compiled one without the interpreter's lock."""
+    expected = signature.arguments
+    kinds = [_C[slot] for kind in expected for slot in slots(kind)]
+    returned = None if signature.result is types.void else _C[_SLOTS[signature.result]]
+    function = ctypes.CFUNCTYPE(returned, *kinds)(address)
+
+    def call(*arguments: Any) -> Any:
+        if len(arguments) != len(expected):
+            raise TypeError(f"expected {len(expected)} arguments, got {len(arguments)}")
+        return function(*[x for kind, value in zip(expected, arguments, strict=True) for x in slot_values(kind, value)])
+
+    return call
+
+
+def trampoline(signature: types.Signature, object_file: Callable[[str, str], bytes]) -> Callable[[int], Any]:
+    """Return a function that takes the address of a block of slots and calls the function with the arguments there.
+
+    Parameters
+    ----------
+    signature : Signature
+        Signature of the function; its result is a number of eight bytes.
+    object_file : callable
+        Returns the object file of a module in LLVM's language with a named function.
+    """
+    kinds = tuple(slot for kind in signature.arguments for slot in slots(kind))
+    return _trampoline(_SLOTS[signature.result], kinds, object_file)
+
+
+@functools.cache
+def _trampoline(
+    returned: str, kinds: tuple[str, ...], object_file: Callable[[str, str], bytes]
+) -> Callable[[int], Any]:
+    name = "symgen.trampoline." + hashlib.sha256(" ".join((returned, *kinds)).encode()).hexdigest()[:32]
+    address = load(object_file(trampoline_text(name, returned, kinds), name), name)
+    return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
+
+
+def trampoline_text(name: str, returned: str, kinds: tuple[str, ...]) -> str:
+    """Return the module with a trampoline in LLVM's language.
+
+    It copies memory first, which costs a tenth of a copy made from Python, and calls the function.
+
+    Parameters
+    ----------
+    name, returned : str
+        Name of the function, and the type of the result.
+    kinds : tuple of str
+        Types of the slots from `FIRST` on.
+    """
+    place = "getelementptr inbounds i64, ptr %block, i64"
+    lines = [f"%s{RESULT} = {place} {RESULT}"]
+    for i, kind in (*{FUNCTION: "ptr", COPY: "ptr", SOURCE: "ptr", BYTES: "i64"}.items(), *enumerate(kinds, FIRST)):
+        lines += [f"%s{i} = {place} {i}", f"%v{i} = load {kind}, ptr %s{i}, align 8"]
+    lines.append(f"call void @llvm.memcpy.p0.p0.i64(ptr %v{COPY}, ptr %v{SOURCE}, i64 %v{BYTES}, i1 false)")
+    arguments = ", ".join(f"{kind} %v{i}" for i, kind in enumerate(kinds, FIRST))
+    lines.append(f"%result = call {returned} %v{FUNCTION}({arguments})")
+    lines += [f"store {returned} %result, ptr %s{RESULT}", "ret void"]
+    body = "".join(f"  {line}\n" for line in lines)
+    declared = "declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)\n"
+    return f'{declared}define void @"{name}"(ptr %block) {{\n{body}}}\n'

@@ -1,0 +1,364 @@
+"""Functions compiled from their source at the first call, in a cache that survives crashes.
+
+`jit` compiles functions of the runtime, which take records of arrays, numbers and functions;
+`symgen.compile.store.emitted` compiles those of emitted modules. An entry of the cache is one self-checking file for
+each function and types of its arguments. Its key holds everything that machine code depends on: the sources, the types,
+the processor, and the version of llvmlite.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import marshal
+import sys
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, TypeVar, cast
+
+import llvmlite
+
+from symgen.base.errors import InputError
+from symgen.base.memory import uncollected
+from symgen.compile.native import types
+from symgen.compile.native.calls import caller, kind_of
+from symgen.compile.native.compiler import compiler, interpreted
+from symgen.compile.native.machine import load, lock, processor
+from symgen.compile.store.entries import cached, plain_name
+from symgen.compile.store.identity import combined_digest, content, file_digest
+from symgen.compile.store.sources import COMPILER, reached_digest, source_stamp
+from symgen.compile.store.stats import CompilationClock
+from symgen.compile.store.upkeep import NATIVE
+
+if TYPE_CHECKING:
+    from symgen.compile.native.read import Kind
+
+__all__ = ["CacheEntry", "MachineFunction", "RuntimeFunction", "jit", "object_file", "syntax_tree"]
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_FORMAT = "3"
+#: Types of the arguments of a function.
+Arguments = tuple[types.Kind, ...]
+_NUMBERS = {"float": types.float64, "int": types.int64, "bool": types.boolean}
+
+
+class CacheEntry(NamedTuple):
+    """Machine code in the cache: type of the result, callees with types of their arguments, object file."""
+
+    returned: str
+    called: tuple[tuple[str, tuple[Kind, ...]], ...]
+    code: bytes
+
+
+class MachineCode(NamedTuple):
+    """Machine code in memory."""
+
+    address: int
+    signature: types.Signature
+
+
+class MachineFunction(ABC):
+    """A function whose machine code is made when it is called, or its address requested.
+
+    Parameters
+    ----------
+    function : function
+        The Python function.
+    inlined : bool
+        Whether compiled callers have its statements instead of a call.
+    contracted : bool
+        Whether multiplication and addition may be fused.
+
+    Attributes
+    ----------
+    py_func : function
+        The Python function.
+    """
+
+    __name__: str
+    __qualname__: str
+
+    def __init__(self, function: Any, inlined: bool = False, contracted: bool = True) -> None:
+        self.py_func, self.inlined, self.contracted = function, inlined, contracted
+        functools.update_wrapper(self, function, updated=())
+        self._codes = dict[Arguments, MachineCode]()
+        self._callers = dict[Arguments, Callable[..., Any]]()
+
+    @abstractmethod
+    def tree(self) -> ast.FunctionDef | None:
+        """Return the syntax tree of the function, None where its source is not available."""
+
+    @abstractmethod
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+
+    @abstractmethod
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        """Return machine code, made from the source.
+
+        Raises
+        ------
+        Foreign
+            If the function is outside the language.
+        """
+
+    def code(self, arguments: Arguments) -> MachineCode:
+        """Return the machine code for arguments of some types.
+
+        Raises
+        ------
+        InputError
+            If the function is outside the language.
+        """
+        if arguments not in self._codes:
+            with lock:
+                if arguments not in self._codes:
+                    self._codes[arguments] = self._loaded(arguments)
+        return self._codes[arguments]
+
+    def address(self, signature: types.Signature) -> int:
+        """Return the address of the machine code."""
+        return self.code(signature.arguments).address
+
+    def caller(self, arguments: Arguments) -> Callable[..., Any]:
+        """Return a function that calls the machine code with arguments of some types."""
+        if arguments not in self._callers:
+            self._callers[arguments] = caller(*self.code(arguments))
+        return self._callers[arguments]
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the machine code for the types of the arguments."""
+        return self.caller(tuple(map(kind_of, arguments)))(*arguments)
+
+    def __reduce__(self) -> str:
+        return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own
+
+    def key(self, arguments: Arguments) -> str:
+        """Return the key of the machine code for arguments of some types, with all that it depends on."""
+        return "\n".join((self.identity(), repr(arguments), processor(), _environment(), reached_digest(*COMPILER)))
+
+    def symbol(self, arguments: Arguments) -> str:
+        """Return the name in machine code, with a digest of all that the machine code depends on."""
+        return self._symbol(self.key(arguments))
+
+    def _symbol(self, key: str) -> str:
+        name = f"{self.__name__}_{combined_digest(key)[:32]}"
+        return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
+
+    def callee(self, name: str) -> MachineFunction:
+        """Return the function in memory behind the name of a callee."""
+        function: MachineFunction = self.py_func.__globals__[name]
+        return function
+
+    def _loaded(self, arguments: Arguments) -> MachineCode:
+        """Put machine code into memory, from the cache or made anew, after its callees."""
+        key = self.key(arguments)
+        symbol = self._symbol(key)
+        with CompilationClock() as clock:
+            clock.loaded = True
+
+            def make() -> bytes:
+                clock.loaded = False
+                return marshal.dumps(tuple(self._compiled(arguments, symbol)))
+
+            place = f"{NATIVE}/{plain_name(self.__module__, 100)}"
+            entry = CacheEntry(*marshal.loads(cached(place, self.__qualname__, key, make)))
+            for name, kinds in entry.called:
+                self.callee(name).code(arguments_of(kinds))
+            address = load(entry.code, symbol)
+        if not clock.loaded and compiler() == "explain":
+            print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
+        return MachineCode(address, types.Signature(_NUMBERS[entry.returned], arguments))
+
+    def _compiled(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        from symgen.compile.native.read import Foreign
+
+        try:
+            with uncollected():
+                return self.compiled_entry(arguments, symbol)
+        except Foreign as foreign:
+            own = f"the function '{self.__module__}.{self.__name__}'"
+            raise InputError(own, "the language of compiled functions", str(foreign)) from foreign
+
+
+class RuntimeFunction(MachineFunction):
+    """A function of the runtime: a loop, or a part that loops call.
+
+    Parameters
+    ----------
+    function, inlined, contracted
+        As for `MachineFunction`.
+    signature : Signature, optional
+        Types of a loop; by default those of the arguments of a call.
+    once : bool
+        Whether it is called about once a run: then it is compiled without optimisation; its bits are the same
+        unless operations are contracted.
+    """
+
+    def __init__(
+        self,
+        function: Any,
+        inlined: bool = False,
+        contracted: bool = True,
+        signature: types.Signature | None = None,
+        once: bool = False,
+    ) -> None:
+        super().__init__(function, inlined, contracted)
+        self.signature, self._once = signature, once
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the machine code."""
+        if self.signature is None:
+            return super().__call__(*arguments)
+        return self.entry(*arguments)
+
+    @functools.cached_property
+    def entry(self) -> Callable[..., Any]:
+        """The machine code of a loop, called with arguments of its signature."""
+        assert self.signature is not None, "a loop has a signature"
+        return self.caller(self.signature.arguments)
+
+    def tree(self) -> ast.FunctionDef | None:
+        """Return the syntax tree of the function, None where its source is not available."""
+        return syntax_tree(_lines(self.py_func.__code__.co_filename), self.py_func)
+
+    def identity(self) -> str:
+        """Return the sources and options that machine code depends on."""
+        function = self.py_func
+        meanings = (f"{name} {_meaning(function.__globals__.get(name))}" for name in function.__code__.co_names)
+        options = f"{self.contracted} {self._once}"
+        return "\n".join((f"{self.__module__}.{self.__qualname__}", options, *meanings, source_stamp(function)))
+
+    def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
+        """Return machine code, made from the source."""
+        from symgen.compile.native.llvm import loop_module
+        from symgen.compile.native.loops import read_loop
+        from symgen.compile.native.machine import compiled
+
+        function = read_loop(self, arguments)
+        code = compiled(loop_module(function, symbol), symbol, once=self._once)
+        return CacheEntry(function.returned, (), code)
+
+
+def jit(
+    signature: types.Signature | None = None, *, once: bool = False, contracted: bool = True
+) -> Callable[[_Function], _Function]:
+    """Return a decorator that compiles a function of the runtime at its first call, through the cache.
+
+    Parameters
+    ----------
+    signature : Signature, optional
+        Types of a loop, which is called from Python; None for a function that loops call.
+    once : bool
+        Whether the function is called about once a run: then it is compiled faster.
+    contracted : bool
+        Whether multiplication and addition may be fused.
+
+    Returns
+    -------
+    callable
+        Returns a `RuntimeFunction`, or the plain function under ``NUMBA_DISABLE_JIT=1``.
+
+    Examples
+    --------
+    >>> from symgen.compile.native.types import float64
+    >>> from symgen.compile.store.jit import jit
+    >>> @jit(float64(float64))
+    ... def double(x):
+    ...     return 2.0 * x
+    >>> double(2)
+    4.0
+    """
+
+    def decorate(function: _Function) -> _Function:
+        if interpreted():
+            return function
+        compiled: Any = RuntimeFunction(function, contracted=contracted, signature=signature, once=once)
+        return cast("_Function", compiled)
+
+    return decorate
+
+
+def object_file(text: str, symbol: str) -> bytes:
+    """Return the object file of a module in LLVM's language, from the cache or made anew.
+
+    Parameters
+    ----------
+    text : str
+        The module, with everything that matters on this processor.
+    symbol : str
+        Its function.
+    """
+    from symgen.compile.native.machine import compiled
+
+    key = "\n".join((text, processor(), _environment()))
+    place = f"{NATIVE}/{plain_name(symbol.rpartition('.')[0], 100)}"
+    return cached(place, symbol, key, lambda: compiled(text, symbol))
+
+
+def arguments_of(kinds: tuple[Kind, ...]) -> Arguments:
+    """Return the types of compiled functions for types of arguments in the language of emitted functions."""
+    numbers = {**_NUMBERS, "unsigned": types.uint32}
+    return tuple(types.ArrayType(numbers[kind], 1) if array else numbers[kind] for kind, array in kinds)
+
+
+def argument_types(arguments: Arguments) -> tuple[Kind, ...]:
+    """Return types of arguments in the language of emitted functions.
+
+    Raises
+    ------
+    InputError
+        If the language has no such type.
+    """
+    names: dict[Any, Any] = {number: name for name, number in _NUMBERS.items()} | {types.uint32: "unsigned"}
+    try:
+        return tuple((names[x.dtype], True) if _is_flat(x) else (names[x], False) for x in arguments)
+    except KeyError:
+        expected = "numbers and arrays of one dimension"
+        raise InputError("arguments of an emitted function", expected, repr(arguments)) from None
+
+
+def _is_flat(kind: types.Kind) -> TypeGuard[types.ArrayType]:
+    return isinstance(kind, types.ArrayType) and kind.ndim == 1
+
+
+@functools.cache
+def _environment() -> str:
+    """Return all dependencies of machine code outside a function, apart from the processor."""
+    return "\n".join((_FORMAT, llvmlite.__version__))
+
+
+def _meaning(value: Any) -> str:
+    """Return the meaning of a global name: the identity of a function, or the number."""
+    function = getattr(value, "py_func", value)
+    if hasattr(function, "__qualname__"):
+        return f"{function.__module__}.{function.__qualname__}"
+    return repr(value) if value is None or isinstance(value, int | float | str) else ""
+
+
+def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
+    """Return the syntax tree of a function that begins in the first column, or None.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        Of its file.
+    function : function
+        The function loaded from there.
+    """
+    first = function.__code__.co_firstlineno - 1  # of its decorators, if any
+    begin = next((i for i in range(first, len(lines)) if lines[i].startswith("def ")), len(lines))
+    rest = range(begin + 1, len(lines))
+    end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
+    try:
+        statements = ast.parse("\n".join(lines[first:end])).body
+    except SyntaxError:
+        return None
+    return statements[0] if len(statements) == 1 and isinstance(statements[0], ast.FunctionDef) else None
+
+
+@functools.lru_cache(maxsize=64)
+def _lines(file: str) -> tuple[str, ...]:
+    """Return the lines of a file, none of one that has been edited since it was loaded."""
+    text = content(file)
+    return tuple(text.decode().split("\n")) if combined_digest(text) == file_digest(file) else ()

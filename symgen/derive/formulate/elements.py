@@ -1,0 +1,101 @@
+"""Equations of a single body, joint or force over the frames of its bodies, derived once for each kind.
+
+The abstract mechanism of an element (`symgen.derive.lower.looped.instances`) is derived like a complete one. Nodes that
+depend on the position of one body alone, such as the entries of its rotation matrix, are replaced by entries of the
+body's *record*, which is filled once for all elements on that body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from symgen.base.ir.graph import Graph
+from symgen.derive.formulate.equations import Equations
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.formulate.measures import ModelNodes
+from symgen.describe.mechanism import Mechanism
+
+#: Stride of the records in the numbering ("record", frame * RECORD + place).
+RECORD = 64
+
+
+@dataclass(frozen=True)
+class FrameRecord:
+    """A body's record: its coordinates, its velocities, then further numbers of its frame, as nodes of q and v.
+
+    Parameters
+    ----------
+    q, v : tuple of int
+        Indices of the body's coordinates and velocities in the element's equations.
+    slots : tuple of int
+        Nodes of the further numbers, such as entries of the rotation matrix.
+    """
+
+    q: tuple[int, ...]
+    v: tuple[int, ...]
+    slots: tuple[int, ...]
+
+    @property
+    def size(self) -> int:
+        """Length of the record."""
+        return len(self.q) + len(self.v) + len(self.slots)
+
+
+@dataclass(frozen=True)
+class Element:
+    """The equations of one element.
+
+    Parameters
+    ----------
+    equations : Equations
+        Equations of the abstract mechanism; inputs ``t``, ``q``, ``v`` and ``p`` (the constants).
+    frames : tuple of FrameRecord
+        One for each body.
+    """
+
+    equations: Equations
+    frames: tuple[FrameRecord, ...]
+
+    def over_records(self, nodes: Sequence[int], graph: Graph, source: Graph | None = None) -> list[int]:
+        """Copy nodes into `graph` as functions of ``t``, ``p`` and ``("record", RECORD * frame + place)``.
+
+        `source` is an extended copy of the equations' graph that contains `nodes`; by default that graph itself.
+        """
+        source = self.equations.graph if source is None else source
+        places: dict[int, int] = {}
+        for f, frame in enumerate(self.frames):
+            inputs = [source.input("q", i) for i in frame.q] + [source.input("v", i) for i in frame.v]
+            for place, node in enumerate((*inputs, *frame.slots)):
+                places.setdefault(node, graph.input("record", RECORD * f + place))
+
+        def image(node: int) -> int:
+            return places[node] if node in places else graph.input(*source.key(node))
+
+        return graph.rebuilt(source, nodes, image, places.__contains__)
+
+
+def derive_element(abstract: Mechanism) -> Element:
+    """Derive the equations of an element.
+
+    Parameters
+    ----------
+    abstract : Mechanism
+        Its abstract mechanism.
+    """
+    equations = formulate(abstract)
+    model = ModelNodes(abstract, equations.graph)  # the same graph: existing nodes are reused
+    frames: list[FrameRecord] = []
+    q = v = 0
+    for body in abstract.bodies:
+        slots = tuple(
+            dict.fromkeys(
+                node
+                for node in model.frame_inputs(body.name)
+                if equations.graph.nodes[node].op not in ("const", "input")
+            )
+        )
+        nq, nv = len(body.coordinates), len(body.speeds)
+        frames.append(FrameRecord(tuple(range(q, q + nq)), tuple(range(v, v + nv)), slots))
+        q, v = q + nq, v + nv
+    return Element(equations, tuple(frames))

@@ -1,0 +1,367 @@
+"""From a mechanism to its equations: the only stage that uses SymPy.
+
+Equations are derived joint by joint and force by force; no expression of the whole system is expanded, simplified or
+inverted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+
+from symgen.base.errors import InputError, finite_numbers
+from symgen.base.ir.program import MODE_NUMBERS, of_table
+from symgen.base.vocabulary.expressions import ZERO
+from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
+from symgen.base.vocabulary.quantities import Quantity
+from symgen.derive.formulate.equations import (
+    ConstraintRow,
+    Drag,
+    Equations,
+    JointCoordinate,
+    MassBlock,
+    Omission,
+    mass_blocks,
+)
+from symgen.derive.formulate.flexure import exertions
+from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes, exertion
+from symgen.derive.formulate.of_time import time_function
+from symgen.derive.formulate.tree import energies_on_tree
+from symgen.describe.bounds.friction import coefficient_of, effort_in_motion, first_modes, sign_of_rate
+from symgen.describe.bounds.stops import probing_effort
+from symgen.describe.facts.repeats import without_repeats
+from symgen.describe.mechanism import EndStop, Friction, Mechanism, Rotor, SpatialBody
+from symgen.describe.parts.topology import UNITS, quantities
+
+
+def formulate(mechanism: Mechanism) -> Equations:
+    """Derive the equations of motion of `mechanism`.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+
+    Returns
+    -------
+    Equations
+        Phi, D, nu, gamma, M, f, energies and power as nodes of one graph.
+
+    Raises
+    ------
+    InputError
+        If products or sums of a mechanism's numbers overflow; it names the body, joint or force.
+    """
+    mechanism, repeats = without_repeats(mechanism)
+    with finite_numbers("mechanism"):
+        model = ModelNodes(mechanism)
+    modes = dict(first_modes(mechanism))
+    rows = tuple(
+        row if joint.name not in modes else _switched(model, row, modes[joint.name] + MODE_NUMBERS * i)
+        for joint in mechanism.joints
+        for i, row in enumerate(_row(model, joint.name, row) for row in joint.rows)
+    )
+    rows += tuple(_bounded_row(model, bounded, modes[bounded.row]) for bounded in mechanism.bounded)
+    forces, power, potential = _forces(model)
+    driving = None
+    if model.tree is None:
+        mass, kinetic, gravity_potential = _inertia(model, forces)
+    else:
+        kinetic, gravity_potential = energies_on_tree(model, forces)
+        mass, forces, driving = model.tree.dynamics(forces)
+    mass, rotating = with_rotors(model, mass, forces)
+    joint_coordinates = _joint_coordinates(model)
+    rates = tuple(model.expression(x.rate) for x in mechanism.states)
+    coordinates, velocities = quantities(mechanism)
+    read = {of_table(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
+    return Equations(
+        name=mechanism.name,
+        graph=model.graph,
+        parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
+        inputs=mechanism.inputs,
+        coordinates=coordinates,
+        velocities=velocities,
+        q_rates=model.q_rates(),
+        mass=mass,
+        rows=rows,
+        forces=tuple(forces),
+        power=power,
+        kinetic=model.graph.add(kinetic, rotating),
+        potential=model.graph.add(potential, gravity_potential),
+        joint_coordinates=tuple(joint_coordinates),
+        windings=tuple(model.windings),
+        spins=_spins(model),
+        tables=tuple(t.interpolated for t in mechanism.tables if t.name in read),
+        omissions=(
+            *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
+            *_omissions(mechanism),
+        ),
+        dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
+        bodies=_bodies(model),
+        driving=driving,
+        metric=() if model.tree is None else model.tree.metric(),
+        states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
+        state_rates=rates,
+        drags=tuple(_drag(model, friction, rows, repeats) for friction in mechanism.frictions if friction.pressed),
+    )
+
+
+def _bodies(model: ModelNodes) -> tuple[int, ...]:
+    """Return coordinates, velocities and accelerations of the bodies on a tree of joints."""
+    if model.tree is None:
+        return ()
+    bodies, rates = model.mechanism.bodies, model.tree.accelerations(model.state_rates)
+    names = [f"{b.name}.{c}" for b in bodies for c in b.coordinates]
+    speeds = [f"{b.name}.{c}" for b in bodies for c in b.speeds]
+    return (*(model.names[n] for n in (*names, *speeds)), *(rates[n] for n in speeds))
+
+
+def _spins(model: ModelNodes) -> tuple[tuple[int, int], ...]:
+    """Return the first indices of Euler parameters in q and of their angular velocities in v."""
+    if model.tree is not None:
+        return tuple(model.tree.spins)
+    return tuple(
+        (model.first_q[b.name] + 3, model.first[b.name] + 3)
+        for b in model.mechanism.bodies
+        if isinstance(b, SpatialBody) and not b.is_point
+    )
+
+
+def _joint_coordinates(model: ModelNodes) -> list[JointCoordinate]:
+    coordinates = list[JointCoordinate]()
+    for joint in model.mechanism.joints:
+        with finite_numbers(f"joints.{joint.name}"):
+            for label, measure in joint.coordinates:
+                derived = model.measure(measure)
+                rate = derived.rate(model.graph, model.velocities)
+                coordinates.append(JointCoordinate(f"{joint.name}.{label}", joint.unit(label), derived.value, rate))
+    return coordinates
+
+
+# -- constraints -----------------------------------------------------------------------------------------------------
+
+
+def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
+    g = model.graph
+    with finite_numbers(f"joints.{joint}"):
+        value, slope, curvature = time_function(model, row.value)
+        stiffness = time_function(model, row.stiffness)[0] if isinstance(row, StiffHolonomic) else None
+        if isinstance(row, Holonomic):
+            measure = model.measure(row.measure)
+            phi, nu = g.sub(measure.value, value), slope
+        else:
+            measure = model.speed(row.speed)
+            phi, nu, curvature = None, value, slope
+        entries, bias, drift = model.pulled(measure.row, measure.bias)
+        gamma, nu = g.sub(curvature, bias), g.sub(g.sub(nu, drift), measure.drift)
+        ordered, size = tuple(sorted(entries.items())), _size(model, row, measure.row)
+    axes = model.tree is None and isinstance(row, Holonomic) and is_of_axes(row)
+    name = f"{joint}.{row.label}"
+    return ConstraintRow(name, joint, row.unit, phi, ordered, nu, gamma, size, stiffness, axes=axes)
+
+
+def _bounded_row(model: ModelNodes, bounded: Friction | EndStop, first: int) -> ConstraintRow:
+    """Return the row of a coordinate with dry friction, in force at rest, or of a stop, in force where it is closed."""
+    if isinstance(bounded, EndStop):
+        owner, row = bounded.owner, Holonomic("stop", bounded.measure, bounded.value, bounded.unit)
+    else:
+        owner, row = bounded.joint, Holonomic("friction", bounded.measure, unit=bounded.unit)
+    return replace(_switched(model, _row(model, owner, row), first), name=bounded.row, bounded=True)
+
+
+def _drag(
+    model: ModelNodes, friction: Friction, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
+) -> Drag:
+    """Return friction by the reaction of a joint."""
+    places = {row.name: i for i, row in enumerate(rows)}
+    for pair in repeats:
+        if set(pair) & set(friction.pressed):
+            expected = "a joint whose reaction is determined, for friction by it"
+            raise InputError(f"joints.{friction.joint}.friction", expected, f"rows {' and '.join(pair)}, the same")
+    rate = model.measure(friction.measure).rate(model.graph, model.velocities)
+    with finite_numbers(f"joints.{friction.joint}.friction"):
+        sign, coefficient = (
+            model.expression(sign_of_rate(friction)),
+            model.expression(coefficient_of(friction), rate=rate),
+        )
+    rows_of = tuple(places[name] for name in friction.pressed)
+    pressed: tuple[tuple[tuple[int, int], ...], ...] = tuple(((row, model.graph.one),) for row in rows_of)
+    if friction.across:
+        cosines = [[model.measure(cosine).value for cosine in line] for line in friction.across]
+        pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
+    return Drag(places[friction.row], sign, coefficient, rate, pressed)
+
+
+def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
+    """Return a row as one that may be off: ``Phi = held (s - value - constant)``; D stays as it is."""
+    g, held = model.graph, model.graph.input("modes", first)
+    phi = row.phi if row.phi is None else g.mul(held, g.sub(row.phi, g.input("modes", first + 1)))
+    return replace(row, phi=phi, held=held)
+
+
+def _size(model: ModelNodes, row: Row, entries: Mapping[int, int]) -> int | None:
+    """Return the square of a row over the translational velocities of bodies, or the angular ones for an angle."""
+    if model.tree is None or any(i >= model.size for i in entries):
+        return None
+    speeds = [speed for body in model.mechanism.bodies for speed in body.speeds]
+    turning = [node for i, node in sorted(entries.items()) if UNITS[speeds[i]] == "rad/s"]
+    moving = [node for i, node in sorted(entries.items()) if UNITS[speeds[i]] == "m/s"]
+    if row.unit in ("rad", "rad/s"):
+        return None if moving else model.graph.dot(turning, turning)
+    return model.graph.dot(moving, moving) if moving else None
+
+
+# -- forces, inertia and energies ------------------------------------------------------------------------------------
+
+
+def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
+    """Return f without gravity, the power of its part without potential, and its potential."""
+    g = model.graph
+    forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
+    for force in model.mechanism.forces:
+        with finite_numbers(f"forces.{force.name}"):
+            for exerted in exertions(model, force):
+                for i, entry in sorted(exerted.row.items()):
+                    forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
+                power = g.add(power, exerted.power)
+                potential = g.add(potential, exerted.energy)
+    efforts = [(f"joints.{x.joint}.friction", effort_in_motion(x)) for x in model.mechanism.frictions]
+    efforts += [(f"stop {x.name}", probing_effort(x)) for x in model.mechanism.stops]
+    for where, effort in efforts:
+        with finite_numbers(where):
+            exerted = exertion(model, effort)
+            for i, entry in sorted(exerted.row.items()):
+                forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
+            power = g.add(power, exerted.power)
+    return forces, power, potential
+
+
+def _inertia(model: ModelNodes, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
+    """Return M, the kinetic energy and gravity's potential; add weights and gyroscopic terms to `forces`."""
+    g = model.graph
+    gravity = tuple(model.expression(e) for e in model.mechanism.gravity)
+    blocks: list[MassBlock] = []
+    kinetic = potential = g.zero
+    half = g.constant(0.5)
+    for body in model.mechanism.bodies:
+        with finite_numbers(f"bodies.{body.name}", "its weight is its mass times gravity"):
+            first, first_q = model.first[body.name], model.first_q[body.name]
+            mass = model.expression(body.mass)
+            masses = [mass] * len(gravity)
+            if isinstance(body, SpatialBody):
+                if body.inertia is not None:
+                    tensor = tuple(model.expression(e) for e in body.inertia)
+                    kinetic = g.add(kinetic, _turning(model, first + 3, tensor, blocks, forces))
+            elif body.inertia is not None:
+                masses.append(model.expression(body.inertia))
+            for offset, entry in enumerate(masses):
+                i = first + offset
+                blocks.append(MassBlock((i,), ((entry,),)))
+                v = model.velocities[i]
+                kinetic = g.add(kinetic, g.mul(g.mul(half, entry), g.mul(v, v)))
+                if offset < len(gravity):
+                    weight = g.mul(mass, gravity[offset])
+                    forces[i] = g.add(forces[i], weight)
+                    potential = g.sub(potential, g.mul(weight, g.input("q", first_q + offset)))
+    return tuple(sorted(blocks, key=lambda block: block.columns)), kinetic, potential
+
+
+def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int]) -> tuple[tuple[MassBlock, ...], int]:
+    """Return M with the rotors of joints, and their energy; add their inertia forces to `forces`.
+
+    A rotor of inertia J adds J r^T r to M and -J r^T b to f, where the angle has the rate r v and the second derivative
+    r v' + b: constants where the state has velocities in body axes and the joint keeps its axes parallel.
+    """
+    g, energy = model.graph, model.graph.zero
+    if not model.mechanism.rotors:
+        return mass, energy
+    entries = {
+        (i, j): node
+        for block in mass
+        for i, line in zip(block.columns, block.entries, strict=True)
+        for j, node in zip(block.columns, line, strict=True)
+        if node != g.zero
+    }
+    for rotor in model.mechanism.rotors:
+        with finite_numbers(f"joints.{rotor.joint}"):
+            inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
+            angle = _about_axes(model, rotor) or angle
+            rate = angle.rate(g, model.velocities)
+            row, bias, _ = model.pulled(angle.row, angle.bias)
+            energy = g.add(energy, g.mul(g.mul(g.constant(0.5), inertia), g.mul(rate, rate)))
+            for i, of_i in row.items():
+                momentum = g.mul(inertia, of_i)
+                forces[i] = g.sub(forces[i], g.mul(momentum, bias))
+                for j, of_j in row.items():
+                    entries[i, j] = g.add(entries.get((i, j), g.zero), g.mul(momentum, of_j))
+    return mass_blocks(entries, len(forces), g.zero), energy
+
+
+def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:
+    """Return the difference of two bodies' angular velocities about axes that a joint in space keeps parallel.
+
+    It is the rate of the joint's angle where its rows hold, with constant factors in body axes.
+    """
+    if model.tree is not None or not rotor.axes:
+        return None
+    g, row = model.graph, dict[int, int]()
+    for axis, sign in zip(rotor.axes, (-1.0, 1.0), strict=True):
+        if axis.body != GROUND:
+            factors = (g.mul(g.constant(sign), node) for node in model.direction(axis))
+            row |= {model.first[axis.body] + 3 + k: node for k, node in enumerate(factors) if node != g.zero}
+    return DerivedMeasure(g.zero, row, g.zero)
+
+
+def _turning(model: ModelNodes, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:
+    """Add the rotational inertia to M and -omega x (I omega) to f; return the rotational energy.
+
+    Differences of the diagonal entries make the gyroscopic term vanish for an isotropic body.
+    """
+    g = model.graph
+    xx, yy, zz, xy, xz, yz = tensor
+    x, y, z = model.velocities[first : first + 3]
+    for i, (a, b, cross, ab, ac, (u, v, w)) in enumerate(
+        ((yy, zz, yz, xz, xy, (x, y, z)), (zz, xx, xz, xy, yz, (y, z, x)), (xx, yy, xy, yz, xz, (z, x, y)))
+    ):
+        # about axis u: (b - a) v w + I_vw (v^2 - w^2) + u (I_uw v - I_uv w)
+        moment = g.mul(g.sub(b, a), g.mul(v, w))
+        moment = g.add(moment, g.mul(cross, g.sub(g.mul(v, v), g.mul(w, w))))
+        moment = g.add(moment, g.mul(u, g.sub(g.mul(ab, v), g.mul(ac, w))))
+        forces[first + i] = g.sub(forces[first + i], moment)
+    rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    if (xy, xz, yz) == (g.zero,) * 3:
+        blocks += [MassBlock((first + i,), ((rows[i][i],),)) for i in range(3)]
+    else:
+        blocks.append(MassBlock((first, first + 1, first + 2), rows))
+    momentum = [g.dot(row, (x, y, z)) for row in rows]
+    return g.mul(g.constant(0.5), g.dot(momentum, (x, y, z)))
+
+
+def _omissions(mechanism: Mechanism) -> list[Omission]:
+    omissions = [Omission("columns of the ground", "the ground does not move")]
+    if mechanism.space == "planar":
+        omissions = [
+            Omission("z coordinates, Euler parameters and 3x3 inertia tensors", "the mechanism is planar"),
+            Omission("the kinematic map N", "planar velocities are the rates of the coordinates"),
+            Omission("gyroscopic terms", "they vanish in the plane"),
+            *omissions,
+        ]
+    if all(e == ZERO for e in mechanism.gravity):
+        omissions.append(Omission("weights and gravity's potential", "gravity is zero"))
+    for body in mechanism.bodies:
+        if body.is_point:
+            what = "angle" if mechanism.space == "planar" else "orientation"
+            omissions.append(Omission(f"{what} of {body.name}", "a point mass has none"))
+        elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
+            omissions.append(
+                Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin")
+            )
+    return omissions
+
+
+def is_of_axes(row: Holonomic) -> bool:
+    """Whether a row holds two axes parallel: `parallel` of joints in space makes pairs of them."""
+    measure = row.measure
+    if row.label == "first" and isinstance(measure, Sum) and len(measure.terms) == 1:
+        measure = measure.terms[0][1]
+    return row.label in ("first", "second") and isinstance(measure, Dot)

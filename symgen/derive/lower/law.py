@@ -1,0 +1,328 @@
+"""The program of a law for one mechanism: the part that one method adds to its model's program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from symgen.base.errors import InputError
+from symgen.base.ir.derivative import jacobian
+from symgen.base.ir.program import (
+    BY_PIVOTS,
+    BY_RESIDUAL,
+    FREE_RHS,
+    HELD_RHS,
+    JAMMING,
+    Block,
+    EliminationPlan,
+    LawProgram,
+    ModelLayout,
+    ModelProgram,
+    Target,
+)
+from symgen.base.vocabulary.infos import LawInfo
+from symgen.derive.formulate.equations import Equations
+from symgen.derive.lower.factor import FactorNodes
+from symgen.derive.lower.hoist import Hoister
+from symgen.derive.lower.plans import closing_plan
+from symgen.derive.lower.record import ARGUMENTS, BEHIND, EQUATIONS, Part, RecordedLaw, record_law
+from symgen.derive.lower.record_form import record_form
+from symgen.derive.lower.residual import by_residual
+from symgen.derive.lower.scalar import ScalarNodes
+from symgen.derive.lower.scalar_values import Outputs, to_status
+from symgen.derive.methods._base import Method
+
+#: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
+_SPARE_DEGREES = 6
+#: Functions that leave M in w for later ones.
+_KEEPS_MASS = frozenset(("begin", "aim", "geometry"))
+
+
+def lower_law(
+    equations: Equations,
+    model: ModelProgram,
+    method: Method,
+    options: Mapping[str, str],
+    implicit: bool = False,
+    closing: EliminationPlan | None = None,
+    suffix: str = "",
+    directed: bool = False,
+) -> LawProgram:
+    """Lower one method: its acceleration law, and its correction where it differs from the model's.
+
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    model : ModelProgram
+        The program of the model.
+    method : Method
+        The method.
+    options : mapping
+        Its structural options, complete.
+    implicit : bool
+        Whether the descriptor form for implicit integrators is added.
+    closing : EliminationPlan, optional
+        Plan with loops in closed form, as velocities chosen at the start allow; see `closing_plan`.
+    suffix : str
+        Of the file stem, which says the choice.
+    directed : bool
+        Whether a right-hand side for derivatives is added, where these take fewer operations by it.
+
+    Raises
+    ------
+    InputError
+        If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
+    """
+    correction = method.correction(options)
+    if correction.energy and equations.driving is not None:  # T is not quadratic in v then
+        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
+        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
+    if any(row.held is not None for row in equations.rows):
+        refuse_bounds(method, options, implicit, bool(equations.drags))
+    names = [p.name for p in method.parameters]
+    recorded = record_law(method, options, equations.driving is not None)
+    eliminates = _eliminates(recorded)
+    apart = frozenset(("constrained",) if equations.drags and eliminates else ())
+    record = recorded.resolved(model.plan.schur, apart)
+    scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
+    scalars.pushing = bool(equations.drags) and not eliminates
+    _compute(scalars, record.parts[0], record.ends)
+    hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
+    accelerations = [(scalars, part) for part in record.parts if part.role == "acceleration"]
+    closing = closing or closing_plan(equations, model.plan, ())
+    closed = record.form == "direct" and method.integrates != "independent" and not correction.stages
+    loose: tuple[ScalarNodes, Part] | None = None
+    if record.form == "direct" and any(row.bounded for row in equations.rows):
+        loose = _without_bounded_rows(scalars, recorded, apart, closing, closed)
+        accelerations.append(loose)
+    for values, part in accelerations:
+        flag = None if part.flag is None else values.values[part.flag]
+        hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
+    degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
+    blocks = [law_block(hoister, scalars, part) for part in record.parts]
+    solver = scalars
+    if closing.loops and closed and loose is None:
+        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
+        blocks = [*own, *blocks[1:]]
+    if directed and closed and loose is None and not equations.drags:
+        part = recorded.resolved(solver.plan.schur).parts[0]
+        blocks += _by_residual(hoister, solver, recorded, part)
+    if loose is not None:
+        held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
+        free = replace(law_block(hoister, *loose), name=FREE_RHS)
+        converged = ", or friction not found" if len(equations.drags) > 1 else ""
+        blocks = [held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force"), *blocks[1:]]
+    unknowns, level = 0, ""
+    pattern: tuple[tuple[int, int], ...] = ()
+    if implicit:
+        form = record_form(method, options, driven=equations.driving is not None)
+        unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
+        unknowns += len(equations.states)
+        form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
+        blocks += form_blocks
+    blocks.insert(0, replace(hoister.prepare(), role="preparation"))
+    layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
+    operations = {b.name: b.operations for b in blocks}
+    info = LawInfo(
+        method=method.name,
+        key=method.stem(options, implicit) + suffix,
+        options=dict(options),
+        parameters=tuple((p.name, p.default) for p in method.parameters),
+        parameter_offset=hoister.first_parameter,
+        hoisted=len(hoister.slots) - hoister.reserved,
+        position_correction=correction.position != "none",
+        velocity_correction=correction.velocity,
+        energy_correction=correction.energy,
+        nw=layout.nw,
+        unknowns=unknowns,
+        level=level,
+        tangent=pattern,
+        operations=operations | ({} if loose is None else {"rhs": operations[FREE_RHS]}),
+        unique_multipliers=method.unique_multipliers,
+    )
+    return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
+
+
+def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pressed: bool) -> None:
+    """Refuse methods that do not take rows with bounds: those that read D of all rows.
+
+    Parameters
+    ----------
+    method : Method
+        The method.
+    options : mapping
+        Its structural options, complete.
+    implicit : bool
+        Whether a descriptor form is wanted.
+    pressed : bool
+        Whether friction depends on reactions, which is for methods that find multipliers at once.
+
+    Raises
+    ------
+    InputError
+        With the method.
+    """
+    law = record_law(method, options)
+    behind = implicit and record_form(method, options).form in BEHIND
+    if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
+        expected = "one that eliminates multipliers or solves for them, where rows may be off"
+        raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
+    if pressed and law.form != "direct":
+        expected = "one that finds multipliers at once, where friction depends on reactions"
+        raise InputError(f"method '{method.name}'", expected, "one that iterates", "--method lagrange")
+
+
+def _without_bounded_rows(
+    scalars: ScalarNodes, record: RecordedLaw, apart: frozenset[str], plan: EliminationPlan, closed: bool
+) -> tuple[ScalarNodes, Part]:
+    """Return the right-hand side of motions with no row with bounds in force, by a plan for them."""
+    record = record.resolved(plan.schur, apart)
+    loose, part = scalars.without_bounded_rows(record.operations, plan, closed), record.parts[0]
+    _compute(loose, part, [*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    return loose, part
+
+
+def _compute(scalars: ScalarNodes, part: Part, ends: Sequence[int]) -> None:
+    """Evaluate operations, and friction by reactions in a right-hand side that eliminates no multipliers."""
+    scalars.compute(ends)
+    if scalars.pushing:
+        scalars.settle_drags(dict(part.outputs)["multipliers"], (index for _, index in part.outputs))
+
+
+def _eliminates(record: RecordedLaw) -> bool:
+    """Whether a right-hand side eliminates multipliers."""
+    outputs = [output for part in record.parts for output in part.outputs]
+    return {record.operations[index].kind for place, index in outputs if place == "rates.v"} == {"constrained"}
+
+
+def _with_closed_loops(
+    hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, plan: EliminationPlan, block: Block
+) -> tuple[ScalarNodes, list[Block]]:
+    """Return the right-hand side with loops in closed form, and behind it the one that `confirm` evaluates."""
+    if not any(operation.kind == "constrained" for operation in record.operations):
+        return scalars, [block]
+    part, closing = record.parts[0], scalars.with_closed_loops(record.operations, plan)
+    closing.compute([*(index for _, index in part.outputs), *(() if part.flag is None else (part.flag,))])
+    behind = replace(block, name=BY_PIVOTS, purpose=f"the same with a pivot for each row of a loop, {block.purpose}")
+    closed = law_block(hoister, closing, part)
+    return closing, [replace(closed, purpose=f"{part.purpose}; 1 where a loop or a pivot of S is suspicious"), behind]
+
+
+def _by_residual(hoister: Hoister, scalars: ScalarNodes, record: RecordedLaw, part: Part) -> list[Block]:
+    """Return the right-hand side for derivatives, if there is one."""
+    outputs = by_residual(scalars, record, part_outputs(scalars, part))
+    if outputs is None:
+        return []
+    purpose = "q', v', power and multipliers, with the derivatives of the residual"
+    flag = None if part.flag is None else scalars.values[part.flag]
+    return [replace(hoister.block(BY_RESIDUAL, purpose, outputs, ARGUMENTS["rhs"], flag), role="derivation")]
+
+
+def law_block(hoister: Hoister, scalars: ScalarNodes, part: Part) -> Block:
+    """Return a function of a law as a block."""
+    flag = None if part.flag is None else scalars.values[part.flag]
+    purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
+    block = hoister.block(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
+    return replace(block, role=part.role)
+
+
+def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
+    """Return the outputs of a function of a law; an M that changes is read by those without the state."""
+    if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
+        scalars = scalars.with_stored_mass
+    outputs = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    if any(place == "rates.work" for place, _ in part.outputs):
+        space, work = scalars.places["rates.work"]
+        rates = scalars.equations.state_rates
+        if part.velocities is not None:
+            rates = scalars.at_velocity(rates, scalars.values[part.velocities])
+        outputs += [(Target(space, work + i), node) for i, node in enumerate(rates, 1)]
+        outputs += [(Target(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
+    if part.name in _KEEPS_MASS:
+        outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    return outputs
+
+
+def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
+    """Return the targets of the nodes of a value."""
+    e, value = scalars.equations, scalars.values[index]
+    if scalars.operations[index].kind.startswith("keep"):
+        return scalars.stored[place]
+    if isinstance(value, FactorNodes):
+        return scalars.stored[f"{place}lower"] + scalars.stored[f"{place}reciprocal"]
+    if place == "geometry":
+        return list(value)
+    if place == "dense":
+        return [(Target(place, i * e.nv + j), node) for i, row in enumerate(value) for j, node in row]
+    section, _, name = place.partition(".")
+    if section == "status":
+        return [to_status(name, value)]
+    if place == "rates.work":
+        value = scalars.graph.add(value, scalars.drag_power)
+    space, first = scalars.places.get(place, (place, 0))
+    nodes = value if isinstance(value, tuple) else (value,)
+    return [(Target(space, first + i), node) for i, node in enumerate(nodes)]
+
+
+def _sections(
+    layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
+) -> dict[str, tuple[int, int]]:
+    """Return the sections of ``w``: the model's, then the law's own."""
+    sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
+    sections, offset = dict(layout.sections), layout.nw
+    for name, factors in record.sections:
+        size = 1
+        for factor in factors:
+            size *= sizes[factor]
+        if not factors:  # the number of its outputs
+            size = sum(target.space == name for block in blocks for target, _ in block.outputs)
+        sections[name] = (offset, size)
+        offset += size
+    return sections
+
+
+def _form_blocks(
+    hoister: Hoister, law: ScalarNodes, form: RecordedLaw, unknowns: int
+) -> tuple[list[Block], tuple[tuple[int, int], ...]]:
+    """Return the blocks ``residual`` and ``tangent``, and equation and unknown of each number of the latter.
+
+    ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status;
+    ``tangent(t, y, k, p, w, j)`` the structural nonzeros of dF/dk and dF/dy, equation by equation; from `unknowns` on,
+    unknowns are q and v. Rates of states are the last unknowns, and stand last among the derivatives by the state.
+    """
+    e, scalars = law.equations, law.following(form.operations)
+    if e.drags:
+        scalars.pressing = law.section("k_first", e.m)
+    scalars.run(range(len(form.operations)))
+    (part,) = form.parts
+    groups = {place: scalars.values[index] for place, index in part.outputs}
+    rows = [(group, node) for group in EQUATIONS if group in groups for node in groups[group]]
+    own = unknowns - len(e.states)
+    g = law.graph
+    for i in range(e.nq + e.nv, own):  # the equation of a row that is off: its unknown is 0
+        group, node = rows[i]
+        held = e.rows[(i - e.nq - e.nv) % e.m].held
+        if held is not None:
+            rows[i] = group, g.add(g.mul(held, node), g.mul(g.sub(g.one, held), g.input("k", i)))
+    rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(e.state_rates)]
+    arguments = ("t", "y", "k", "p", "w", "r")
+    residual = [(Target("r", i), node) for i, (_, node) in enumerate(rows)]
+    residual.append(to_status("power", groups["power"]))
+    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq, "z": unknowns + own - 1}
+    keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
+    keys += [("z", i) for i in range(1, len(e.states) + 1)]
+    tangent: Outputs = []
+    pattern: list[tuple[int, int]] = []
+    derived = range(unknowns)
+    if form.form == "explicit":  # M and D are enough
+        derived, keys = range(e.nq, e.nq + e.nv), keys[:unknowns]
+    for i, derivatives in zip(derived, jacobian(law.graph, [rows[i][1] for i in derived], keys), strict=True):
+        for space, index in sorted(derivatives):
+            tangent.append((Target("j", len(tangent)), derivatives[space, index]))
+            pattern.append((i, index + first[space]))
+    entries = "entries of dF/dk and dF/dy of the descriptor form"
+    return [
+        replace(hoister.block("residual", part.purpose, residual, arguments), role=part.role),
+        replace(hoister.block("tangent", entries, tangent, (*arguments[:-1], "j")), role=part.role),
+    ], tuple(pattern)

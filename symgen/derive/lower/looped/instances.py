@@ -1,0 +1,240 @@
+"""Bodies, joints and forces as instances of kernels: structure apart from numbers.
+
+Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
+numbers and formulas of parameters become the parameters ``k0``, ``k1``, .... Elements with equal abstract mechanisms
+share a kernel, within a mechanism and between mechanisms. Kept as they are: zeros, unit directions, whole coefficients
+of sums, exponents, and everything that depends on time or state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names_in, table_of
+from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
+from symgen.derive.lower.windings import measures_of, turns
+from symgen.describe.facts.repeats import without_repeats
+from symgen.describe.formulas.graph import Formulas
+from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
+
+#: Fields of the vocabulary's structs that hold the name of a body.
+_BODY_FIELDS = frozenset(("body", "a", "b"))
+#: Fields with names for readers; of a unit it matters only whether it is that of an angle.
+_LABELS = frozenset(("label",))
+_UNITS = (0.0, 1.0, -1.0)
+#: Parts of a mechanism outside its equations, which do not change the names of kernels.
+_BESIDE = frozenset("defaults holds events outputs seats cuts topology shapes given states rotors beams".split())
+
+
+@dataclass(frozen=True)
+class Instance:
+    """An element of a mechanism as an instance of a kernel.
+
+    Parameters
+    ----------
+    kind : {"body", "joint", "force"}
+        Kind of element.
+    name, label : str
+        The element's name, and the readable name of its kind.
+    frames : tuple of str
+        Bodies for ``f0``, ``f1``, ....
+    constants : tuple of Expr
+        Formulas of parameters for ``k0``, ``k1``, ....
+    abstract : Mechanism
+        The abstract mechanism with this element only.
+    key : bytes
+        Its canonical text: equal where the kernel is the same.
+    angles : tuple of Measure
+        Measures whose turns are counted, in the order of derivation; equal ones are one angle.
+    """
+
+    kind: str
+    name: str
+    label: str
+    frames: tuple[str, ...]
+    constants: tuple[Expr, ...]
+    abstract: Mechanism
+    key: bytes
+    angles: tuple[Measure, ...] = ()
+
+
+def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
+    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    """
+    mechanism, _ = without_repeats(mechanism)
+    rewriting = _Rewriting(mechanism)
+    return (
+        *(rewriting.body(body) for body in mechanism.bodies),
+        *(rewriting.element("joint", joint) for joint in mechanism.joints),
+        *(rewriting.element("force", force) for force in mechanism.forces),
+    )
+
+
+class _Rewriting:
+    """Rewrites the elements of a mechanism, one after the other."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism, self.formulas = mechanism, Formulas(mechanism)
+        self.bodies: Mapping[str, Any] = {b.name: b for b in mechanism.bodies}
+        self.parameters = frozenset(p.name for p in mechanism.parameters)
+        self.tables = {t.name: t for t in mechanism.tables}
+        self.begin()
+
+    def begin(self) -> None:
+        """Begin another element."""
+        self.frames: dict[str, str] = {}
+        self.constants: list[Expr] = []
+        self.used_tables: dict[str, Any] = {}
+        self.memo: dict[object, object] = {}
+        self.own: frozenset[str] = frozenset()  # words of the element itself, which are no parameters
+
+    def body(self, body: Any) -> Instance:
+        """Return a body as an instance: its inertia, its weight and its frame."""
+        self.begin()
+        self.frames[body.name] = "f0"
+        mass = self.formula(body.mass)
+        inertia = None if body.inertia is None else self.walk(body.inertia)
+        gravity = tuple(self.formula(e) for e in self.mechanism.gravity)
+        abstract = type(body)(name="f0", mass=mass, inertia=inertia)
+        return self.instance("body", body.name, "point" if body.is_point else "body", gravity, (abstract,))
+
+    def element(self, kind: str, element: Joint | Force) -> Instance:
+        """Return a joint or force as an instance."""
+        self.begin()
+        content: Any
+        if isinstance(element, Joint):
+            rows = tuple(self.walk(row) for row in element.rows)
+            coordinates = tuple(
+                (f"{'angle' if label == 'angle' else 'c'}{i}", self.walk(m))
+                for i, (label, m) in enumerate(element.coordinates)
+            )
+            content = Joint("e", "", (), rows, coordinates)
+        else:
+            content = Force(
+                "e", "", (), *(tuple(self.walk(e) for e in part) for part in (element.efforts, element.flexures))
+            )
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance(kind, element.name, element.kind, nothing, frames, content)
+        angles = turns(measures_of(element))
+        return replace(instance, angles=angles) if angles else instance
+
+    def instance(
+        self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None
+    ) -> Instance:
+        """Return the instance with its abstract mechanism."""
+        abstract = Mechanism(
+            name="element",
+            title="",
+            space=self.mechanism.space,
+            gravity=gravity,
+            parameters=tuple(Parameter(f"k{i}", 1.0) for i in range(len(self.constants))),
+            tables=tuple(self.used_tables[n] for n in sorted(self.used_tables)),
+            bodies=frames,
+            joints=(content,) if isinstance(content, Joint) else (),
+            forces=(content,) if isinstance(content, Force) else (),
+        )
+        content = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
+        key = kind.encode() + msgspec.json.encode(content)
+        return Instance(kind, name, label, tuple(self.frames), tuple(self.constants), abstract, key)
+
+    def frame(self, body: Any, alias: str) -> Any:
+        """Return a body as a mere frame; its markers are relative to the centre of mass already."""
+        inertia: Any = None
+        if body.inertia is not None:
+            unit = (ONE, ONE, ONE, ZERO, ZERO, ZERO)
+            inertia = ONE if isinstance(body, Body) else unit
+        return type(body)(name=alias, mass=ONE, inertia=inertia)
+
+    # -- rewriting ---------------------------------------------------------------------------------------------------
+
+    def walk(self, value: Any, field: str = "") -> Any:
+        """Return a value of the vocabulary with bodies and numbers replaced."""
+        if isinstance(value, Number | Name | Call | Reading):
+            return self.formula(value)
+        if isinstance(value, str):
+            if field == "unit":
+                return value if value == "rad" else ""
+            return self.alias(value) if field in _BODY_FIELDS else "" if field in _LABELS else value
+        if isinstance(value, tuple):
+            return tuple(self.walk(item) for item in value)
+        if not isinstance(value, msgspec.Struct):
+            return value
+        if isinstance(value, Marker | Direction):
+            if value not in self.memo:
+                self.memo[value] = self.marker(value) if isinstance(value, Marker) else self.direction(value)
+            return self.memo[value]
+        if isinstance(value, Sum):
+            return Sum(tuple((self.coefficient(k), self.walk(m)) for k, m in value.terms))
+        before, self.own = self.own, frozenset(("s", "rate")) if isinstance(value, Effort) else self.own
+        result = type(value)(**{f: self.walk(getattr(value, f), f) for f in value.__struct_fields__})
+        self.own = before
+        return result
+
+    def alias(self, body: str) -> str:
+        """Return the name of a body in the abstract mechanism."""
+        return body if body == GROUND else self.frames.setdefault(body, f"f{len(self.frames)}")
+
+    def marker(self, marker: Any) -> Marker:
+        """Return a marker: at the centre of mass, on the x axis, or anywhere; on the ground anywhere."""
+        alias = self.alias(marker.body)
+        if alias == GROUND:
+            return Marker(alias, tuple(self.constant(e) for e in marker.point))
+        centre = self.bodies[marker.body].centre_of_mass
+        point = [call("sub", x, c) for x, c in zip(marker.point, centre, strict=True)]
+        last = max((i for i, e in enumerate(point) if self.literal(e) != 0.0), default=-1)
+        return Marker(alias, tuple(self.constant(e) if i <= last else ZERO for i, e in enumerate(point)))
+
+    def direction(self, direction: Any) -> Direction:
+        """Return a direction: along an axis, or any."""
+        alias, vector = self.alias(direction.body), direction.vector
+        literals = [self.literal(e) for e in vector]
+        if all(x in _UNITS for x in literals):
+            return Direction(alias, tuple(Number(x) for x in literals if x is not None))
+        return Direction(alias, tuple(self.constant(e) for e in vector))
+
+    def coefficient(self, e: Expr) -> Expr:
+        """Return a coefficient of a sum; 0, 1 and -1 are unchanged."""
+        literal = self.literal(e)
+        return Number(literal) if literal in _UNITS and literal is not None else self.formula(e)
+
+    def literal(self, e: Expr) -> float | None:
+        """Return the value of a formula of parameters after simplification; None where it depends on them."""
+        return e.value if isinstance(e, Number) else self.formulas.graph.value(self.formulas.expression(e))
+
+    def constant(self, e: Expr) -> Expr:
+        """Return the abstract parameter for a formula of parameters."""
+        self.constants.append(e)
+        return Name(f"k{len(self.constants) - 1}")
+
+    def formula(self, e: Expr) -> Expr:
+        """Return a formula with its constant parts replaced; zeros stay."""
+        if self.is_constant(e):
+            return ZERO if self.literal(e) == 0.0 else self.constant(e)
+        if isinstance(e, Name):
+            body, dot, coordinate = e.name.rpartition(".")
+            return Name(f"{self.alias(body)}.{coordinate}") if dot else e
+        if isinstance(e, Reading):
+            return Reading("", self.walk(e.source), e.order)
+        assert isinstance(e, Call), "a literal is constant"
+        name = table_of(e.function)
+        if name is not None:
+            self.used_tables[name] = self.tables[name]
+        if e.function == "pow" and isinstance(e.arguments[1], Number):
+            return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))
+        return Call(e.function, tuple(self.formula(a) for a in e.arguments))
+
+    def is_constant(self, e: Expr) -> bool:
+        """Whether a formula depends on parameters alone."""
+        if isinstance(e, Number):
+            return True
+        return all(name in self.parameters and name not in self.own for name in names_in(e))

@@ -1,0 +1,287 @@
+"""From an element's equations to its kernel: functions over all instances, and their facts for the tables."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from symgen.base.ir.graph import Graph
+from symgen.base.ir.program import Block, ElementProgram, Target
+from symgen.derive.lower.hoist import Hoister
+from symgen.derive.lower.manifold import manifold_blocks
+from symgen.derive.lower.scalar import ScalarNodes
+
+if TYPE_CHECKING:
+    from symgen.derive.formulate.elements import Element
+    from symgen.derive.lower.looped.instances import Instance
+
+Outputs = list[tuple[Target, int]]
+
+
+class RowShape(msgspec.Struct, frozen=True):
+    """A row of a joint: (frame, velocity of the frame) of D's nonzero entries, and whether it has Phi and nu.
+
+    `angular` means that it is an angle or a number, not a length.
+
+    `constant` holds for each entry its literal value, or None.
+    """
+
+    entries: tuple[tuple[int, int], ...]
+    constant: tuple[float | None, ...]
+    holonomic: bool
+    driven: bool
+    angular: bool
+
+
+class KernelInfo(msgspec.Struct, frozen=True):
+    """Facts about a kernel for the tables.
+
+    Parameters
+    ----------
+    kind : str
+        ``body``, ``joint`` or ``force``.
+    frames : tuple of (nq, nv, record)
+        Coordinates, velocities and length of the record of each frame.
+    constants, hoisted : int
+        Number of constants of an instance, and of numbers computed from them once a run.
+    rows : tuple of RowShape
+        Of a joint.
+    coordinates, windings : int
+        Reported coordinates of a joint, and angles whose turns are counted.
+    spins : tuple of (int, int)
+        Of a body with Euler parameters: first of them in its coordinates, first angular velocity in its speeds.
+    mass : tuple of tuple of int
+        Of a body: the velocities of each block of M.
+    massless : tuple of int
+        Velocities whose mass is the literal 0.
+    functions : dict
+        Operations of each function that is not empty.
+    """
+
+    kind: str
+    frames: tuple[tuple[int, int, int], ...]
+    constants: int
+    hoisted: int
+    rows: tuple[RowShape, ...]
+    coordinates: int
+    windings: int
+    spins: tuple[tuple[int, int], ...]
+    mass: tuple[tuple[int, ...], ...]
+    massless: tuple[int, ...]
+    functions: dict[str, int]
+
+    @property
+    def computed(self) -> int:
+        """Size of an instance's numbers computed once a run: hoisted ones, then M and M^-1 of its larger blocks."""
+        return self.hoisted + sum(2 * len(b) ** 2 for b in self.mass if len(b) > 1)
+
+    def row_blocks(self, row: int) -> tuple[int, ...]:
+        """Return the frames in which a row has entries, in their order."""
+        return tuple(sorted({f for f, _ in self.rows[row].entries}))
+
+
+#: A kernel.
+KernelProgram = ElementProgram[KernelInfo]
+
+
+def kernel_stem(instance: Instance) -> str:
+    """Return the name of the module of an instance's kernel."""
+    label = "".join(c if c.isalnum() else "_" for c in instance.label)
+    return f"{instance.kind}_{label}_{hashlib.sha256(instance.key).hexdigest()[:16]}"[-60:]
+
+
+def lower_kernel(element: Element, instance: Instance) -> KernelProgram:
+    """Lower the kernel of an element.
+
+    Parameters
+    ----------
+    element : Element
+        The derived element.
+    instance : Instance
+        Any instance of it.
+    """
+    return _Kernel(element, instance).program()
+
+
+#: Purpose of each function, for its docstring.
+_PURPOSES = {
+    "frame": "records of bodies: coordinates, velocities, entries of the rotation matrix",
+    "speeds": "velocities in the records",
+    "rates": "q' = N v",
+    "move": "q += N change",
+    "geometry": "Phi, nu and D",
+    "motion": {"body": "weights and inertia forces", "joint": "nu, D and gamma", "force": "applied forces and power"},
+    "full": "Phi, nu, D and gamma",
+    "energy": "energies",
+    "wind": "angles whose turns are counted",
+    "report": "joint coordinates and their rates",
+}
+
+
+class _Kernel:
+    def __init__(self, element: Element, instance: Instance) -> None:
+        self.element, self.instance, self.e = element, instance, element.equations
+        self.graph = Graph()
+        self.constants = len(instance.constants)
+        self.hoister = Hoister(self.graph, self.constants)
+
+    def copied(self, nodes: Sequence[int]) -> list[int]:
+        return self.element.over_records(nodes, self.graph)
+
+    def program(self) -> KernelProgram:
+        outputs = {"body": self.body, "joint": self.joint, "force": self.force}[self.instance.kind]()
+        blocks = []
+        for name, written in outputs.items():
+            purpose: Any = _PURPOSES[name]
+            purpose = purpose if isinstance(purpose, str) else purpose[self.instance.kind]
+            if written:
+                blocks.append(self.hoister.block(name, purpose, written, ()))
+        if self.instance.kind == "body":
+            blocks += manifold_blocks(self.hoister, self.e)
+        prepare = self.prepare()
+        hoisted = len(self.hoister.slots)
+        assert len(self.e.windings) == len(self.instance.angles), "angles are counted in the order of derivation"
+        if prepare.outputs:
+            blocks.append(prepare)
+        e, info = self.e, self.element.frames
+        kernel = KernelInfo(
+            kind=self.instance.kind,
+            frames=tuple((len(f.q), len(f.v), f.size) for f in info),
+            constants=self.constants,
+            hoisted=hoisted,
+            rows=self.rows(),
+            coordinates=len(e.joint_coordinates),
+            windings=len(e.windings),
+            spins=e.spins if self.instance.kind == "body" else (),
+            mass=tuple(b.columns for b in e.mass) if self.instance.kind == "body" else (),
+            massless=tuple(j for b in e.mass for k, j in enumerate(b.columns) if e.graph.value(b.entries[k][k]) == 0.0),
+            functions={b.name: b.operations for b in blocks},
+        )
+        return KernelProgram(kernel_stem(self.instance), self.instance.label, kernel, tuple(blocks), e.tables)
+
+    def prepare(self) -> Block:
+        """Return the block of numbers computed once a run: hoisted ones, and a body's masses."""
+        block = self.hoister.prepare()
+        if self.instance.kind != "body":
+            return block
+        outputs: Outputs = []
+        system = ScalarNodes(self.e)
+        inputs = {("p", i): block.graph.input("p", i) for i in range(self.constants)}
+
+        def moved(node: int) -> int:
+            return block.graph.inline(system.graph, [node], inputs)[0]
+
+        first = self.constants + len(self.hoister.slots)
+        for b in self.e.mass:
+            n = len(b.columns)
+            for k, j in enumerate(b.columns):
+                outputs.append((Target("mass_diagonal", j), moved(b.entries[k][k])))
+                # a massless body has no inverse: methods that use it are refused
+                massless = system.graph.value(b.entries[k][k]) == 0.0
+                inverse = system.graph.zero if massless else system.inverse_mass[j].get(j, system.graph.zero)
+                outputs.append((Target("inverse_mass", j), moved(inverse)))
+                if n > 1:
+                    for i, column in enumerate(b.columns):
+                        entry = system.inverse_mass[j].get(column, system.graph.zero)
+                        outputs.append((Target("p", first + n * k + i), moved(b.entries[k][i])))
+                        outputs.append((Target("p", first + n * n + n * k + i), moved(entry)))
+            first += 2 * n * n if n > 1 else 0
+        return Block("prepare", block.purpose, block.graph, (*block.outputs, *outputs), ())
+
+    # -- outputs by kind -----------------------------------------------------------------------------------------------
+
+    def body(self) -> dict[str, Outputs]:
+        """Return the outputs of a body's functions."""
+        e, g, frame = self.e, self.graph, self.element.frames[0]
+        nq, nv = len(frame.q), len(frame.v)
+        plain = {("q", i): g.input("q", i) for i in range(nq)} | {("v", i): g.input("v", i) for i in range(nv)}
+        slots = g.inline(e.graph, frame.slots, plain)
+        speeds: Outputs = [(Target("record", nq + i), g.input("v", i)) for i in range(nv)]
+        record: Outputs = [(Target("record", i), g.input("q", i)) for i in range(nq)] + speeds
+        record += [(Target("record", nq + nv + i), n) for i, n in enumerate(slots)]
+        steps = [g.add(g.input("q", i), g.input("change", i)) for i in range(nv)] if not e.spins else []
+        kinetic, potential, *forces = self.copied([e.kinetic, e.potential, *e.forces])
+        return {
+            "frame": record,
+            "speeds": speeds,
+            "rates": [(Target("ydot", i), n) for i, n in enumerate(self.copied(e.q_rates))],
+            "move": [(Target("y", i), n) for i, n in enumerate(steps)],
+            "motion": [(Target("force=", i), n) for i, n in enumerate(forces)],
+            "energy": [(Target("kinetic", 0), kinetic), (Target("potential", 0), potential)],
+        }
+
+    def joint(self) -> dict[str, Outputs]:
+        """Return the outputs of a joint's functions."""
+        e, g = self.e, self.graph
+        rows = e.rows
+        phi = self.copied([r.phi for r in rows if r.phi is not None])
+        holonomic = [i for i, r in enumerate(rows) if r.phi is not None]
+        nu, gamma = self.copied([r.nu for r in rows]), self.copied([r.gamma for r in rows])
+        position: Outputs = [(Target("residual", i), n) for i, n in zip(holonomic, phi, strict=True)]
+        other: Outputs = [(Target("phi", i), n) for i, n in zip(holonomic, phi, strict=True)]
+        common: Outputs = [(Target("nu", i), n) for i, n in enumerate(nu) if n != g.zero]
+        for slot, node in zip(self.slots(), self.copied([n for r in rows for _, n in r.entries]), strict=True):
+            common.append((Target("jacobian", slot), node))
+        quadratic: Outputs = [(Target("gamma", i), n) for i, n in enumerate(gamma) if n != g.zero]
+        report: Outputs = []
+        for i, c in enumerate(e.joint_coordinates):
+            value, rate = self.copied([c.value, c.rate])
+            report += [(Target("report", 2 * i), value), (Target("report", 2 * i + 1), rate)]
+        return {
+            "geometry": position + common,
+            "motion": common + quadratic,
+            "full": other + common + quadratic,
+            "report": report,
+            "wind": self.winding(),
+        }
+
+    def force(self) -> dict[str, Outputs]:
+        """Return the outputs of a force's functions."""
+        e, g = self.e, self.graph
+        power, potential, *forces = self.copied([e.power, e.potential, *e.forces])
+        motion: Outputs = [(Target("force+", i), n) for i, n in enumerate(forces) if n != g.zero]
+        if power != g.zero:
+            motion.append((Target("power", 0), power))
+        energy: Outputs = [(Target("potential", 0), potential)] if potential != g.zero else []
+        return {"motion": motion, "energy": energy, "wind": self.winding()}
+
+    def winding(self) -> Outputs:
+        """Return the angles whose turns are counted."""
+        return [(Target("winding", i), n) for i, n in enumerate(self.copied(self.e.windings))]
+
+    # -- shapes --------------------------------------------------------------------------------------------------------
+
+    def owner(self, velocity: int) -> tuple[int, int]:
+        """Return frame and place in the frame of a velocity."""
+        for f, frame in enumerate(self.element.frames):
+            if velocity in frame.v:
+                return f, velocity - frame.v[0]
+        raise AssertionError("every velocity belongs to a frame")
+
+    def rows(self) -> tuple[RowShape, ...]:
+        """Return the shapes of a joint's rows."""
+        g = self.e.graph
+        return tuple(
+            RowShape(
+                tuple(self.owner(j) for j, _ in row.entries),
+                tuple(g.value(n) for _, n in row.entries),
+                row.phi is not None,
+                row.nu != g.zero,
+                row.unit == "rad",
+            )
+            for row in self.e.rows
+        )
+
+    def slots(self) -> list[int]:
+        """Return the offset of each entry of D from the joint's first: rows by blocks, blocks as wide as the frame."""
+        slots, first = [], 0
+        for shape in self.rows():
+            base = {}
+            for f in sorted({f for f, _ in shape.entries}):
+                base[f] = first
+                first += len(self.element.frames[f].v)
+            slots += [base[f] + place for f, place in shape.entries]
+        return slots

@@ -1,0 +1,125 @@
+"""The program of a model, shared by all its methods."""
+
+from __future__ import annotations
+
+from symgen.base.ir.program import JAMMING, MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
+from symgen.derive.formulate.equations import Equations
+from symgen.derive.lower.factor import fill_of
+from symgen.derive.lower.hoist import Hoister
+from symgen.derive.lower.law import law_block
+from symgen.derive.lower.manifold import manifold_blocks
+from symgen.derive.lower.plans import cheapest_plan
+from symgen.derive.lower.record import record_model
+from symgen.derive.lower.scalar import ScalarNodes
+from symgen.derive.lower.scalar_values import Outputs, to_status
+
+
+def lower_model(equations: Equations, digest: str) -> ModelProgram:
+    """Lower the shared functions: geometry with the rank-deciding factorisation, corrections, measures, observation.
+
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    digest : str
+        Digest of the canonical description, for the emitted header.
+    """
+    m, plan = equations.m, cheapest_plan(equations)
+    record = record_model().resolved(plan.schur)
+    scalars = ScalarNodes(equations, record.operations, plan=plan)
+    scalars.compute(record.ends)
+    geometry, spread = record.parts
+    sections: dict[str, tuple[int, int]] = {}
+    offset = 0
+    sizes = {"m": m, "nv": equations.nv, "jacobian": sum(e.slot is not None for e in scalars.jacobian)}
+    for name, size in (
+        ("status", len(STATUS)),
+        ("winding", len(equations.windings)),  # right after the status: both are kept with every output
+        ("modes", MODE_NUMBERS * sum(row.held is not None for row in equations.rows)),  # and so are these
+        *((name, sizes[size]) for name, size in SECTIONS),
+        *((name, len(scalars.stored[name])) for name in ("lower", "reciprocal") if name in scalars.stored),
+        ("mass_entry", len(scalars.mass_entries)),
+        (JAMMING, len(equations.drags)),
+    ):
+        if size or name not in ("winding", "modes", "mass_entry", JAMMING):
+            sections[name] = (offset, size)
+            offset += size
+    layout = ModelLayout(
+        *(equations.nq, equations.nv, m, len(equations.parameters), sections, len(equations.states)),
+        switchable=sum(row.held is not None for row in equations.rows),
+        bounded=sum(row.bounded for row in equations.rows),
+    )
+    hoister = Hoister(scalars.graph, layout.parameters)
+    blocks = [
+        law_block(hoister, scalars, geometry),
+        law_block(hoister, scalars, spread),
+        measure(hoister, scalars),
+        observe(hoister, scalars),
+        hoister.block("masses", "diagonal of M", _diagonal(scalars), ("p", "w")),
+        *manifold_blocks(hoister, equations),
+    ]
+    if equations.bodies:
+        outputs = [(Target("out", i), node) for i, node in enumerate(equations.bodies)]
+        purpose = "coordinates, velocities and accelerations of bodies"
+        blocks.append(hoister.block("bodies", purpose, outputs, ("t", "y", "p", "w", "ydot", "out")))
+    blocks.insert(0, hoister.prepare())
+    return ModelProgram(
+        name=equations.name,
+        digest=digest,
+        layout=layout,
+        blocks=tuple(blocks),
+        jacobian=scalars.jacobian,
+        hoisted=len(hoister.slots),
+        order=scalars.order,
+        fill=fill_of(scalars.neighbours(scalars.rows), scalars.order),
+        tables=equations.tables,
+        plan=plan,
+    )
+
+
+def _diagonal(scalars: ScalarNodes) -> Outputs:
+    """Return the diagonal of M; where it changes with the position, that at coordinates and time of 0."""
+    equations, g = scalars.equations, scalars.graph
+    diagonal = [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
+    if not scalars.mass_entries:
+        return diagonal
+    origin = {("t", 0): g.zero} | {("q", i): g.zero for i in range(equations.nq)}
+    origin |= {("q", i): g.one for i, _ in equations.spins}
+    return [
+        (target, node) for (target, _), node in zip(diagonal, g.replaced([n for _, n in diagonal], origin), strict=True)
+    ]
+
+
+# -- blocks of the model ----------------------------------------------------------------------------------------------
+
+
+def measure(hoister: Hoister, scalars: ScalarNodes) -> Block:
+    """Return the block that measures a state after its geometry."""
+    g, equations = hoister.graph, scalars.equations
+    outputs: Outputs = []
+    residuals: list[int] = []
+    for i, row in enumerate(scalars.stored_constraints()):
+        total = g.total(g.mul(e, g.input("v", j)) for j, e in row)
+        if equations.rows[i].nu != g.zero:
+            total = g.sub(total, g.input("nu", i))
+        total = scalars.in_force(i, total)
+        residuals.append(total)
+        outputs.append((Target("residual", i), total))
+    outputs += scalars.violation("velocity", residuals)
+    outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
+    outputs += [(Target("winding", i), node) for i, node in enumerate(equations.windings)]
+    purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
+    return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
+
+
+def observe(hoister: Hoister, scalars: ScalarNodes) -> Block:
+    """Return the block of quantities reported at outputs only."""
+    g, e = hoister.graph, scalars.equations
+    changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))
+    left = [scalars.in_force(i, g.sub(n, row.gamma)) for i, (n, row) in enumerate(zip(changes, e.rows, strict=True))]
+    outputs: Outputs = [(Target("out", i), n) for i, n in enumerate(left)]
+    for k, c in enumerate(e.joint_coordinates):
+        outputs += [(Target("out", e.m + 2 * k), c.value), (Target("out", e.m + 2 * k + 1), c.rate)]
+    return hoister.block(
+        "observe", "D v' - gamma, then joint coordinates and their rates", outputs, ("t", "y", "p", "w", "ydot", "out")
+    )

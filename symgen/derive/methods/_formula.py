@@ -1,0 +1,436 @@
+"""Formulas on whole vectors: the operations that methods apply to the equations of motion, and their values.
+
+A method computes nothing while it writes its law. Every value represents an operation on a `Tape`, which records the
+operations in order. Code for one mechanism replays the tape element by element (`symgen.derive.lower.scalar`), code for
+all mechanisms converts it to loops (`symgen.derive.lower.looped.law_loops`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import TypeVar, overload
+
+_Value = TypeVar("_Value", bound="Value")
+
+
+@dataclass(frozen=True)
+class FormulaStep:
+    """One step of a formula.
+
+    Parameters
+    ----------
+    kind : str
+        Arithmetic (``add``, ``dot``, ...) or an operation of `System` (``minv``, ``solve``, ...).
+    operands : tuple of int
+        Indices of earlier operations.
+    payload : tuple of str or float
+        Names of sections and parameters, literals.
+    size : {"", "nq", "nv", "m"}
+        Length of the result; empty unless it is a vector.
+    """
+
+    kind: str
+    operands: tuple[int, ...] = ()
+    payload: tuple[str | float, ...] = ()
+    size: str = ""
+
+
+#: Kinds of operations whose first operand is their value by a factor of D W D^T.
+ALTERNATIVES = frozenset(("constrained", "stored_constrained"))
+
+
+@dataclass(eq=False)
+class Tape:
+    """Distinct operations in the order of their first use.
+
+    Attributes
+    ----------
+    stored : list of (str, Value)
+        Sections of ``w`` and the values that they keep between the functions of a law.
+    """
+
+    operations: list[FormulaStep] = field(default_factory=list)
+    stored: list[tuple[str, Value]] = field(default_factory=list)
+    _index: dict[FormulaStep, int] = field(default_factory=dict)
+
+    def add(self, operation: FormulaStep) -> int:
+        """Return the index of an operation, appended if it is new."""
+        index = self._index.setdefault(operation, len(self.operations))
+        if index == len(self.operations):
+            self.operations.append(operation)
+        return index
+
+    def constant(self, value: float) -> Scalar:
+        """Return a literal."""
+        return Scalar(self, self.add(FormulaStep("constant", payload=(float(value),))))
+
+    def named(self, cls: type[_Value], kind: str, *names: str, size: str = "") -> _Value:
+        """Return the value of a named quantity."""
+        return cls(self, self.add(FormulaStep(kind, (), names, size)))
+
+    def stored_value(self, cls: type[_Value], kind: str, section: str, x: Value, size: str = "") -> _Value:
+        """Return a stored value, read from a section."""
+        stored = cls(self, self.add(FormulaStep(kind, (x.index,), (section,), size)))
+        self.stored.append((section, stored))
+        return stored
+
+
+def needed(ends: Iterable[int], operands: Callable[[int], tuple[int, ...]]) -> list[int]:
+    """Return the indices of all operations that `ends` depend on through their `operands`, in their order."""
+    indices: set[int] = set()
+    waiting = list(ends)
+    while waiting:
+        index = waiting.pop()
+        if index not in indices:
+            indices.add(index)
+            waiting += operands(index)
+    return sorted(indices)
+
+
+@dataclass(frozen=True, eq=False)
+class Value:
+    """The result of an operation."""
+
+    tape: Tape
+    index: int
+
+    def applied(self, cls: type[_Value], kind: str, *operands: Value, size: str = "") -> _Value:
+        """Return the result of an operation on values."""
+        return cls(self.tape, self.tape.add(FormulaStep(kind, tuple(v.index for v in operands), (), size)))
+
+
+class Vector(Value):
+    """A vector with elementwise arithmetic."""
+
+    @property
+    def size(self) -> str:
+        """Name of its length: ``nq``, ``nv`` or ``m``."""
+        return self.tape.operations[self.index].size
+
+    def __add__(self, other: Vector) -> Vector:
+        return self.applied(Vector, "add", self, other, size=self.size)
+
+    def __sub__(self, other: Vector) -> Vector:
+        return self.applied(Vector, "sub", self, other, size=self.size)
+
+    def __neg__(self) -> Vector:
+        return self.applied(Vector, "neg", self, size=self.size)
+
+    def times(self, other: Vector) -> Vector:
+        """Return the elementwise product."""
+        return self.applied(Vector, "mul", self, other, size=self.size)
+
+    def dot(self, other: Vector) -> Scalar:
+        """Return the inner product."""
+        return self.applied(Scalar, "dot", self, other)
+
+
+class Scalar(Value):
+    """A number with arithmetic, so that a method's formula reads like the textbook's."""
+
+    def __add__(self, other: Scalar) -> Scalar:
+        return self.applied(Scalar, "add", self, other)
+
+    def __sub__(self, other: Scalar) -> Scalar:
+        return self.applied(Scalar, "sub", self, other)
+
+    def __neg__(self) -> Scalar:
+        return self.applied(Scalar, "neg", self)
+
+    def __truediv__(self, other: Scalar) -> Scalar:
+        return self.applied(Scalar, "div", self, other)
+
+    @overload
+    def __mul__(self, other: Scalar) -> Scalar: ...
+    @overload
+    def __mul__(self, other: Vector) -> Vector: ...
+    def __mul__(self, other: Scalar | Vector) -> Scalar | Vector:
+        if isinstance(other, Vector):
+            return self.applied(Vector, "mul", self, other, size=other.size)
+        return self.applied(Scalar, "mul", self, other)
+
+    def __rmul__(self, factor: float) -> Scalar:
+        return self.tape.constant(factor) * self
+
+    def __pow__(self, exponent: int) -> Scalar:
+        return self.applied(Scalar, "pow", self, self.tape.constant(exponent))
+
+    def root(self) -> Scalar:
+        """Return the square root."""
+        return self.applied(Scalar, "sqrt", self)
+
+    def smaller(self, other: Scalar) -> Scalar:
+        """Return the smaller of two scalars."""
+        return self.applied(Scalar, "min", self, other)
+
+
+class Matrix(Value):
+    """A matrix used in products only: D by rows, or a root of M^-1."""
+
+    def __matmul__(self, x: Vector) -> Vector:
+        return self.applied(Vector, "product", self, x, size="m")
+
+    def transposed(self, y: Vector) -> Vector:
+        """Return the transpose times a vector."""
+        return self.applied(Vector, "transposed", self, y, size="nv")
+
+    def times_transposed(self, other: Matrix) -> Matrix:
+        """Return this matrix times the transpose of another one."""
+        return self.applied(Matrix, "times_transposed", self, other)
+
+
+class Factor(Value):
+    """A factorisation L D L^T of a symmetric matrix."""
+
+
+class System:
+    """The equations as a method sees them: named vectors and matrices, products and solves.
+
+    Attributes
+    ----------
+    tape : Tape
+        Record of the operations.
+    D : Matrix
+        Velocity Jacobian of the constraints.
+    f, gamma, nu, phi, v, q_rates : Vector
+        Symbols of the notation, q_rates = N v; `phi` is zero in nonholonomic rows.
+    power : Scalar
+        Power of the applied forces without potential.
+    """
+
+    def __init__(self) -> None:
+        self.tape = Tape()
+        self.D = self.tape.named(Matrix, "constraints")
+        self.f, self.v = (self.tape.named(Vector, "quantity", name, size="nv") for name in ("f", "v"))
+        self.gamma, self.nu, self.phi = (
+            self.tape.named(Vector, "quantity", name, size="m") for name in ("gamma", "nu", "phi")
+        )
+        self.q_rates = self.tape.named(Vector, "quantity", "q_rates", size="nq")
+        self.power = self.tape.named(Scalar, "power")
+
+    @property
+    def Phi(self) -> Vector:  # the symbol of the notation
+        """The same as `phi`, as files and equations write it."""
+        return self.phi
+
+    def parameter(self, name: str) -> Scalar:
+        """Return a parameter of the method."""
+        return self.tape.named(Scalar, "parameter", name)
+
+    def scale(self, name: str) -> Scalar:
+        """Return a number of the status that the runtime sets: ``mean_mass``, ``length_scale``, ``step``, ..."""
+        return self.tape.named(Scalar, "status", name)
+
+    @property
+    def heavy_penalty(self) -> Vector:
+        """1e5 times the mean mass, with I / l^2 for rotations, for rows scaled to derivatives of length 1.
+
+        This factor needs few iterations and loses few digits [kg, or kg m^2 for rows that are angles].
+        """
+        return (self.tape.constant(1e5) * self.scale("mean_mass")) * self.variable("row_weight", "m")
+
+    @property
+    def inverse_step(self) -> Scalar:
+        """One over the current step [1/s]."""
+        return self.inverse(self.scale("step"))
+
+    def inverse(self, x: Scalar) -> Scalar:
+        """Return 1 / x."""
+        return self.tape.constant(1.0) / x
+
+    def zeros(self, size: str) -> Vector:
+        """Return the zero vector of a size."""
+        return self.tape.named(Vector, "zeros", size=size)
+
+    # -- M -------------------------------------------------------------------------------------------------------------
+
+    def mass(self, x: Vector) -> Vector:
+        """Return M x."""
+        return x.applied(Vector, "mass", x, size="nv")
+
+    def minv(self, x: Vector) -> Vector:
+        """Return M^-1 x."""
+        return x.applied(Vector, "minv", x, size="nv")
+
+    @property
+    def free_acceleration(self) -> Vector:
+        """M^-1 f, or 0 where M is singular: the start of iterations."""
+        return self.f.applied(Vector, "free_acceleration", self.f, size="nv")
+
+    @property
+    def inverse_mass_root(self) -> Matrix:
+        """L^-T with M = L L^T, by rows of L^-1; any root serves a least-squares solution in the metric of M."""
+        return self.tape.named(Matrix, "inverse_mass_root")
+
+    # -- factorisations ------------------------------------------------------------------------------------------------
+
+    def solve(self, factor: Factor, right: Vector) -> Vector:
+        """Return the solution for a right-hand side."""
+        return right.applied(Vector, "solve", factor, right, size=right.size)
+
+    def solve_schur(self, right: Vector) -> Vector:
+        """Return lambda with ``S lambda = right``, S = D M^-1 D^T.
+
+        Rows masked by the runtime are left out, and a small pivot raises the flag that the law returns.
+        """
+        return self.solve(self.tape.named(Factor, "schur"), right)
+
+    def constrained(self, f: Vector, gamma: Vector) -> tuple[Vector, Vector]:
+        """Return v' and lambda with ``M v' + D^T lambda = f``, ``D v' = gamma``.
+
+        ``S lambda = D M^-1 f - gamma``, then ``v' = M^-1 (f - D^T lambda)``; code for one mechanism may eliminate in
+        another order, where that takes fewer operations.
+        """
+        multipliers = self.solve_schur(self.D @ self.minv(f) - gamma)
+        accelerations = self.minv(f - self.D.transposed(multipliers))
+
+        def result(name: str, x: Vector) -> Vector:
+            step = FormulaStep("constrained", (x.index, f.index, gamma.index), (name,), x.size)
+            return Vector(self.tape, self.tape.add(step))
+
+        return result("accelerations", accelerations), result("multipliers", multipliers)
+
+    def compliant_factor(self, compliance: Scalar) -> Factor:
+        """Return the factor of ``S + e``, e the compliance of each row, infinite for rows that the runtime leaves out.
+
+        It is positive definite for any rank of D, so no pivot is suspicious.
+        """
+        return compliance.applied(Factor, "compliant", compliance)
+
+    def pseudoinverse_factor(self, matrix: Matrix) -> Factor:
+        """Return the factor of B B^T for a scaled constraint matrix B, with masks and flags as for `solve_schur`."""
+        return matrix.applied(Factor, "pseudoinverse", matrix)
+
+    def penalties(self, penalty: Scalar | Vector) -> Vector:
+        """Return the penalty of each row, from a scalar or by rows; 0 for rows that the runtime leaves out.
+
+        A row that depends on others where the constraints hold is independent at the stages of a step, where they hold
+        to the integrator's error only: its penalty would then act on the motion itself.
+        """
+        return penalty.applied(Vector, "penalties", penalty, size="m")
+
+    def row_stiffness(self, otherwise: Scalar) -> Vector:
+        """Return the stiffness of each row from the file, or else `otherwise` [N/m]; masks are ignored.
+
+        It has no loop: methods that use it state this in `dense`.
+        """
+        return otherwise.applied(Vector, "row_stiffness", otherwise, size="m")
+
+    def augmented_factor(self, penalties: Vector) -> Factor:
+        """Return the factor of ``M + D^T a D``, a by rows, which is positive definite for any rank of D."""
+        return penalties.applied(Factor, "augmented", penalties)
+
+    # -- what an iterated law keeps in w -------------------------------------------------------------------------------
+
+    def keep(self, section: str, x: Vector) -> Vector:
+        """Store a vector in a section once per evaluation; return the stored vector for the iteration."""
+        return self.tape.stored_value(Vector, "keep", section, x, x.size)
+
+    def keep_constraints(self) -> Matrix:
+        """Store D; return the stored matrix for the iteration."""
+        return self.tape.stored_value(Matrix, "keep_constraints", "kept_jacobian", self.D)
+
+    def keep_factor(self, factor: Factor) -> Factor:
+        """Store a factor; return the stored one for the iteration."""
+        return self.tape.stored_value(Factor, "keep_factor", "kept_factor", factor)
+
+    def variable(self, section: str, size: str) -> Vector:
+        """Return an iterated vector, read from a section."""
+        return self.tape.named(Vector, "section", section, size=size)
+
+    # -- along the motion ----------------------------------------------------------------------------------------------
+
+    def at_velocity(self, x: Vector, v: Vector) -> Vector:
+        """Return a vector with the velocities replaced by `v`."""
+        return x.applied(Vector, "at_velocity", x, v, size=x.size)
+
+    def mass_rate(self, x: Vector, v: Vector) -> Vector:
+        """Return (dM/dt) x along the motion with velocities `v`; 0 where bodies have coordinates of their own."""
+        return x.applied(Vector, "mass_rate", x, v, size="nv")
+
+    def constraint_rate_transposed(self, y: Vector, v: Vector) -> Vector:
+        """Return (dD/dt)^T y along the motion with velocities `v`."""
+        return y.applied(Vector, "constraint_rate_transposed", y, v, size="nv")
+
+    # -- what corrections and descriptor forms are written with, beside ------------------------------------------------
+
+    def flag(self) -> Value:
+        """Return the flag of a suspicious pivot of S."""
+        return self.tape.named(Value, "flag")
+
+    def geometry(self, rank: Factor) -> Value:
+        """Return the outputs of every `geometry`: Phi, its norm, nu, D, relative pivots and the resulting rank."""
+        return rank.applied(Value, "geometry", rank)
+
+    def rank_factor(self, whole: bool = False) -> Factor:
+        """Return the factor of D G D^T that decides rank; `whole`: with the pivots of rows that nothing decides on."""
+        return self.tape.named(Factor, "rank", *(("whole",) if whole else ()))
+
+    def stored_constrained(
+        self, metric: str, name: str, rank: Factor, f: Vector, gamma: Vector, by_factor: Vector
+    ) -> Vector:
+        """Return x or y with ``W x + D^T y = f``, ``D x = gamma``, of D as ``geometry`` left it.
+
+        Rows that `rank` leaves out are left out. W is M (``mass``), the identity (``identity``) or G^-1 (``scaled``).
+
+        Parameters
+        ----------
+        metric : str
+            W.
+        name : {"change", "multipliers"}
+            x or y.
+        rank, f, gamma
+            Decisions and right-hand sides.
+        by_factor : Vector
+            The same by a factor of D W^-1 D^T.
+        """
+        operands = (by_factor.index, rank.index, f.index, gamma.index)
+        return Vector(
+            self.tape, self.tape.add(FormulaStep("stored_constrained", operands, (metric, name), by_factor.size))
+        )
+
+    def weighted_factor(self, rank: Factor, weight: str) -> Factor:
+        """Return the factor of D W D^T without the rows that `rank` leaves out.
+
+        W is M^-1 (``mass``) or the identity (``identity``), with D as ``geometry`` left it; or the choice of dependent
+        columns times G (``dependent``), or the inverse of the metric of carried bodies (``body``), with the D under
+        evaluation.
+        """
+        return rank.applied(Factor, f"weighted_{weight}", rank)
+
+    def body_entries(self) -> Vector:
+        """Return the entries of the metric of carried bodies that change with the position."""
+        return self.tape.named(Vector, "body_entries", size="nv")
+
+    def body_inverse(self, x: Vector) -> Vector:
+        """Return the inverse of the metric of carried bodies times x, from the section ``body_entry``."""
+        return x.applied(Vector, "body_inverse", x, size="nv")
+
+    def augmented_metric(self, penalties: Vector) -> Factor:
+        """Return the factor of ``M + D^T a D``, of D as ``geometry`` left it."""
+        return penalties.applied(Factor, "augmented_metric", penalties)
+
+    def gauged(self, x: Vector) -> Vector:
+        """Return G x."""
+        return x.applied(Vector, "gauged", x, size="nv")
+
+    def partition_quality(self, rank: Factor, factor: Factor) -> Scalar:
+        """Return det(D P G D^T) / det(D G D^T)."""
+        return rank.applied(Scalar, "partition_quality", rank, factor)
+
+    def stored_factor(self, factor: Factor, prefix: str) -> Factor:
+        """Return a factor stored by another function in ``<prefix>lower`` and ``<prefix>reciprocal``."""
+        return Factor(self.tape, self.tape.add(FormulaStep("stored_factor", (factor.index,), (prefix,))))
+
+    def stored_constraints(self) -> Matrix:
+        """Return D as ``geometry`` left it."""
+        return self.tape.named(Matrix, "stored_constraints")
+
+    def driving(self, accelerations: Vector) -> Scalar:
+        """Return the power of the drivers of prescribed coordinates, without that against rows."""
+        return accelerations.applied(Scalar, "driving", accelerations)
+
+    def holonomic_or(self, otherwise: Vector) -> Vector:
+        """Return Phi, with `otherwise` in nonholonomic rows."""
+        return otherwise.applied(Vector, "holonomic_or", otherwise, size="m")

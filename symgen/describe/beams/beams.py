@@ -1,0 +1,385 @@
+"""Beams of a mechanism file: each becomes bodies, the nodes, and beam elements between them before validation.
+
+A node has the mass and the rotary inertia of the beam at its place, by the weights of a rule of integration that is
+exact for cubics and positive (Gregory's, of fourth order), so that mass, centre of mass and moments of inertia of the
+beam are exact, and frequencies converge as its elements do while M stays diagonal. A node at a vertex of a line has the
+masses of the ends of two segments, and the elements before and behind it have axes of their own there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+
+from symgen.base.errors import nearest, quoted
+from symgen.base.vocabulary.expressions import (
+    ONE,
+    ZERO,
+    Expr,
+    call,
+    difference,
+    dot,
+    literal_of,
+    product,
+    sum_of_terms,
+    vector_product,
+)
+from symgen.base.vocabulary.measures import GROUND
+from symgen.base.vocabulary.rotations import matrix
+from symgen.describe.beams.beam_lines import CrossSection, cross_sections, segments
+from symgen.describe.beams.beam_sections import BeamSection, Properties, properties_of
+from symgen.describe.formulas.evaluate import scalars
+from symgen.describe.formulas.formula_text import file_value, to_text
+from symgen.describe.formulas.start import euler_parameters
+from symgen.describe.mechanism import AnyBody, Body, Vec
+from symgen.describe.parts.bodies import shifted
+from symgen.describe.parts.collected import Errors
+from symgen.describe.parts.fields import read_table, words_of
+from symgen.describe.parts.kinds import FORCES, JOINTS
+from symgen.describe.parts.scope import CENTRE, Scope
+
+Raw = Mapping[str, Any]
+#: Names of the nodes at the ends, and of elements and loads behind a beam's name.
+START, END, ELEMENT, LOAD = "start", "end", "e", "load"
+_PLACE = re.compile(r"at\(\s*([0-9.eE+-]+)\s*\)")
+#: Coordinates of the place in a load by length.
+_OWN = re.compile(r"(?<![A-Za-z0-9_.])([xyz])(?![A-Za-z0-9_.])")
+#: A place within this part of a beam's length from a node is at the node.
+_NEAR = 1e-6
+#: Axes of a body in its own frame.
+_UNTURNED = {n: tuple(tuple(ONE if i == j else ZERO for j in range(n)) for i in range(n)) for n in (2, 3)}
+
+
+@dataclass(frozen=True)
+class _Mass:
+    """The end of a line on a body: its place in the frame of that body, its mass, and its inertia in that frame.
+
+    In space the inertia is a tensor of six entries.
+    """
+
+    place: Vec
+    mass: Expr
+    inertia: tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class _Seat:
+    """A node of elements: a body, the place in its frame, and directions x and y there of each cross section."""
+
+    body: str
+    place: str | list[float | str]
+    sides: list[tuple[Vec, ...]]
+
+    def side(self, section: int, i: int) -> list[float | str]:
+        """Return direction x or y of a cross section as written in a file."""
+        return _written(self.sides[section][i])
+
+
+#: A point of a rigid beam, its velocity, and three components of the angular velocity.
+_Motion = tuple[Vec, Vec, Vec]
+
+
+class Beams:
+    """The beams of a description.
+
+    Parameters
+    ----------
+    raw : mapping
+        The description.
+    scope_of : callable
+        Scope of a section and a name.
+    body_of : callable
+        Reads the body that a scope names from its table.
+    errors : Errors
+        Where errors go.
+
+    Attributes
+    ----------
+    bodies, forces : dict
+        Nodes, and bodies with further points; elements and loads, as a description has them.
+    """
+
+    def __init__(
+        self,
+        raw: Raw,
+        scope_of: Callable[[str, str], Scope],
+        body_of: Callable[[Scope, object], AnyBody],
+        errors: Errors,
+    ) -> None:
+        self.raw, self.scope_of, self.body_of, self.errors = raw, scope_of, body_of, errors
+        self._nodes: dict[str, list[tuple[str, float]]] = {}  # of a beam, "" for a clamped end, and parts of its length
+        self._counts: dict[str, list[int]] = {}  # elements of the segments of a beam
+        self._further: dict[str, list[_Mass]] = {}  # of bodies, besides those of their tables
+        self._centres: dict[str, Any] = {}  # of bodies that ends are clamped to, in their frames
+        self.bodies: dict[str, Any] = {}
+        self.forces: dict[str, Any] = {}
+
+    def expanded(self) -> dict[str, Any]:
+        """Return the description without beams: with their nodes behind its bodies, their elements before its forces.
+
+        Raises
+        ------
+        InputError
+            At the first error in a beam.
+        """
+        for name, table in self.raw["beams"].items():
+            scope = self.scope_of("beams", name)
+            with self.errors.apart(name):
+                self._add(scope, name, read_table(BeamSection, table, scope.where("")))
+        self.errors.need(*self.raw["beams"])
+        raw = {key: dict(value) if key in ("joints", "forces") else value for key, value in self.raw.items()}
+        for section in ("joints", "forces"):
+            for name, table in self.raw.get(section, {}).items():
+                if isinstance(table, Mapping):
+                    del raw[section][name]
+                    with self.errors.apart(name):
+                        raw[section][name] = self._on_nodes(self.scope_of(section, name), dict(table), section)
+        del raw["beams"]
+        return raw | {
+            "bodies": {**self.raw.get("bodies", {}), **self.bodies},
+            "forces": {**self.forces, **raw.get("forces", {})},
+        }
+
+    def counted(self) -> dict[str, Any]:
+        """Return the description with the number of elements of each segment of its beams."""
+        beams = {name: {**table, "elements": self._counts[name]} for name, table in self.raw["beams"].items()}
+        return {**self.raw, "beams": beams}
+
+    def with_ends(self, body: AnyBody) -> AnyBody:
+        """Return a body with the masses of the ends of beams that are part of it."""
+        for further in self._further.get(body.name, ()):
+            body = _with_mass(body, further)
+        return body
+
+    # -- nodes and elements ------------------------------------------------------------------------------------------
+
+    def _add(self, scope: Scope, name: str, beam: BeamSection) -> None:
+        if beam.load is not None and any(x in scope.context.states for x in "xyz"):
+            raise scope.error("load", "x, y and z to mean the place", "a parameter or an input of that name")
+        line, properties = segments(scope, beam), properties_of(scope, beam)
+        clamps = (beam.clamp, "") if isinstance(beam.clamp, str) else beam.clamp
+        if len(clamps) != 2:
+            raise scope.error("clamp", "one body, or two: that of the start and that of the end", words_of(beam.clamp))
+        nodes, motion, seats = cross_sections(scope, line), _motion(scope, beam, line[0].start), list[_Seat]()
+        last = len(nodes) - 1
+        self._counts[name], self._nodes[name] = [segment.elements for segment in line], []
+        for k, sections in enumerate(nodes):
+            node = f"{name}.{ {0: START, last: END}.get(k, k) }"
+            host = {0: clamps[0], last: clamps[1]}.get(k, "")
+            self._nodes[name].append(("" if host else node, sections[0].part))
+            if host:
+                seats.append(self._clamp(scope, host, sections[0], properties))
+            else:
+                seats.append(self._node(node, beam, sections, properties, motion))
+            if beam.load is not None and host != GROUND:
+                at = self._point(host, node.replace(".", "_"), seats[-1].place) if host else CENTRE
+                size, place = sum_of_terms(*(section.share for section in sections)), f"{host}.{at}" if host else node
+                load = [_times_text(size, part, place) for part in beam.load]
+                self.forces[f"{name}.{LOAD}{k}"] = {"type": "force", "body": host or node, "at": at, "force": load}
+        k = 0
+        for segment in line:
+            element: dict[str, Any] = {"type": "beam", "length": file_value(segment.step), "damping": beam.damping}
+            element |= properties.stiffness
+            if segment.bend != ZERO:
+                bend = file_value(segment.curvature)
+                element["curvature"] = [0.0, 0.0, bend] if scope.spatial else bend
+            for _ in range(segment.elements):
+                a, b, k = seats[k], seats[k + 1], k + 1
+                keys = {"between": [a.body, b.body], "at": [a.place, b.place], "axis": [a.side(-1, 0), b.side(0, 0)]}
+                if scope.spatial:
+                    keys["reference"] = [a.side(-1, 1), b.side(0, 1)]
+                self.forces[f"{name}.{ELEMENT}{k}"] = element | keys
+
+    def _node(
+        self, name: str, beam: BeamSection, sections: list[CrossSection], properties: Properties, motion: _Motion | None
+    ) -> _Seat:
+        """Return the seat of a node, which becomes a body."""
+        vertex, own = len(sections) > 1, sections[0]
+        dimension = len(own.place)
+        unturned = _UNTURNED[dimension]
+        (mass, inertia), *others = (_mass(properties, s, s.axes if vertex else None) for s in sections)
+        if vertex:  # it has no direction of its own
+            own = replace(own, axes=unturned, angle=ZERO)
+            self._further[name] = [_Mass((ZERO,) * dimension, *other) for other in others]
+        self.bodies[name] = {
+            "mass": file_value(mass),
+            "inertia": _written(inertia) if dimension == 3 else file_value(*inertia),
+            "hold": beam.hold,
+            **_pose(own),
+            **({} if motion is None else _velocities(own, motion)),
+        }
+        return _Seat(name, CENTRE, [section.sides if vertex else unturned for section in sections])
+
+    def _point(self, body: str, name: str, place: str | list[float | str]) -> str:
+        """Return the name of a further point of a body with a clamped end."""
+        table = self.bodies.get(body, self.raw["bodies"][body])
+        points = table.get("points", {})
+        while name in points:
+            name += "_"
+        self.bodies[body] = {**table, "points": {**points, name: place}}
+        return name
+
+    def _clamp(self, scope: Scope, name: str, end: CrossSection, properties: Properties) -> _Seat:
+        """Return the seat of a clamped end on its body, which takes the mass of the end."""
+        if name == GROUND:
+            return _Seat(name, _written(end.place), [end.sides])
+        bodies = self.raw.get("bodies", {})
+        if name not in bodies:
+            got = f"the unknown body {quoted(name)}"
+            raise scope.error("clamp", "the name of a body or 'ground'", got, nearest(name, [*bodies, GROUND]))
+        body = self.body_of(self.scope_of("bodies", name), bodies[name])
+        if body.is_point:
+            raise scope.error("clamp", "a body with an angle", f"the point mass '{name}'")
+        frame = _axes_of(scope, body)
+        (place,) = _within(frame, [tuple(map(difference, end.place, body.position))])
+        mass = _Mass(place, *_mass(properties, end, _within(frame, end.axes)))
+        self._further.setdefault(name, []).append(mass)
+        self._centres[name] = _written(body.centre_of_mass)
+        return _Seat(name, _written(place), [_within(frame, end.sides)])
+
+    # -- names of nodes ----------------------------------------------------------------------------------------------
+
+    def _on_nodes(self, scope: Scope, table: dict[str, Any], section: str) -> dict[str, Any]:
+        """Return the table of a joint or force with beams and places on them replaced by nodes.
+
+        Clamped beams do not move a body's centre of mass.
+        """
+        pair, at = isinstance(table.get("between"), list | tuple), table.get("at")
+        bodies = list(table["between"]) if pair else [table.get("body")]
+        places = [at] if not pair else list(at) if isinstance(at, list | tuple) else []
+        places += [None] * (len(bodies) - len(places))
+        before = [*bodies, *places]
+        for i, body in enumerate(bodies):
+            if not isinstance(body, str):
+                continue
+            if body in self._nodes:
+                bodies[i], places[i] = self._node_at(scope, body, places[i]), CENTRE
+            elif body in self._centres and (places[i] == CENTRE or (places[i] is None and not pair)):
+                places[i] = self._centres[body]
+        if [*bodies, *places] == before:
+            return table
+        kinds: Any = JOINTS if section == "joints" else FORCES
+        kind = table.get("type")
+        table |= {"between": bodies, "at": places} if pair else {"body": bodies[0], "at": places[0]}
+        if isinstance(kind, str) and kind in kinds and "at" not in kinds.get(kind).__struct_fields__:
+            del table["at"]
+        return table
+
+    def _node_at(self, scope: Scope, beam: str, at: object) -> str:
+        """Return the node of a beam at one of its ends, by its number, or at a place."""
+        nodes = self._nodes[beam]
+        last = len(nodes) - 1
+        expected = f"a node of the beam '{beam}': '{START}', '{END}', a number up to {last}, or 'at(0.5)' of its length"
+        numbers = {START: 0, END: last} | {str(k): k for k in range(last + 1)}
+        place = _PLACE.fullmatch(at) if isinstance(at, str) else None
+        if place is not None:
+            try:
+                part = float(place.group(1))
+            except ValueError:
+                raise scope.error("at", expected, words_of(at)) from None
+            k = min(range(last + 1), key=lambda i: abs(nodes[i][1] - part))
+            if abs(nodes[k][1] - part) > _NEAR:
+                hint = f"the nearest node is number {k}, at({nodes[k][1]:g})"
+                raise scope.error("at", expected, f"{words_of(at)}, where no node is", hint)
+        elif isinstance(at, bool) or not isinstance(at, int | str) or str(at) not in numbers:
+            raise scope.error("at", expected, "no such key" if at is None else words_of(at))
+        else:
+            k = numbers[str(at)]
+        if not nodes[k][0]:
+            got = f"the end of '{beam}' that is clamped to a body"
+            raise scope.error("at", "a node that moves by itself", got, "name that body and a point of it")
+        return nodes[k][0]
+
+
+# -- tables of nodes, and masses -------------------------------------------------------------------------------------
+
+
+def _motion(scope: Scope, beam: BeamSection, start: Vec) -> _Motion | None:
+    """Return the rigid-body motion of a beam at the start, None where its table has no velocities."""
+    if beam.velocity is None and beam.angular_velocity is None:
+        return None
+    velocity = scope.vector("velocity", (0.0,) * scope.dimension if beam.velocity is None else beam.velocity)
+    count, turning = (3 if scope.spatial else 1), beam.angular_velocity
+    omega = scope.several("angular_velocity", 0.0 if turning is None else turning, count, alike=turning is None)
+    return start, velocity, (*(ZERO,) * (3 - count), *omega)
+
+
+def _velocities(section: CrossSection, motion: _Motion) -> dict[str, Any]:
+    """Return the velocities of a node."""
+    start, velocity, omega = motion
+    swept = vector_product(omega, (*map(difference, section.place, start), ZERO))
+    own = _written(dot(omega, axis) for axis in section.axes) if len(start) == 3 else file_value(omega[2])
+    return {"velocity": _written(map(sum_of_terms, velocity, swept)), "angular_velocity": own}
+
+
+def _pose(section: CrossSection) -> dict[str, Any]:
+    """Return the position and orientation of a node."""
+    if len(section.axes) == 2:
+        return {"position": _written(section.place), "angle": file_value(section.angle)}
+    turned = {"x_axis": _written(section.axes[0]), "y_axis": _written(section.axes[1])}
+    return {"position": _written(section.place), "orientation": turned}
+
+
+def _mass(properties: Properties, section: CrossSection, axes: tuple[Vec, ...] | None) -> tuple[Expr, tuple[Expr, ...]]:
+    """Return the mass of a cross section and its rotary inertia, in space with axes in a frame its tensor there."""
+    mass, *rotary = (product(section.share, e) for e in (properties.mass, *properties.rotary))
+    if axes is None or len(axes) == 2:
+        return mass, tuple(rotary)
+    x, y, _ = axes
+    pairs = (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)
+    # the third of three perpendicular axes follows from the others: its formulas are the longest
+    about_x, about_y = (difference(e, rotary[2]) for e in rotary[:2])
+    return mass, tuple(
+        sum_of_terms(rotary[2] if i == j else ZERO, product(about_x, x[i], x[j]), product(about_y, y[i], y[j]))
+        for i, j in pairs
+    )
+
+
+def _axes_of(scope: Scope, body: AnyBody) -> tuple[Vec, ...]:
+    """Return the axes of a body's frame in the ground frame, as it is described."""
+    if isinstance(body, Body):
+        cosine, sine = call("cos", body.angle), call("sin", body.angle)
+        return (cosine, sine), (call("neg", sine), cosine)
+    if not body.orientation.is_numeric:
+        raise scope.error("clamp", "a body whose orientation at the start is given in numbers", f"'{body.name}'")
+    rows = matrix(euler_parameters(body.orientation, scalars(scope.context.values), scope.where("clamp")))
+    return tuple(tuple(literal_of(x) for x in column) for column in zip(*rows, strict=True))
+
+
+def _with_mass(body: AnyBody, further: _Mass) -> AnyBody:
+    """Return a body with a further mass and tensor of inertia at a place of its frame (Huygens, Steiner)."""
+    mass = sum_of_terms(body.mass, further.mass)
+    share = call("div", further.mass, mass)
+    apart = tuple(map(difference, further.place, body.centre_of_mass))
+    centre = tuple(sum_of_terms(c, product(share, d)) for c, d in zip(body.centre_of_mass, apart, strict=True))
+    reduced, inertia = product(share, body.mass), body.inertia
+    assert inertia is not None, "a point mass clamps nothing"
+    if isinstance(inertia, tuple):
+        a, b, c, d, e, f = map(sum_of_terms, inertia, further.inertia)
+        inertia = shifted((a, b, c, d, e, f), call("neg", reduced), apart)
+    else:
+        inertia = sum_of_terms(inertia, *further.inertia, product(reduced, dot(apart, apart)))
+    return msgspec.structs.replace(body, mass=mass, centre_of_mass=centre, inertia=inertia)
+
+
+# -- vectors ---------------------------------------------------------------------------------------------------------
+
+
+def _within(frame: Sequence[Vec], vectors: Sequence[Vec]) -> tuple[Vec, ...]:
+    """Return vectors in the axes of a frame."""
+    return tuple(tuple(dot(vector, axis) for axis in frame) for vector in vectors)
+
+
+def _written(vector: Iterable[Expr]) -> list[float | str]:
+    """Return a vector as written in a file."""
+    return [file_value(e) for e in vector]
+
+
+def _times_text(size: Expr, part: float | str, node: str) -> str:
+    """Return a load by length, times the length of beam that a node has, at that node."""
+    own = _OWN.sub(lambda match: f"{node}.{match.group()}", str(part))
+    return f"({to_text(size)})*({own})"

@@ -1,0 +1,377 @@
+"""Kinks in formulas of joints and forces, and formulas that may hide short changes.
+
+Kinks lie at times that are computed before a run, or where the state passes points. Of formulas of the time that are
+no polynomials with one sine no time says where something short lies: there adaptive steps are bounded.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import (
+    BENT,
+    ZERO,
+    Call,
+    Expr,
+    Name,
+    Number,
+    Reading,
+    call,
+    difference,
+    names_in,
+    readings,
+    sum_of_terms,
+    table_of,
+)
+from symgen.base.vocabulary.functions import ELEMENTARY
+from symgen.base.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
+from symgen.describe.formulas.readings import integrated
+from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.parts.inputs import MOST_KNOTS, Jump, compared, replaced
+from symgen.describe.remembered import remembered
+from symgen.describe.tables import Table
+
+#: Functions that may jump, and those that compare a value with zero, or two values with each other.
+_SIDES = ("lt", "le", "gt", "ge", "sign")
+_COMPARED = (*_SIDES, *BENT)
+#: Inverses of functions, and the function that is 0 where they have kinks or jump.
+_INVERSE = {("acos", "cos"): "sin", ("asin", "sin"): "cos", ("atan", "tan"): "cos"}
+#: How these are written where a formula is encoded: with their lengths, as `le` stands in other words too.
+_COMPARED_TEXTS = tuple(map(msgspec.msgpack.encode, _COMPARED))
+
+
+#: The derivative of a table that jumps at its points.
+KINKS = {"linear": 1, "pchip": 2, "cubic": 3}
+#: Steps for which something may lie hidden are no longer than a run over this.
+PARTS = 1000
+#: Encoded forms of formulas of the time.
+_TIME = msgspec.msgpack.encode(Name("t"))
+#: Powers beyond this one are as sharp as pulses.
+_LOW = 16
+#: Functions that are polynomials where their arguments are, except at jumps and kinks.
+_PLAIN = frozenset(("add", "sub", "neg", "mul", "where", "and", "or", "not", *BENT))
+
+
+def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
+    """Return the kinks in time of formulas of joints, forces, integrals and events, and their comparisons.
+
+    Jumps have no switch. `abs`, `min` and `max` have kinks where two values are equal, and tables at their points,
+    whatever their pieces are: of a cubic one the third derivative jumps. Where comparisons and `sign` are passed,
+    formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
+    """
+    return _jumps_in(mechanism, (*integrated(mechanism), mechanism.frictions, tuple(e.when for e in events)))
+
+
+def jumps_of_gaps(mechanism: Mechanism) -> tuple[Jump, ...]:
+    """Return the jumps and kinks in time of the gaps of stops, whose rates jump there."""
+    return sum(_jumps_in(mechanism, (mechanism.stops,)), ())
+
+
+def _jumps_in(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
+    """Return the kinks in time of formulas, and their comparisons."""
+    tables, timely = _tables(mechanism), _timely(mechanism)
+    kinks, sides = dict[Jump, None](), dict[Jump, None]()
+    for e, _ in _calls(*formulas) if _may_pass(formulas) else ():
+        if e.function in _COMPARED:
+            jump = Jump(compared(e))
+        elif (table := tables.get(table_of(e.function) or "")) is not None:
+            period = table.x[-1] - table.x[0] if table.periodic else 0.0
+            jump = Jump(e.arguments[0], table.x, period=period, derivative=KINKS.get(table.interpolation, 0))
+        else:
+            continue
+        if "t" in (used := set(names_in(jump.argument))) and used <= timely:
+            (sides if e.function in _SIDES else kinks)[jump] = None
+    return tuple(kinks), tuple(sides)
+
+
+def changes_in_time(mechanism: Mechanism) -> bool:
+    """Return whether anything but the motion changes over time: a formula of t, or a state of the file's own."""
+    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode(integrated(mechanism))
+
+
+def _tables(mechanism: Mechanism) -> dict[str, Table]:
+    """Return the tables at whose points runs stop."""
+    return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
+
+
+def _timely(mechanism: Mechanism) -> set[str]:
+    """Return the names in formulas of time alone."""
+    return {p.name for p in mechanism.parameters if not p.input} | {"t"}
+
+
+def _may_pass(part: Any) -> bool:
+    """Return whether comparisons or tables are written in a part of a mechanism: most have none, and a walk is long."""
+    text = msgspec.msgpack.encode(part)
+    return b"table:" in text or any(name in text for name in _COMPARED_TEXTS)
+
+
+@dataclass(frozen=True)
+class Discontinuity:
+    """A jump or kink of formulas of joints, forces and integrals at a value of the state.
+
+    Attributes
+    ----------
+    argument : Expr
+        A formula of a run.
+    table : Table or None
+        The table whose points it passes; None where it is compared with zero.
+    jumps : bool
+        Whether a formula may jump there, and not only have a kink.
+    holds : bool
+        Whether it is in the formula of a row.
+    """
+
+    argument: Expr
+    table: Table | None = None
+    jumps: bool = False
+    holds: bool = False
+
+
+def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
+    """Return jumps and kinks of formulas that depend on the state, each argument once for each table.
+
+    Comparisons and `sign` jump; `abs`, `min`, `max` and tables at their points have kinks. An integrand acts on
+    nothing, so that no other error shows a dip of it between two evaluations. ``s`` and ``rate`` of forces
+    are readings of their measures.
+    """
+    formulas = integrated(mechanism)
+    tables, plain = _tables(mechanism), {p.name for p in mechanism.parameters} | {"t"}
+    jumping = dict[tuple[Expr, Table | None], bool]()
+    for e, effort in _calls(*formulas) if _may_pass(formulas) else ():
+        table = tables.get(table_of(e.function) or "")
+        if e.function not in _COMPARED and table is None:
+            continue
+        argument = compared(e) if table is None else e.arguments[0]
+        argument = argument if effort is None else _of_a_run(argument, effort)
+        if any(readings(argument)) or not set(names_in(argument)) <= plain:
+            jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
+    held = dict.fromkeys((e, None) for row in changing_rows(mechanism) for e in row.switches)
+    for key in held:
+        jumping.setdefault(key, False)
+    return tuple(Discontinuity(*key, jumps, key in held) for key, jumps in jumping.items())
+
+
+def compares_state(mechanism: Mechanism) -> bool:
+    """Return whether formulas of joints, forces or integrals compare something that depends on the state."""
+    return any(x.table is None for x in discontinuities_of(mechanism))
+
+
+def kink_expressions(formula: Expr) -> tuple[Expr, ...]:
+    """Return expressions that are 0 wherever a formula jumps or has a kink, tables aside, each once."""
+    return tuple(dict.fromkeys(x for e, _ in _calls(formula) for x in _passed_at(e)))
+
+
+def _passed_at(e: Call) -> tuple[Expr, ...]:
+    """Return the expressions that are 0 where a call jumps or has a kink.
+
+    Of `atan2` these are both arguments, as its cut lies where y is 0. An inverse of a function that is not monotonic
+    has kinks: the root of a square is an absolute value.
+    """
+    if e.function in _COMPARED:
+        return (compared(e),)
+    if e.function == "atan2":
+        return e.arguments
+    inner = e.arguments[0]
+    if not isinstance(inner, Call):
+        return ()
+    if e.function == "sqrt" or (e.function == "pow" and not _is_whole(e.arguments[1])):
+        squared = inner.function == "pow" and isinstance(n := inner.arguments[1], Number) and n.value % 2.0 == 0.0
+        return inner.arguments[:1] if squared or (inner.function == "mul" and len({*inner.arguments}) == 1) else ()
+    turning = _INVERSE.get((e.function, inner.function))
+    return () if turning is None else (Call(turning, inner.arguments),)
+
+
+def _is_whole(e: Expr) -> bool:
+    return isinstance(e, Number) and e.value.is_integer()
+
+
+@dataclass(frozen=True)
+class ChangingRow:
+    """A row of a joint that compares something, or reads `atan2`: it may jump or have kinks.
+
+    Attributes
+    ----------
+    name, key : str
+        ``JOINT.LABEL``, and the key of its formula in a file.
+    unit : str
+        Of the row.
+    formula : Expr
+        What is held at 0.
+    motion : Expr
+        The terms of the formula that depend on time alone.
+    switches : tuple of Expr
+        Expressions that are 0 where the other terms may jump or have a kink.
+    is_speed : bool
+        Whether the row holds a velocity, whose rate may jump.
+    """
+
+    name: str
+    key: str
+    unit: str
+    formula: Expr
+    motion: Expr
+    switches: tuple[Expr, ...]
+    is_speed: bool
+
+
+@remembered
+def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
+    """Return the rows of joints whose formulas may jump or have kinks."""
+    result, timely = list[ChangingRow](), {p.name for p in mechanism.parameters} | {"t"}
+    for joint in mechanism.joints:
+        for i, row in enumerate(joint.rows):
+            measure = row.measure if isinstance(row, Holonomic) else row.speed
+            if not (kink_expressions(row.value) or any(True for _ in _changing_calls(measure))):
+                continue
+            own = isinstance(measure, FormulaMeasure | FormulaSpeed)
+            held = measure.of if isinstance(measure, FormulaMeasure | FormulaSpeed) else Reading(row.label, measure)
+            motion, rest = _parted(held, timely)
+            switches = tuple(dict.fromkeys(x for e, _ in _calls(rest) for x in _passed_at(e)))
+            moves = tuple(x for x in switches if any(readings(x)) or not set(names_in(x)) <= timely - {"t"})
+            key = "value" if not own else f"rows[{i}].{'position' if isinstance(row, Holonomic) else 'velocity'}"
+            result.append(
+                ChangingRow(
+                    f"{joint.name}.{row.label}",
+                    f"joints.{joint.name}.{key}",
+                    row.unit,
+                    difference(held, row.value),
+                    sum_of_terms(motion, row.value),
+                    moves,
+                    not isinstance(row, Holonomic),
+                )
+            )
+    return tuple(result)
+
+
+def _changing_calls(part: Any) -> Iterator[Call]:
+    """Yield the calls in a part of a mechanism that may jump or have kinks."""
+    return (e for e, _ in _calls(part) if _passed_at(e))
+
+
+def _parted(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
+    """Return the sums of the terms of a formula, times a sign, that depend on time alone, and of all others."""
+    if not any(readings(e)) and set(names_in(e)) <= timely:
+        return (e if sign > 0.0 else call("neg", e)), ZERO
+    if isinstance(e, Call) and e.function in ("add", "sub", "neg"):
+        signs = (-sign,) if e.function == "neg" else (sign, sign if e.function == "add" else -sign)
+        parts = [_parted(a, timely, x) for a, x in zip(e.arguments, signs, strict=True)]
+        return sum_of_terms(*(motion for motion, _ in parts)), sum_of_terms(*(rest for _, rest in parts))
+    return ZERO, e if sign > 0.0 else call("neg", e)
+
+
+def changing(part: Any) -> Iterator[Expr]:
+    """Yield whole formulas in a part of a mechanism that compare something or read a table, as formulas of a run."""
+    for formula, effort in _calls(part, enters=lambda e: False):
+        if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(formula)):
+            yield formula if effort is None else _of_a_run(formula, effort)
+
+
+def restricted(part: Any) -> Iterator[tuple[Expr, Expr]]:
+    """Yield formulas in a part of a mechanism, each with a call in it that is no number everywhere, as of a run."""
+    for whole, effort in _calls(part, enters=lambda e: False):
+        for e, _ in _calls(whole):
+            if e.function in ("div", "pow") or (e.function in ELEMENTARY and not ELEMENTARY[e.function].everywhere):
+                yield (whole, e) if effort is None else (_of_a_run(whole, effort), _of_a_run(e, effort))
+
+
+def _of_a_run(e: Expr, effort: Effort) -> Expr:
+    """Return a formula of an effort with its ``s`` and ``rate`` as readings of the measure."""
+    own = {name: Reading(name, effort.measure, order) for order, name in enumerate(("s", "rate"))}
+    return replaced(e, lambda name: own.get(name.name, name))
+
+
+def _calls(*parts: Any, enters: Callable[[Call], bool] = lambda e: True) -> Iterator[tuple[Call, Effort | None]]:
+    """Yield the calls of functions in the formulas of parts of a mechanism, and in which effort each is.
+
+    Calls inside a call follow where `enters` is true for it.
+    """
+    waiting: list[tuple[Any, Effort | None]] = [(part, None) for part in parts]
+    while waiting:  # in a loop: large mechanisms have tens of thousands of nodes
+        value, effort = waiting.pop()
+        if isinstance(value, Call):
+            yield value, effort
+            value = value.arguments if enters(value) else ()
+        if isinstance(value, tuple):
+            waiting += [(item, effort) for item in value]
+        elif isinstance(value, msgspec.Struct):
+            own = value if isinstance(value, Effort) else effort
+            waiting += [(getattr(value, field), own) for field in value.__struct_fields__]
+
+
+def longest_step(
+    mechanism: Mechanism, length: float, events: Sequence[Event] = (), jumps: Sequence[Jump] = ()
+) -> tuple[float, str]:
+    """Return the longest step that sees what formulas of the time do [s], and why it is that by default.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Whose own largest step counts before all else.
+    length : float
+        Of the run [s].
+    events, jumps : sequence of Event, sequence of Jump
+        Conditions of the run, and of its inputs.
+
+    Returns
+    -------
+    float
+        Infinity where no bound is needed.
+    str
+        A sentence, or empty.
+    """
+    if mechanism.defaults.max_step is not None:
+        return mechanism.defaults.max_step, ""
+    further = {"inputs": tuple(jump.argument for jump in jumps), "events": tuple(event.when for event in events)}
+    groups = *_groups(mechanism), *(group for group, part in further.items() if _may_hide(part, mechanism))
+    if not groups:
+        return math.inf, ""
+    longest = length / PARTS
+    return longest, (
+        f"formulas of t in {' and '.join(groups)} may have short features: adaptive steps are at most {longest:.3g} s,"
+        f" a thousandth of the run; what is shorter needs a smaller `max_step`"
+    )
+
+
+@remembered
+def _groups(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the groups of integrated formulas that may hide short changes."""
+    parts = zip(("drivers", "forces", "integrals"), integrated(mechanism), strict=True)
+    return tuple(group for group, part in parts if _may_hide(part, mechanism))
+
+
+def _may_hide(part: Any, mechanism: Mechanism) -> bool:
+    """Return whether a part of a mechanism has a formula of t and parameters that may hide short changes."""
+    if _TIME not in msgspec.msgpack.encode(part):
+        return False
+    timely, tables = _timely(mechanism), frozenset(_tables(mechanism))
+    largest = _calls(part, enters=lambda e: not set(names_in(e)) <= timely)
+    return any("t" in (used := set(names_in(e))) and used <= timely and _form(e, tables) is None for e, _ in largest)
+
+
+def _form(e: Expr, tables: frozenset[str]) -> tuple[float, frozenset[Expr]] | None:
+    """Return the power of a polynomial of t and one sine, and the sine's argument; None for any other formula."""
+    if not isinstance(e, Call):
+        return float(isinstance(e, Name) and e.name == "t"), frozenset()
+    forms = [form for a in e.arguments if (form := _form(a, tables)) is not None]
+    if len(forms) < len(e.arguments):
+        return None
+    powers = [power for power, _ in forms]
+    function, power, waves = e.function, max(powers), frozenset[Expr]().union(*(waves for _, waves in forms))
+    if power == 0.0 or function in _SIDES:  # constant, between known times at least
+        return 0.0, frozenset()
+    if function in ("sin", "cos"):
+        return (1.0, frozenset(e.arguments)) if power == 1.0 and not waves else None
+    if function == "mul":
+        power = sum(powers)
+    elif function == "pow" and isinstance(n := e.arguments[1], Number) and n.value in range(_LOW + 1):
+        power *= n.value
+    elif table_of(function) in tables:
+        power *= 3.0
+    elif function not in _PLAIN and not (function == "div" and powers[1] == 0.0):
+        return None
+    return (power, waves) if power <= _LOW and len(waves) <= 1 else None

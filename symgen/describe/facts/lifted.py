@@ -1,0 +1,155 @@
+"""Numbers written in a file, by their paths: one that a run is differentiated by becomes a parameter.
+
+Only numbers that are named become parameters, so that code of other runs stays what it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.files.origins import Origin, origin_of
+from symgen.describe.files.validate import validate
+from symgen.describe.formulas.names import LONGEST
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.parts.key_units import unit_of_key
+
+#: Sections whose numbers have paths; those of parameters, inputs and starts have names.
+SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", "stops")
+#: Keys and indices from the file to a number.
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Lifted:
+    """A mechanism in which numbers of its file are parameters.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The mechanism; the one that was handed over where there are no such numbers.
+    keys : mapping of str to str
+        Names as typed, each with its name in the mechanism.
+    """
+
+    mechanism: Mechanism
+    keys: Mapping[str, str]
+
+
+def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
+    """Return a mechanism in which the numbers that `names` has by their paths are parameters.
+
+    Parameters
+    ----------
+    where : str
+        Argument that has the names, for messages.
+    mechanism : Mechanism
+        The mechanism.
+    names : sequence of str
+        Paths such as ``bodies.crank.mass`` or ``bodies.crank.points.B[0]``; other names stay what they are.
+
+    Raises
+    ------
+    InputError
+        If a name comes twice, or a path leads to no number, or to one that has to be a number.
+    """
+    paths, keys = [name for name in names if _is_path(name)], {name: name for name in names}
+    if len(keys) < len(names):
+        twice = next(name for i, name in enumerate(names) if name in names[:i])
+        raise InputError(where, "each number once", f"{quoted(twice)} twice")
+    if not paths:
+        return Lifted(mechanism, keys)
+    origin = origin_of(mechanism)
+    if origin is None:
+        expected = "names of parameters, as the file of this model is not at hand"
+        raise InputError(where, expected, quoted(paths[0]), "load the file again")
+    places, raw = dict(_numbers(origin.raw)), [origin.raw]
+    others = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
+    for name in paths:
+        if name not in places:
+            raise _absent(where, name, origin, places)
+        keys[name] = _free(name, others)
+        others.add(keys[name])
+        raw.append(_replaced(raw[-1], places[name], keys[name], name))
+    try:
+        return Lifted(validate(raw[-1], origin.source), keys)
+    except InputError:
+        # one at a time, so that messages have the number that cannot vary
+        for name, own in zip(paths, raw[1:], strict=True):
+            try:
+                validate(own, origin.source)
+            except InputError as error:
+                got = f"{quoted(name)}, whose place takes {error.expected}"
+                raise InputError(where, "numbers that a parameter may stand for", got) from None
+        raise
+
+
+def _is_path(name: str) -> bool:
+    """Whether a name is the path of a number: coordinates, velocities and joints have no such parts."""
+    section, _, rest = name.partition(".")
+    return (section in SECTIONS and ("." in rest or section == "mechanism")) or "[" in name
+
+
+def _numbers(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
+    """Yield all numbers of a description with paths, as text and as keys."""
+    stack: list[tuple[str, Path, object]] = [(name, (name,), raw.get(name)) for name in SECTIONS]
+    while stack:
+        text, path, value = stack.pop()
+        if isinstance(value, Mapping):
+            stack.extend((f"{text}.{key}", (*path, key), item) for key, item in value.items())
+        elif isinstance(value, list | tuple):
+            stack.extend((f"{text}[{i}]", (*path, i), item) for i, item in enumerate(value))
+        elif isinstance(value, int | float) and not isinstance(value, bool):
+            yield text, path
+
+
+def _absent(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -> InputError:
+    """Return the error about a path that leads to no number."""
+    value: object = origin.raw
+    for part in re.findall(r"[^.\[\]]+", name):
+        if isinstance(value, Mapping):
+            value = value.get(part)
+        elif isinstance(value, list | tuple) and part.isdecimal() and len(part) < 9 and int(part) < len(value):
+            value = value[int(part)]
+        else:
+            value = None
+    expected = f"the path of a number in {origin.source}"
+    if isinstance(value, str):
+        return InputError(where, expected, f"{quoted(name)}, which is {quoted(value)}", "take the parameters in it")
+    return InputError(where, expected, quoted(name), nearest(name, places))
+
+
+def _free(name: str, others: set[str]) -> str:
+    """Return a name of a parameter for a path."""
+    own = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[: LONGEST - 4]
+    return next(x for k in range(len(others) + 1) if (x := own if not k else f"{own}_{k}") not in others)
+
+
+def _replaced(raw: Mapping[str, Any], path: Path, parameter: str, name: str) -> dict[str, Any]:
+    """Return a description in which a parameter stands in place of a number; what shares a list keeps its own."""
+    value: Any = raw
+    for part in path:
+        value = value[part]
+    entry = {"value": float(value), "unit": _unit(raw, path), "note": name}
+    result: dict[str, Any] = _put(raw, path, parameter)
+    result["parameters"] = {**raw.get("parameters", {}), parameter: entry}
+    return result
+
+
+def _unit(raw: Mapping[str, Any], path: Path) -> str:
+    """Return the unit of a number; empty where the texts on its table have none, or one for each of several."""
+    section, key = str(path[0]), str(path[1] if path[0] == "mechanism" else path[2] if len(path) > 2 else "")
+    kind = str(raw[section][path[1]].get("type")) if section in ("joints", "forces") else ""
+    return unit_of_key(section, key, kind)
+
+
+def _put(value: Any, path: Path, new: str) -> Any:
+    """Return a copy of tables and lists on a path, with another end of it."""
+    if not path:
+        return new
+    copied: Any = dict(value) if isinstance(value, Mapping) else list(value)
+    copied[path[0]] = _put(value[path[0]], path[1:], new)
+    return copied

@@ -1,0 +1,79 @@
+"""What to write in place of formulas that jump with the state: the key ``friction`` where they read a velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, names_in, readings
+from symgen.describe.facts.kinks import discontinuities_of
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import Joint, Mechanism
+
+_SMOOTH = "a steep smooth one in its place, such as tanh(v/1e-3), has motions that radau5 follows"
+
+
+def advice_on_jumps(mechanism: Mechanism) -> str:
+    """Return what to write in place of formulas of the state that jump; empty without such formulas.
+
+    Friction by the sign of a velocity leads to the key ``friction`` of the joint that reports the coordinate of this
+    velocity, or else of a joint that moves with it.
+    """
+    jumping = [x.argument for x in discontinuities_of(mechanism) if x.jumps]
+    velocities = [found for argument in jumping if (found := _velocity(mechanism, argument)) is not None]
+    if not velocities:
+        return _SMOOTH if jumping else ""
+    alone = [read for argument, read in velocities if _is_alone(argument)]
+    for of_velocity in (_reports, _turns_or_slides):
+        for read in alone:
+            for joint, label in _coordinates(mechanism):
+                if of_velocity(joint, label, read):
+                    return _key(joint, label, read.name)
+    return (
+        "dry friction that sticks is the key friction of a joint with that coordinate, in place of the sign of "
+        f"{to_text(velocities[0][0])}: 'friction = {{ sliding = BOUND }}', BOUND in N or N m"
+    )
+
+
+def _velocity(mechanism: Mechanism, argument: Expr) -> tuple[Expr, Reading | Name] | None:
+    """Return a formula that is compared with zero and the velocity in it, or None."""
+    speeds = {f"{body.name}.{speed}" for body in mechanism.bodies for speed in body.speeds}
+    rate = next((reading for reading in readings(argument) if reading.order == 1), None)
+    velocity = rate or next((Name(name) for name in names_in(argument) if name in speeds), None)
+    return None if velocity is None else (argument, velocity)
+
+
+def _is_alone(argument: Expr) -> bool:
+    """Return whether what is compared with zero is one quantity, as in ``sign(v)`` and ``v > 0``."""
+    if isinstance(argument, Call) and argument.function == "sub":
+        first, second = argument.arguments
+        argument = first if second == ZERO else second if first == ZERO else argument
+    return not isinstance(argument, Call)
+
+
+def _coordinates(mechanism: Mechanism) -> Iterator[tuple[Joint, str]]:
+    """Yield joints and their coordinates that may have friction and have none."""
+    rough = {friction.joint for friction in mechanism.frictions}
+    for joint in mechanism.joints:
+        if joint.kind != "driver" and joint.name not in rough:
+            yield from ((joint, label) for label, _ in joint.coordinates)
+
+
+def _reports(joint: Joint, label: str, read: Reading | Name) -> bool:
+    """Return whether a velocity is the rate of a coordinate of a joint."""
+    return isinstance(read, Reading) and read.source == dict(joint.coordinates)[label]
+
+
+def _turns_or_slides(joint: Joint, label: str, read: Reading | Name) -> bool:
+    """Return whether a velocity is one of a body of a joint, angular or not as its coordinate is."""
+    body, _, speed = read.name.partition(".")
+    return body in joint.bodies and (joint.unit(label) == "rad") == speed.rpartition(".")[2].startswith(("omega", "w"))
+
+
+def _key(joint: Joint, label: str, text: str) -> str:
+    """Return the sentence on the key of a joint."""
+    key = "friction" if len(joint.coordinates) == 1 else f"friction.{label}"
+    unit = "N m" if joint.unit(label) == "rad" else "N"
+    return (
+        f"for dry friction, which sticks, write '{key} = {{ sliding = BOUND }}' in [joints.{joint.name}], BOUND in "
+        f"{unit}, in place of the formula with the sign of {text}"
+    )

@@ -1,0 +1,81 @@
+"""Units of numbers that people type for a mechanism, as in ``--set`` and ``--start``.
+
+A number for a parameter or an input is in the unit of the file, one for a coordinate or velocity in its SI unit, unless
+a unit is typed behind it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from symgen.base.units import Amount
+from symgen.describe.formulas.readings import STATE, of_joint
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.parts.topology import unit_of_column
+
+
+class Typed(float):
+    """A number as typed, with the unit behind it, if any; its value is in that unit."""
+
+    unit: str = ""
+
+    @classmethod
+    def of(cls, amount: Amount) -> Typed:
+        """Return the number of an amount."""
+        typed = cls(amount.number)
+        typed.unit = amount.unit
+        return typed
+
+
+def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
+    """Return the SI unit of a named number, empty if it is not known, and the unit in which people type it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The mechanism.
+    name : str
+        A parameter, an input, a state, or a coordinate or velocity of a body or joint.
+    """
+    for parameter in mechanism.parameters:
+        if parameter.name == name:
+            return parameter.unit, parameter.shown or parameter.unit
+    for state in mechanism.states:
+        if state.name == name:
+            return state.unit, state.unit
+    owner, _, label = name.rpartition(".")
+    if any(body.name == owner for body in mechanism.bodies):
+        unit = unit_of_column(label)
+        return unit, unit
+    owner, _, label = name.partition(".")
+    units = {
+        of: unit
+        for joint in mechanism.joints
+        if joint.name == owner
+        for of, (_, unit) in of_joint(joint, STATE).items()
+    }
+    unit = units.get(label, "")
+    return unit, unit
+
+
+def in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:
+    """Return numbers by their names in SI units; those that nobody typed are in them already.
+
+    Parameters
+    ----------
+    mechanism, values : Mechanism, mapping of str to float
+        The mechanism, and values of which some are `Typed`.
+    where : str
+        The option, for messages.
+
+    Raises
+    ------
+    InputError
+        If a unit is none, or none of the quantity.
+    """
+    return {
+        name: Amount(float(value), value.unit).in_si(f"{where} {name}", *units_of_number(mechanism, name))
+        if isinstance(value, Typed)
+        else value
+        for name, value in values.items()
+    }

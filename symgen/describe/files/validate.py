@@ -1,0 +1,440 @@
+"""Nested dictionary to `Mechanism`: the one validator behind files, catalogue and builder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import msgspec
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.memory import uncollected
+from symgen.base.units import unit_of
+from symgen.base.vocabulary.expressions import ONE, call
+from symgen.base.vocabulary.measures import GROUND, Marker
+from symgen.describe.bounds.friction import check_frictions, read_friction, with_friction_outputs
+from symgen.describe.bounds.losses import losses
+from symgen.describe.bounds.smooth_friction import with_smooth_friction
+from symgen.describe.bounds.stops import check_stops, read_gap, read_limits, with_stop_outputs
+from symgen.describe.files.origins import errors_in, keep_origin
+from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
+from symgen.describe.mechanism import (
+    AnyBody,
+    Defaults,
+    EndStop,
+    Force,
+    Friction,
+    Hold,
+    Joint,
+    Mechanism,
+    Output,
+    Parameter,
+    Rotor,
+    Shape,
+    StateVariable,
+    Vec,
+)
+from symgen.describe.parts.bodies import planar_body, shapes_of, spatial_body
+from symgen.describe.parts.collected import Errors, Incomplete
+from symgen.describe.parts.columns import check_columns
+from symgen.describe.parts.events import read_event
+from symgen.describe.parts.fields import (
+    OF_ANY_JOINT,
+    Flag,
+    JointStart,
+    OutputFunction,
+    Scalar,
+    read_table,
+    read_value,
+    words_of,
+)
+from symgen.describe.parts.holds import body_holds, holds_of, joint_holds
+from symgen.describe.parts.kinds import FORCES, JOINTS
+from symgen.describe.parts.numbers import read_defaults, read_points
+from symgen.describe.parts.own_units import check_single
+from symgen.describe.parts.parameters import Parameters
+from symgen.describe.parts.scope import Context, Scope
+from symgen.describe.parts.sections import (
+    NAMED,
+    SECTIONS,
+    MechanismSection,
+    OutputSection,
+    StateSection,
+)
+from symgen.describe.parts.topology import articulation_of
+
+if TYPE_CHECKING:
+    from symgen.describe.beams.beams import Beams
+
+Raw = Mapping[str, Any]
+T = TypeVar("T")
+#: Levels of tables in a file, and joints in a chain of references.
+DEEPEST = 20
+
+
+@uncollected()
+def validate(raw: Raw, source: str) -> Mechanism:
+    """Return the mechanism that the nested dictionary `raw` describes.
+
+    Parameters
+    ----------
+    raw, source : mapping, str
+        Sections as in a mechanism file; its name or other origin, with which every message begins.
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong.
+    """
+    with errors_in(source):
+        mechanism = _Validator(raw, source, Errors()).mechanism()
+    return keep_origin(mechanism, raw, source)
+
+
+@uncollected()
+def errors_of(raw: Raw, source: str) -> tuple[InputError, ...]:
+    """Return all that is wrong with a description, as of `validate`: of each table the first thing.
+
+    Errors that follow from tables which are wrong, such as joints of their bodies, are left out.
+    """
+    errors = Errors(all_of_them=True)
+    with suppress(Incomplete), errors.apart():
+        _Validator(raw, source, errors).mechanism()
+    return tuple(errors.found.values())
+
+
+class _Validator:
+    """One description being read, section by section; joints may refer to each other and are resolved on demand."""
+
+    def __init__(self, raw: Raw, source: str, errors: Errors) -> None:
+        self.raw, self.source = raw, source
+        self.errors = errors
+        self._entries: dict[str, list[tuple[str, Any]]] = {}
+        self._joints: dict[str, Joint | None] = {}
+        self._seats: dict[str, Marker] = {}
+        self._open = 0  # joints being resolved, each because the one before refers to it
+        self._cuts: list[str] = []
+        self._rotors: dict[str, Rotor] = {}
+        self._frictions: dict[str, tuple[Friction, ...]] = {}
+        self._limits: dict[str, tuple[EndStop, ...]] = {}
+        self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
+        self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
+
+    def where(self, path: str) -> str:
+        return f"{self.source}: {path}"
+
+    def scope(self, section: str, name: str) -> Scope:
+        return Scope(self.context, f"{section}.{name}", name)
+
+    def each(self, section: str, read: Callable[[str, Any], T]) -> tuple[T, ...]:
+        """Return what `read` makes of name and content of a section's entries, each apart from the others."""
+        results = []
+        for name, value in self.entries(section):
+            beam = (name.partition(".")[0],) if name in self._parts else ()  # whose further parts are wrong alike
+            with self.errors.apart(name, *beam):
+                self.errors.need(*beam)
+                results.append(read(name, value))
+        return tuple(results)
+
+    def head(self) -> MechanismSection:
+        """Return the table that says what the mechanism is called, and in which space it lies."""
+        for key, content in self.raw.items():
+            if key not in SECTIONS:
+                with self.errors.apart(*(content if isinstance(content, Mapping) else ())):
+                    expected, got = f"the sections {', '.join(SECTIONS)}", f"the unknown section {quoted(key)}"
+                    raise InputError(self.source, expected, got, nearest(key, SECTIONS), key)
+        where = self.where("mechanism")
+        with self.errors.apart():
+            if "mechanism" not in self.raw:
+                raise InputError(where, "a section [mechanism] with a name", "no such section")
+            head = read_table(MechanismSection, self.raw["mechanism"], where)
+            with self.errors.apart():
+                check_mechanism_name(head.name, f"{where}.name")
+            return head
+        # What is right in the rest depends on the space.
+        table = self.raw.get("mechanism")
+        if not isinstance(table, Mapping) or table.get("space", "planar") not in ("planar", "spatial"):
+            raise Incomplete
+        if "space" not in table and nearest("space", table).startswith("did you mean"):
+            raise Incomplete
+        return MechanismSection(name="", space=table.get("space", "planar"))
+
+    def mechanism(self) -> Mechanism:
+        head = self.head()
+        self.unique()
+        parameters = self.parameters()
+        tables = self.each("tables", lambda name, value: read_points(name, value, self.where(f"tables.{name}")))
+        self.context = Context(
+            self.source,
+            {p.name: p.value for p in parameters if not p.input},
+            {t.name: t for t in tables},
+            {},
+            self.joint,
+            head.space,
+            frozenset(name for name, _ in self.entries("joints")),
+            inputs=tuple(p.name for p in parameters if p.input),
+            state_names=tuple(name for name, _ in self.entries("states")),
+        )
+        scope = Scope(self.context, "mechanism")
+        read_body = spatial_body if head.space == "spatial" else planar_body
+        beams = self.beams(read_body)
+        gravity: Vec = ()
+        with self.errors.apart():
+            gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
+        bodies = self.bodies(read_body, beams)
+        self.context = msgspec.structs.replace(self.context, bodies={body.name: body for body in bodies})
+        joints = self.each("joints", lambda name, _: self.joint(name, self.where("joints")))
+        forces = self.each("forces", self.force)
+        self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
+        holds, shapes = self.holds_and_shapes(bodies)
+        holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
+        frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
+        stops = (
+            *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
+            *self.each("stops", lambda name, value: read_gap(self.scope("stops", name), value)),
+        )
+        self.context = msgspec.structs.replace(self.context, losses=losses((*frictions, *stops)))
+        defaults = self.defaults(line(head.source))
+        states = self.each("states", self.state)
+        outputs = self.each("outputs", self.output)
+        events = self.each("events", lambda name, value: read_event(self.scope("events", name), name, value))
+        self.errors.check()
+        mechanism = Mechanism(
+            name=head.name,
+            title=line(head.title),
+            space=head.space,
+            gravity=gravity,
+            parameters=parameters,
+            tables=tables,
+            bodies=bodies,  # type: ignore[arg-type]  # all of one space
+            joints=joints,
+            forces=forces,
+            defaults=defaults,
+            rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
+            frictions=tuple(friction for friction in frictions if friction.speed is None),
+            stops=stops,
+            states=states,
+            outputs=outputs,
+            seats=tuple(self._seats.items()),
+            cuts=tuple(self._cuts),
+            holds=tuple(holds),
+            shapes=tuple(shapes),
+            beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
+            events=events,
+        )
+        with self.errors.apart():
+            smooth = [friction for friction in frictions if friction.speed is not None]
+            mechanism = with_smooth_friction(with_stop_outputs(with_friction_outputs(mechanism)), smooth)
+            check_columns(mechanism, self.source)
+            check_frictions(mechanism, self.source)
+            check_stops(mechanism, self.source)
+            holds_of(mechanism, self.source)  # says what is held twice
+        return mechanism
+
+    # Names ---------------------------------------------------------------------------------------------------------
+
+    def entries(self, section: str) -> Sequence[tuple[str, Any]]:
+        """Return name and content of a section's entries, names checked."""
+        if section not in self._entries:
+            self._entries[section] = list(self.checked(section))
+        return self._entries[section]
+
+    def checked(self, section: str) -> Iterator[tuple[str, Any]]:
+        """Yield name and content of a section's entries whose names are right."""
+        content = self.raw.get(section, {})
+        if not isinstance(content, Mapping):
+            with self.errors.apart():
+                raise InputError(self.where(section), f"a table of {section}, one entry a name", words_of(content))
+            raise Incomplete  # which names the rest may use is unknown
+        for name, value in content.items():
+            right = name in self._parts
+            if not right:
+                with self.errors.apart(name):
+                    right = bool(check_identifier(name, self.where(section), NAMED[section]))
+            if right:
+                yield name, value
+
+    def unique(self) -> None:
+        """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
+        for group in (
+            ("bodies", "beams", "joints", "forces", "stops"),
+            ("parameters", "inputs", "states", "tables"),
+            ("states", "outputs"),
+        ):
+            sections: dict[str, str] = {}
+            for section in group:
+                for name, _ in self.entries(section):
+                    if name in sections:
+                        with self.errors.apart():
+                            got = f"'{name}', which is a {NAMED[sections[name]]} already"
+                            raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
+                    sections[name] = section
+
+    def beams(self, read_body: Callable[[Scope, object], AnyBody]) -> Beams | None:
+        """Put the nodes and elements of beams into the description; return the beams, None where there are none."""
+        if not self.entries("beams"):
+            return None
+        from symgen.describe.beams.beams import Beams
+
+        with self.errors.apart(*(name for name, _ in self.entries("beams"))):
+            beams = Beams(self.raw, self.scope, read_body, self.errors)
+            self.raw, self._parts = beams.expanded(), frozenset((*beams.bodies, *beams.forces))
+            self._entries.clear()
+            return beams
+        return None
+
+    def bodies(self, read_body: Callable[[Scope, object], AnyBody], beams: Beams | None) -> tuple[AnyBody, ...]:
+        """Return the bodies, and the nodes of beams."""
+        bodies = self.each("bodies", lambda name, value: read_body(self.scope("bodies", name), value))
+        if not self.raw.get("bodies") and not self.raw.get("beams"):
+            self.errors.check()
+            raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+        with self.errors.apart(*(body.name for body in bodies)):
+            return bodies if beams is None else tuple(map(beams.with_ends, bodies))
+        return ()
+
+    def holds_and_shapes(self, bodies: tuple[AnyBody, ...]) -> tuple[list[Hold], list[tuple[str, Shape]]]:
+        """Return what bodies keep of their start, and what they and the ground look like."""
+        holds, shapes = list[Hold](), list[tuple[str, Shape]]()
+        with self.errors.apart():
+            ground = Scope(self.context, "mechanism", GROUND)
+            shapes += [(GROUND, shape) for shape in shapes_of(ground, self.raw["mechanism"])]
+        for body in bodies:
+            scope, raw = self.scope("bodies", body.name), self.raw["bodies"][body.name]
+            with self.errors.apart():
+                holds += body_holds(scope, raw, body)
+            with self.errors.apart():
+                shapes += [(body.name, shape) for shape in shapes_of(scope, raw)]
+        return holds, shapes
+
+    # Sections ------------------------------------------------------------------------------------------------------
+
+    def defaults(self, source: str) -> Defaults:
+        with self.errors.apart():
+            return read_defaults(self.raw.get("run", {}), self.where("run"), source)
+        return Defaults()
+
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
+        sections = {section: dict(self.entries(section)) for section in ("parameters", "inputs")}
+        return Parameters(self.source, self.errors, sections, [name for name, _ in self.entries("tables")]).read()
+
+    def state(self, name: str, raw: object) -> StateVariable:
+        where, scope = self.where(f"states.{name}"), self.scope("states", name)
+        section = read_table(StateSection, raw, where)
+        unit = unit_of(section.unit, f"{where}.unit")
+        if not unit.is_si:
+            hint = f'a start may have one of its own: "5 {unit.text}"'
+            raise InputError(f"{where}.unit", f"an SI unit such as {unit.si}, as formulas are", quoted(unit.text), hint)
+        scope.coordinates = {name: unit.si}
+        start, rate = scope.constant("start", section.start), scope.of_state("rate", section.rate)
+        return StateVariable(name, start, rate, unit.text)
+
+    def output(self, name: str, raw: object) -> Output:
+        where = self.where(f"outputs.{name}")
+        if isinstance(raw, Mapping):
+            section, key = read_table(OutputSection, raw, where), "value"
+        else:
+            section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
+        scope = self.scope("outputs", name)
+        value = scope.of_motion(key, section.value)
+        unit = unit_of(section.unit, f"{where}.unit")
+        check_single(scope, value, unit)
+        return Output(name, value, unit.text)
+
+    # Joints and forces ---------------------------------------------------------------------------------------------
+
+    def split(self, path: str, raw: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:
+        """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
+        where = self.where(path)
+        if not isinstance(raw, Mapping):
+            raise InputError(where, "a table", words_of(raw))
+        kind = raw.get("type")
+        if not isinstance(kind, str):
+            got = "no such key" if kind is None else words_of(kind)
+            raise InputError(f"{where}.type", f"a {what}", got)
+        return kind, {key: value for key, value in raw.items() if key not in ("type", *common)}
+
+    def joint(self, name: str, where: str) -> Joint:
+        """Return the joint `name`, resolved now if another one asks for it first."""
+        if name not in self.raw.get("joints", {}):
+            got = f"the unknown joint {quoted(name)}"
+            raise InputError(where, "the name of a joint", got, nearest(name, self.raw.get("joints", {})))
+        if name in self._joints:
+            self.errors.need(name)
+            resolved = self._joints[name]
+            if resolved is None:
+                raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
+            return resolved
+        self._joints[name] = None
+        self._open += 1
+        with self.errors.apart(name):
+            if self._open > DEEPEST:
+                raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
+            self._joints[name] = joint = self.read_joint(name)
+            self._open -= 1
+            return joint
+        self._open -= 1
+        raise Incomplete
+
+    def read_joint(self, name: str) -> Joint:
+        """Return the joint `name`, and note what else its table says."""
+        path = f"joints.{name}"
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", *OF_ANY_JOINT)
+        struct = JOINTS.get(kind, self.where(f"{path}.type"))
+        scope = Scope(self.context, path, name, JOINTS.canonical(kind))
+        scope.check_space(struct.SPACES)
+        section = read_table(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
+        joint = section.build(scope)
+        scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
+        at = getattr(section, "at", None)
+        if at is not None:
+            point = at[0] if hasattr(section, "between") else at
+            self._seats[name] = scope.marker("at", joint.bodies[0], point)
+        if "start" in self.raw["joints"][name]:
+            coordinates = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
+            self._starts[name] = joint_holds(scope, coordinates, joint)
+        if read_value(Flag, self.raw["joints"][name].get("cut", False), self.where(f"{path}.cut")):
+            if articulation_of(joint) is None:
+                got = f"a {joint.kind} joint, which has rows in any case"
+                raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
+            self._cuts.append(name)
+        self.rotor(scope, joint, self.raw["joints"][name])
+        if "friction" in self.raw["joints"][name]:
+            self._frictions[name] = read_friction(scope, joint, self.raw["joints"][name]["friction"])
+            if any(friction.pressed for friction in self._frictions[name]) and name not in self._cuts:
+                self._cuts.append(name)  # its reaction is a multiplier
+        if "stop" in self.raw["joints"][name]:
+            self._limits[name] = read_limits(scope, joint, self.raw["joints"][name]["stop"])
+        return joint
+
+    def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:
+        """Note the rotor of a joint, where it has one."""
+        if "rotor_inertia" not in raw:
+            if "gear_ratio" in raw:
+                raise scope.error("gear_ratio", "the key rotor_inertia beside it", "no such key")
+            return
+        angles = [measure for label, measure in joint.coordinates if Joint.unit(label) == "rad"]
+        if not angles and len(joint.coordinates) == 1:  # a slide, which the rotor drives by a spindle or a belt
+            angles = [measure for _, measure in joint.coordinates]
+        if len(angles) != 1:
+            got = f"a {joint.kind} joint with {len(angles) or 'none'}"
+            raise scope.error("rotor_inertia", "a joint with one angle, or one displacement alone", got)
+        inertia, ratio = (
+            scope.constant(key, read_value(Scalar, raw.get(key, 1.0), scope.where(key)), positive=positive)
+            for key, positive in (("rotor_inertia", True), ("gear_ratio", False))
+        )
+        if ratio != ONE:
+            inertia = call("mul", inertia, call("mul", ratio, ratio))
+        way = articulation_of(joint)
+        axes = (way.of_a[2], way.of_b[2]) if way is not None and way.turn == "axis" and way.of_a else ()
+        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia, axes)
+
+    def force(self, name: str, raw: object) -> Force:
+        path = f"forces.{name}"
+        kind, table = self.split(path, raw, "force type")
+        struct = FORCES.get(kind, self.where(f"{path}.type"))
+        scope = Scope(self.context, path, name, FORCES.canonical(kind))
+        scope.check_space(struct.SPACES)
+        return read_table(struct, table, self.where(path), ("type",)).build(scope)

@@ -1,0 +1,338 @@
+"""Quantities that formulas read by dotted names: of points of bodies, joints, forces and drivers.
+
+| written | is | where |
+| --- | --- | --- |
+| ``arm.tip.x``, ``.y``, in space ``.z`` | a point's coordinate in the ground frame [m] | everywhere |
+| ``arm.tip.vx``, ``.vy``, ``.vz`` | its velocity [m/s] | everywhere |
+| ``arm.tip.ax``, ``.ay``, ``.az`` | its acceleration [m/s^2] | outputs |
+| ``arm.ex.x`` ..., ``arm.ez.z`` | in space, component of an axis of a body's frame in the ground frame | everywhere |
+| ``arm.ex.vx`` ..., ``arm.ez.vz`` | its rate [1/s] | everywhere |
+| ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives | everywhere |
+| ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
+| ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
+| ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
+| ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
+| ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
+| ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
+| ``pin.dissipated``, ``pin.lower.dissipated`` | energy lost in dry friction, and at a stop | outputs |
+
+`symgen.describe.formulas.readings` makes columns of results from the same table.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, literal_of, moving, readings
+from symgen.base.vocabulary.measures import (
+    GROUND,
+    AnyAngle,
+    Component,
+    Direction,
+    Distance,
+    Dot,
+    Driven,
+    Effort,
+    Exerted,
+    Flexed,
+    Flexure,
+    FormulaMeasure,
+    HalfSquare,
+    Holonomic,
+    Integral,
+    Marker,
+    Source,
+    Spin,
+    Sum,
+    axes,
+)
+from symgen.describe.mechanism import Force, Joint, Mechanism
+
+if TYPE_CHECKING:
+    from symgen.describe.parts.scope import Context
+
+
+#: Prefixes of a point's coordinates, by the order of the derivative, and their units.
+ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
+#: Largest order in functions of state, and in outputs, where v' and efforts are available.
+STATE, OUTPUT = 1, 2
+
+#: Axes of a body's frame in space.
+AXES = ("ex", "ey", "ez")
+#: Components of the strain of a beam element, and of force and moment, in the plane and in space.
+PLANE = ("strain", "shear", "curvature"), ("N", "Q", "M")
+SPACE = (
+    ("strain", "shear_y", "shear_z", "twist", "curvature_y", "curvature_z"),
+    ("N", "Qy", "Qz", "T", "My", "Mz"),
+)
+
+#: Names behind an owner's -> quantity and unit.
+Table = dict[str, tuple[Reading, str]]
+
+
+def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
+    """Return a point's coordinates and their derivatives up to an order; `name` is the point's with its body's."""
+    origin, table = Marker(GROUND, (ZERO,) * dimension), Table()
+    for derivative, (letter, unit) in enumerate(list(ORDERS.items())[: order + 1]):
+        for axis, direction in zip("xyz", axes(GROUND, dimension), strict=False):
+            label = f"{letter}{axis}"
+            table[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
+    return table
+
+
+def of_axis(name: str, axis: Direction) -> Table:
+    """Return the components of an axis of a body in the ground frame, and their rates; `name` is the axis' own."""
+    table = Table()
+    for letter, direction in zip("xyz", axes(GROUND, 3), strict=True):
+        table[letter] = Reading(f"{name}.{letter}", Dot(direction, axis)), ""
+        table[f"v{letter}"] = Reading(f"{name}.v{letter}", Dot(direction, axis), 1), "1/s"
+    return table
+
+
+def of_joint(joint: Joint, order: int) -> Table:
+    """Return the coordinates of a joint with their rates; of a driver, its driven coordinate and its effort."""
+    row = joint.rows[0] if joint.kind == "driver" else None
+    coordinates = joint.coordinates
+    if isinstance(row, Holonomic) and not coordinates:
+        coordinates = (("angle" if row.unit == "rad" else "displacement", row.measure),)
+    table = Table()
+    for label, measure in coordinates:
+        unit = joint.unit(label)
+        table |= _with_rate(joint.name, label, measure, unit)
+        if len(coordinates) == 1:
+            table["rate"] = Reading(f"{joint.name}.rate", measure, 1), f"{unit}/s"
+    if isinstance(row, Holonomic) and order == OUTPUT:
+        driven = Driven(f"{joint.name}.{row.label}", row.measure)
+        table["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
+        table["power"] = Reading(f"{joint.name}.power", Driven(driven.row, driven.measure, power=True)), "W"
+    return table
+
+
+def of_force(force: Force, order: int) -> Table:
+    """Return the measure of a force along one measure, and at outputs its effort."""
+    table, name = Table(), force.name
+    efforts = tuple(map(_along_length, force.efforts))
+    single = efforts[0] if len(efforts) == 1 else None
+    word = "" if single is None else _extent(single.measure)
+    if single is not None and word:
+        unit = "m" if word == "length" else "rad"
+        table[word] = Reading(f"{name}.{word}", single.measure), unit
+        table["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
+    for flexure in force.flexures:
+        table |= _of_flexure(name, flexure)
+    if order == OUTPUT and (efforts or force.flexures):
+        components: dict[str, list[Effort]] = {}
+        for effort in efforts:
+            for component in _components(effort, word):
+                components.setdefault(component, []).append(effort)
+        for component, parts in components.items():
+            unit = "N m" if is_turning(parts[0].measure) else "N"
+            table[component] = Reading(f"{name}.{component}", Exerted(tuple(parts))), unit
+        table["power"] = Reading(f"{name}.power", Exerted(efforts, True, force.flexures)), "W"
+    return table
+
+
+def _of_flexure(name: str, flexure: Flexure) -> Table:
+    """Return the strain in the middle of a beam element, and the force and moment of the section there."""
+    strains, stresses = PLANE if len(flexure.compliances) == 3 else SPACE
+    bends = len(strains) // 2
+    table = Table()
+    for stress, labels, units in ((False, strains, ("", "1/m")), (True, stresses, ("N", "N m"))):
+        for i, label in enumerate(labels):
+            unit = units[i > bends] if len(labels) == 3 else units[i >= bends]
+            table[label] = Reading(f"{name}.{label}", Flexed(flexure, i, stress)), unit
+    return table
+
+
+def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
+    name = f"{owner}.{label}"
+    return {label: (Reading(name, measure), unit), f"{label}.rate": (Reading(f"{name}.rate", measure, 1), f"{unit}/s")}
+
+
+def _along_length(effort: Effort) -> Effort:
+    """Return an effort along half the square of a length, U = k s, as one along the length, U = k s^2 / 2."""
+    if not isinstance(effort.measure, HalfSquare) or not isinstance(effort.potential, Call):
+        return effort
+    half, stiffness = Reading("half", effort.measure), effort.potential.arguments[0]
+    length = FormulaMeasure(call("sqrt", call("mul", literal_of(2.0), half)))
+    squared = call("pow", Name("s"), literal_of(2.0))
+    return Effort(effort.label, length, potential=call("mul", call("div", stiffness, literal_of(2.0)), squared))
+
+
+def _extent(measure: Source) -> str:
+    """Return the name of the measure of a force, empty where it has none."""
+    return (
+        "length" if isinstance(measure, Distance | FormulaMeasure) else "angle" if isinstance(measure, AnyAngle) else ""
+    )
+
+
+def _components(effort: Effort, extent: str) -> list[str]:
+    """Return names of the total of an effort: force or torque along a measure, or components along axes."""
+    if not effort.label:
+        return []
+    if extent:
+        return ["force" if extent == "length" else "torque"]
+    kind = "M" if is_turning(effort.measure) else "F"
+    axes_ = re.findall(r"(turn_)?([xyz])(?![a-z])", effort.label)
+    return [("M" if turn else kind) + axis for turn, axis in axes_] or [effort.label]
+
+
+def is_turning(measure: Source) -> bool:
+    """Whether the effort along a measure is a torque."""
+    if isinstance(measure, Sum):
+        return is_turning(measure.terms[0][1])
+    if isinstance(measure, FormulaMeasure):
+        return all(is_turning(r.source) for r in readings(measure.of))
+    return isinstance(measure, AnyAngle | Spin | Dot)
+
+
+def is_angle(of: Expr) -> bool:
+    """Whether all moving quantities in a formula are angles and axes."""
+    turning = (
+        is_turning(e.source) if isinstance(e, Reading) else e.name.rpartition(".")[2][0] in ("t", "o", "w")
+        for e in moving(of)
+    )
+    return all(turning)
+
+
+class Readings:
+    """The dotted names of a mechanism, looked up one by one: a file may have thousands of bodies.
+
+    Parameters
+    ----------
+    context : Context
+        Facts about the mechanism.
+    order : int
+        `STATE`, or `OUTPUT` where v' and efforts are available.
+    """
+
+    def __init__(self, context: Context, order: int = STATE) -> None:
+        self._context, self._order = context, order
+        self._dimension = 3 if context.space == "spatial" else 2
+
+    @property
+    def _losses(self) -> Mapping[str, Reading]:
+        return self._context.losses if self._order == OUTPUT else {}
+
+    def owners(self) -> Iterator[str]:
+        """Yield the names of all bodies, joints, forces and stops with readings."""
+        yield from self._context.bodies
+        yield from self._context.joint_names
+        yield from self._context.forces
+        yield from (name.partition(".")[0] for name in self._losses)
+
+    def has(self, name: str) -> bool:
+        """Return whether a force has this name."""
+        return name in self._context.forces
+
+    def speeds_of(self, owner: str) -> tuple[str, ...]:
+        """Return the velocities of a body; none of what is no body."""
+        body = self._context.bodies.get(owner)
+        return () if body is None else body.speeds
+
+    def names_of(self, owner: str, where: str) -> tuple[str, ...]:
+        """Return the readings of a body, joint or force besides a body's own coordinates."""
+        if owner in self._context.bodies:
+            points = self._context.points[owner]
+            return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
+        lost = (name.partition(".") for name in self._losses)
+        return (*self._of_element(owner, where), *(label for head, _, label in lost if head == owner))
+
+    def find(self, path: tuple[str, ...], where: str) -> Expr | None:
+        """Return the meaning of a dotted name, None where it has none.
+
+        Parameters
+        ----------
+        path : tuple of str
+            The name, cut at its dots; the first part is an owner.
+        where : str
+            File and key, for messages about joints that are resolved on the way.
+        """
+        entry = self.entry(path, where)
+        return None if entry is None else entry[0]
+
+    def entry(self, path: tuple[str, ...], where: str) -> tuple[Reading, str] | None:
+        """Return the meaning of a dotted name, see `find`, with its unit."""
+        owner, *words = path
+        if (name := ".".join(path)) in self._losses:
+            return self._losses[name], "J"
+        if owner not in self._context.bodies:
+            return self._of_element(owner, where).get(".".join(words))
+        if len(words) == 2 and words[0] in self._context.points[owner]:
+            return self._of_point(owner, words[0]).get(words[1])
+        if len(words) == 2 and words[0] in AXES and self._dimension == 3 and not self._context.bodies[owner].is_point:
+            axis = axes(owner, 3)[AXES.index(words[0])]
+            return of_axis(f"{owner}.{words[0]}", axis).get(words[1])
+        return None
+
+    def _of_point(self, body: str, point: str) -> Table:
+        marker = Marker(body, self._context.points[body][point])
+        return of_point(f"{body}.{point}", marker, self._dimension, self._order)
+
+    def _of_element(self, owner: str, where: str) -> Table:
+        if owner in self._context.joint_names:
+            return of_joint(self._context.joint(owner, where), self._order)
+        return of_force(self._context.forces[owner], self._order) if owner in self._context.forces else {}
+
+
+class Column(NamedTuple):
+    """A reported quantity: its name, unit and formula."""
+
+    name: str
+    unit: str
+    formula: Expr
+
+
+def points(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return coordinates, velocities and accelerations of all named points: ``arm.tip.x``, ``.vx``, ``.ax``."""
+    dimension = len(mechanism.gravity)
+    return tuple(
+        column
+        for body in mechanism.bodies
+        for point, place in body.points
+        for column in _columns(of_point(f"{body.name}.{point}", Marker(body.name, place), dimension, OUTPUT))
+    )
+
+
+def elements(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return measures, forces and power of force elements and drivers: ``spring.length``, ``.force``, ``.power``."""
+    drivers = (column for j in mechanism.joints if j.kind == "driver" for column in _driver(of_joint(j, OUTPUT)))
+    return (*of_force_elements(mechanism), *drivers)
+
+
+def of_force_elements(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return measures, forces and power of force elements."""
+    return tuple(column for force in mechanism.forces for column in _columns(of_force(force, OUTPUT)))
+
+
+def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
+    """Return the states of the file's own, and the formulas of ``[outputs]``."""
+    states = (Column(x.name, x.unit, Name(x.name)) for x in mechanism.states)
+    return (*states, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
+
+
+def integrals(mechanism: Mechanism) -> dict[Integral, int]:
+    """Return the integrals in outputs, numbered in their order, each once."""
+    sources = (r.source for output in mechanism.outputs for r in readings(output.value))
+    return {source: i for i, source in enumerate(dict.fromkeys(s for s in sources if isinstance(s, Integral)))}
+
+
+def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
+    """Return the integrands of a run: joints, forces, and the rates of states with the formulas of integrals."""
+    rates = *(x.rate for x in mechanism.states), *(integral.of for integral in integrals(mechanism))
+    return mechanism.joints, mechanism.forces, rates
+
+
+def _columns(table: Table) -> Iterator[Column]:
+    return (Column(reading.name, unit, reading) for reading, unit in table.values())
+
+
+def _driver(table: Table) -> Iterator[Column]:
+    """Yield the columns of a driver: its only coordinate's rate has its short name."""
+    return _columns({label: entry for label, entry in table.items() if not label.endswith(".rate")})
+
+
+#: Table of a result -> its columns.
+TABLES = {"points": points, "elements": elements, "outputs": outputs}

@@ -1,0 +1,105 @@
+"""Rows and coordinates of joints, most of them in space."""
+
+from __future__ import annotations
+
+from symgen.base.vocabulary.expressions import Expr, Number, call, literal_of
+from symgen.base.vocabulary.measures import GROUND, Component, Direction, Dot, Holonomic, Marker, Sum, Turn, axes
+from symgen.describe.mechanism import Joint
+from symgen.describe.parts.scope import Scope
+from symgen.describe.parts.triads import Triad, make_triad
+
+_MINUS = literal_of(-1.0)
+
+
+def coincident(a: Marker, b: Marker) -> tuple[Holonomic, ...]:
+    """Rows that hold two points together, ``x``, ``y``, in space ``z``: forces on the first body in ground axes."""
+    along = zip("xyz", axes(GROUND, len(a.point)), strict=False)
+    return tuple(Holonomic(label, Component(a, b, axis)) for label, axis in along)
+
+
+def parallel(a: Triad, b: Triad) -> tuple[Holonomic, ...]:
+    """Rows that hold two axes parallel, ``first``, ``second``: torques on the first body about its triad's directions.
+
+    With the axes u parallel, the rates of ``-second . u_b`` and ``first . u_b`` are the components of the relative
+    angular velocity along first and second.
+    """
+    return (
+        Holonomic("first", Sum(((_MINUS, Dot(a.second, b.axis)),)), unit="rad"),
+        Holonomic("second", Dot(a.first, b.axis), unit="rad"),
+    )
+
+
+def not_turned(a: Triad, b: Triad) -> Holonomic:
+    """Row that keeps the first directions together, ``angle``: torque on the first body about the axis."""
+    return Holonomic("angle", Dot(a.second, b.first), unit="rad")
+
+
+def on_axis(a: Marker, b: Marker, triad: Triad) -> tuple[Holonomic, ...]:
+    """Rows that keep point b on the axis of a through point a, ``across1``, ``across2``: forces across the axis."""
+    return (
+        Holonomic("across1", Component(a, b, triad.first)),
+        Holonomic("across2", Component(a, b, triad.second)),
+    )
+
+
+def plane_of_ground(
+    scope: Scope,
+    on: str | tuple[float | str, ...],
+    normal: tuple[float | str, ...],
+    reference: tuple[float | str, ...] | None,
+) -> tuple[Marker, Triad, tuple[Direction, Direction]]:
+    """Return a point of a plane of the ground, a triad about its normal, and the opposites of its other directions.
+
+    A row on a velocity along an opposite direction has a multiplier that pushes the body along the direction itself.
+    """
+    plane = make_triad(scope, GROUND, normal, reference, ("normal", "reference"))
+    opposite = [Direction(GROUND, tuple(call("neg", e) for e in d.vector)) for d in (plane.first, plane.second)]
+    return scope.marker("on", GROUND, on), plane, (opposite[0], opposite[1])
+
+
+def angle(a: Triad, b: Triad) -> Turn:
+    """Angle that the second body has turned about the axis, from the first body's first direction."""
+    return Turn(a.first, a.second, b.first)
+
+
+# -- points and frames of a joint from its rows ------------------------------------------------------------------------
+
+
+def markers(joint: Joint) -> tuple[Marker, Marker]:
+    """Return the points that a joint holds together, or on a line or plane of each other."""
+    first = joint.rows[0]
+    assert isinstance(first, Holonomic) and isinstance(first.measure, Component), "the first row is of two points"
+    return first.measure.a, first.measure.b
+
+
+def third(pair: tuple[Direction, Direction]) -> Direction:
+    """Return the direction that makes a right-handed frame of two perpendicular ones."""
+    (ax, ay, az), (bx, by, bz) = (d.vector for d in pair)
+    products = ((ay, bz, az, by), (az, bx, ax, bz), (ax, by, ay, bx))
+    return Direction(pair[0].body, tuple(_determinant(*four) for four in products))
+
+
+def _determinant(a: Expr, b: Expr, c: Expr, d: Expr) -> Expr:
+    """Return a b - c d, as a number where all of them are numbers."""
+    if isinstance(a, Number) and isinstance(b, Number) and isinstance(c, Number) and isinstance(d, Number):
+        return literal_of(a.value * b.value - c.value * d.value)
+    return call("sub", call("mul", a, b), call("mul", c, d))
+
+
+def frames(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
+    """Return the frames of a joint whose axes are parallel: `parallel`, with an angle or with `not_turned`."""
+    rows = {row.label: row.measure for row in joint.rows if isinstance(row, Holonomic)}
+    across, first = rows["first"], rows["second"]
+    assert isinstance(across, Sum) and isinstance(first, Dot), "parallel axes are two products of directions"
+    ((_, second),) = across.terms
+    if "angle" in rows:
+        held = rows["angle"]
+        assert isinstance(held, Dot), "an angle that is held is a product of directions"
+        of_b = held.v
+    else:
+        turn = next(m for _, m in joint.coordinates if isinstance(m, Turn))
+        of_b = turn.pointer
+    assert isinstance(second, Dot), "parallel axes are two products of directions"
+    of_a, axis = (first.u, second.u), first.v
+    # axis x first = second
+    return (*of_a, third(of_a)), (of_b, third((axis, of_b)), axis)

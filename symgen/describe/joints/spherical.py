@@ -1,0 +1,41 @@
+"""Spherical joint: two points of bodies in space coincide."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from symgen.describe.joints._paired import Paired
+from symgen.describe.joints._space import coincident, markers
+from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.parts.scope import Scope
+
+
+class Spherical(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A ball and socket that holds a point of one body on a point of the other; in space only.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies; point masses may be among them.
+    at : pair of points
+        The centre of the ball, as a point of the first and of the second body.
+
+    Notes
+    -----
+    Three rows [m]. Multipliers ``NAME.x``, ``NAME.y``, ``NAME.z`` [N]: the force on the first body, in ground axes.
+    """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
+
+    def build(self, scope: Scope) -> Joint:
+        """Resolve to the three components of the vector between the points."""
+        bodies, centres = self.ends(scope, turns=(False, False))
+        return Joint(scope.name, scope.kind, bodies, coincident(*centres))
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        return Articulation(*markers(joint), "ball")
+
+
+KIND = Spherical

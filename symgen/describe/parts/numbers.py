@@ -1,0 +1,59 @@
+"""Tables of a file that hold numbers alone: points of functions, and defaults of runs."""
+
+from __future__ import annotations
+
+import math
+
+from symgen.base.errors import InputError
+from symgen.describe.mechanism import Defaults
+from symgen.describe.parts.fields import read_table
+from symgen.describe.parts.sections import RunSection, TableSection
+from symgen.describe.tables import Table
+
+
+def read_points(name: str, raw: object, where: str) -> Table:
+    """Return the function that the table `name` defines by points."""
+    section = read_table(TableSection, raw, where)
+    if len(section.x) < 2:
+        raise InputError(f"{where}.x", "two numbers or more", str(len(section.x)))
+    if len(section.y) != len(section.x):
+        raise InputError(f"{where}.y", f"as many numbers as x has, {len(section.x)}", str(len(section.y)))
+    for key in ("x", "y"):
+        for value in getattr(section, key):
+            if not math.isfinite(value):
+                raise InputError(f"{where}.{key}", "finite numbers", str(value))
+    for left, right in zip(section.x, section.x[1:], strict=False):
+        if not left < right:
+            raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
+    how, fewest = section.interpolation, 4 if section.interpolation == "cubic" or section.periodic else 2
+    if len(section.x) < fewest:
+        expected = f"{fewest} numbers or more for interpolation = '{how}'{', periodic' if section.periodic else ''}"
+        raise InputError(f"{where}.x", expected, str(len(section.x)))
+    if section.periodic and how == "linear":
+        raise InputError(f"{where}.periodic", "true where interpolation is 'cubic' or 'pchip'", "true for 'linear'")
+    if section.periodic and section.y[0] != section.y[-1]:
+        got = f"{section.y[0]!r} and {section.y[-1]!r}"
+        raise InputError(f"{where}.y", "the same value at both ends of a period", got)
+    table = Table(name, section.x, section.y, how, section.periodic)
+    try:
+        finite = all(math.isfinite(c) for piece in table.interpolated.pieces for c in piece)
+    except (ArithmeticError, ValueError):
+        finite = False
+    if not finite:
+        raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
+    return table
+
+
+def read_defaults(raw: object, where: str, source: str) -> Defaults:
+    """Return the defaults of runs; `source` says where the data of the mechanism come from."""
+    run = read_table(RunSection, raw, where)
+    for key in ("until", "step", "output_step", "max_step", "predictable_until"):
+        value = getattr(run, key)
+        if value is not None and not math.isfinite(value):
+            raise InputError(f"{where}.{key}", "a finite number", str(value))
+    usual = Defaults().step
+    step = run.step or (usual if run.until >= usual else 0.01 * run.until)
+    if step > run.until:
+        raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(step))
+    further = source, run.step, run.integrator, run.verify
+    return Defaults(run.until, step, run.output_step, run.predictable_until, run.max_step, *further)

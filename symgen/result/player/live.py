@@ -1,0 +1,255 @@
+"""Live simulation in a page: the emitted code and the start as JavaScript, and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.compile.native.formula_lines import JAVASCRIPT, NotInLines
+from symgen.compile.native.javascript import HELPERS, LOOP_HELPERS, javascript
+from symgen.compile.native.read import Foreign
+from symgen.describe.drawing.scene import Array
+from symgen.describe.mechanism import Parameter
+from symgen.run.compiling.checked import checked
+from symgen.run.compiling.printed import Printed, PrintedEvents
+from symgen.run.layout import abi
+from symgen.run.layout.model_arrays import lengths_of
+from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.start_lines import (
+    derived_lines,
+    exported_start,
+    independent_places,
+    is_described,
+    written_start,
+)
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembler import Assembly
+    from symgen.run.starts.assembly import Start
+
+#: Largest number of characters of emitted code in a page, in the plane and in space, and the same in operations.
+MOST = {False: 76_000, True: 270_000}
+A_OPERATION = 24
+
+#: Note of a page without live simulation.
+NONE = "the page has no live part"
+
+#: Sections of the scratch that a start finds and evaluations do not.
+_SECTIONS = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
+
+
+@dataclass(frozen=True)
+class Live:
+    """The live part of a page.
+
+    Attributes
+    ----------
+    code : str
+        Emitted functions as JavaScript.
+    spec : mapping
+        Sizes, places and numbers, as JSON has them.
+    columns : str
+        Expression for the functions of columns that are worked out at each frame.
+    """
+
+    code: str
+    spec: Mapping[str, Any]
+    columns: str = "null"
+
+
+def live_part(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    step: float,
+    initial: Array | None = None,
+    still: Collection[str] = (),
+    acting: Mechanism | None = None,
+) -> tuple[Live | None, str]:
+    """Return the live part of a page, or None and the reason.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        As described; its joints give the start for other parameters.
+    compiled : CompiledModel
+        Its code for one method in coordinates of bodies or of joints.
+    start : Start
+        Where the motion begins.
+    step : float
+        Of the Runge-Kutta method [s].
+    initial : Array, shape (nq + nv,), optional
+        Initial coordinates and velocities of bodies, if other than the described ones.
+    still : collection of str
+        Parameters that keep their values: pages have no slider for them, nor for inputs that are formulas.
+    acting : Mechanism, optional
+        The mechanism of the code, with a tree in joint coordinates, whose events change the state.
+    """
+    spatial, law = mechanism.space == "spatial", compiled.law
+    if compiled.shape != "straight":
+        return None, f"{NONE}: the code of this run is looped"
+    operations = sum(law.operations.get(name, 0) for name in ("rhs", "refactor", "spread"))
+    limit = MOST[spatial] // A_OPERATION
+    if operations > limit:
+        where = "in space" if spatial else "in the plane"
+        fewer = "" if hasattr(compiled.model, "bodies") else "; in joint coordinates they may be a tenth"
+        return None, f"{NONE}: {operations} operations are more than the {limit} that a page {where} may have{fewer}"
+    joint = hasattr(compiled.model, "bodies")
+    turns = start.w[abi.WINDING :][: compiled.info.windings].tolist()
+    if initial is not None and not np.array_equal(initial, start.y[: len(initial)]):
+        start, turns = replace(start, y=np.concatenate([initial, start.y[len(initial) :]])), []
+        described = False
+    else:
+        described = not joint and is_described(mechanism)
+    try:
+        script = _script(mechanism, described)
+        code, size = _code(
+            acting or mechanism,
+            compiled,
+            exported_start(mechanism, compiled, start.datum, None if described else turns),
+        )
+    except NotInLines:
+        return None, f"{NONE}: a formula of the start is not one that pages know"
+    except Foreign as error:
+        return None, f"{NONE}: its code has {error}"
+    if size > MOST[spatial]:
+        return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
+    constants = {*still, *dict(mechanism.input_formulas)}
+    spec = _spec(mechanism, compiled, start, step, joint, constants)
+    return Live(f"{HELPERS}{code}\n{script}", spec), ""
+
+
+def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> tuple[str, int]:
+    """Return emitted functions and functions of the runtime for starts and events.
+
+    Returns
+    -------
+    code : str
+        The text.
+    size : int
+        Characters of the emitted functions.
+    """
+    events = PrintedEvents.of(mechanism, compiled)
+    functions = checked(compiled) | events.functions
+    printed = Printed(functions)
+    printed.add_start(assembly)
+    printed.add_steps(compiled, events, ("take_steps",))
+    if drivers := _drivers(mechanism):
+        printed.add_lock(compiled, drivers)
+    return f"{LOOP_HELPERS}{javascript(functions, printed.bound())}", len(javascript(functions))
+
+
+def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:
+    """Return the right-hand side alone, for pages without motion, or None and the reason.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Code for one method.
+    start : Start
+        Parameters, and scratch as a start leaves it.
+    """
+    if compiled.shape != "straight":
+        return None, "the code of a run is looped"
+    if not hasattr(compiled.law_module, "rhs"):
+        return None, "the method has none"
+    try:
+        code = HELPERS + javascript(checked(compiled, ("rhs", "confirm", "masses")))
+    except Foreign as error:
+        return None, f"its code has {error}"
+    return Live(code, _rates_spec(compiled, start)), ""
+
+
+def _script(mechanism: Mechanism, described: bool) -> str:
+    """Return the values that follow from parameters: derived ones, and the start as far as it is described."""
+    formulas = [
+        f"if (!independent.has({place})) {{ {' '.join(lines)} }}"
+        for place, lines in derived_lines(mechanism, JAVASCRIPT)
+    ]
+    lines = written_start(mechanism, JAVASCRIPT, described)
+    derive = ["function derive(p, independent) {", *formulas, "}"]
+    return "\n".join([*derive, "function describe(p, q, v, own) {", *lines, "}", ""])
+
+
+def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
+    """Return a page's data for the right-hand side."""
+    info = compiled.info
+    values = [float(start.p[i]) for i in range(len(info.parameters))]
+    places = [i for name in _SECTIONS for i in range(info.sections[name][0], sum(info.sections[name]))]
+    return {
+        "ny": info.ny,
+        "nw": len(start.w),
+        "p0": [float(x) for x in start.p],
+        "w0": [[i, float(start.w[i])] for i in places if start.w[i] != 0.0 and np.isfinite(start.w[i])],
+        "masked": [i for i in places if np.isinf(start.w[i])],
+        "parameters": [
+            {"name": q.name, "unit": q.unit, "value": value} for q, value in zip(info.parameters, values, strict=True)
+        ],
+        "method": compiled.law.method,
+    }
+
+
+def _written(parameter: Parameter) -> dict[str, Any]:
+    """Return the unit of the file with its factor to SI units, where it is another."""
+    unit = parameter.own_unit
+    return {"shown": {"unit": unit.text, "factor": float(unit.factor)}} if parameter.shown else {}
+
+
+def _drivers(mechanism: Mechanism) -> set[str]:
+    """Return the joints that drive."""
+    return {joint.name for joint in mechanism.joints if joint.kind == DRIVER}
+
+
+def _spec(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    step: float,
+    joint: bool,
+    constants: Collection[str],
+) -> dict[str, Any]:
+    info, rates = compiled.info, _rates_spec(compiled, start)
+    drivers = _drivers(mechanism)
+    sections = {
+        name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
+    }
+    return {
+        **rates,
+        "nq": info.nq,
+        "nv": info.nv,
+        "m": info.m,
+        "np": len(start.p),
+        "windings": info.windings,
+        "joint": joint,
+        "nb": mechanism.body_coordinates,
+        "nbv": sum(len(b.speeds) for b in mechanism.bodies),
+        "y0": [float(x) for x in start.y],
+        "datum": list(start.datum) or [0.0] * info.nq,
+        "lengths": [int(x) for x in lengths_of(info)],
+        "angular": [int(x.unit != "m/s") for x in info.velocities],
+        "rows": [int(row.unit == "m") for row in info.rows],
+        "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],
+        "moving": moving_names(info),
+        **{"most_named": MOST_NAMED, "counts": COUNTS},
+        "jacobian": [list(entry) for entry in info.jacobian],
+        "at": sections,
+        "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},
+        "events": [event.name for event in mechanism.events],
+        "parameters": [
+            {
+                **entry,
+                "follows": bool(own.formula),
+                **_written(own),
+                **({"still": True} if own.name in constants else {}),
+            }
+            for entry, own in zip(rates["parameters"], mechanism.parameters, strict=False)
+        ],
+        "state": [q.name for q in (*info.coordinates, *info.velocities)],
+        "independent": independent_places(mechanism, {p["name"]: p["value"] for p in rates["parameters"]}),
+        "step": step,
+    }

@@ -1,0 +1,456 @@
+"""Derived equations of a mechanism, counted and written as text: ``symgen inspect`` and `symgen.api.Model.inspect`."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from msgspec import structs
+
+from symgen.base.errors import AssemblyError, counted
+from symgen.base.files import check_path, write_whole
+from symgen.derive.formulate.formulate import formulate
+from symgen.derive.lower.looped.instances import instances
+from symgen.derive.lower.model import lower_model
+from symgen.describe.facts.digest import digest
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import Parameter
+from symgen.describe.parts.topology import state_names
+from symgen.result.player.motion_page import PAGES
+from symgen.result.reading.jamming import jamming_numbers
+from symgen.result.reading.page import MOST_STRAIGHT, EquationPage, check_size
+from symgen.result.reading.quantity_names import input_names
+from symgen.result.reading.row_words import row_words
+from symgen.result.reading.structure import element_terms, shared_terms, structure
+from symgen.result.reading.typeset import LONGEST, texts, texts_by_terms
+from symgen.run.compiling.closing import law_at_start
+from symgen.run.compiling.looped import kernel_stems
+from symgen.run.compiling.pipeline import MethodChoice, choose_method
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import Prepared, prepare
+
+if TYPE_CHECKING:
+    from symgen.base.settings import Settings
+    from symgen.derive.formulate.equations import Equations
+    from symgen.describe.mechanism import Mechanism, Topology
+
+
+#: Characters of gamma and forces up to which they are written without shared terms.
+SHORT = 110
+#: A wider Jacobian is listed entry by entry only.
+WIDEST = 150
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """Derived equations of a mechanism; printed, it is the text of ``symgen inspect``.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        Method, options, shape, coordinates and parameters.
+    facts : dict
+        Everything by name, expressions as text: the JSON of ``symgen inspect --json``.
+    """
+
+    mechanism: Mechanism
+    settings: Settings
+    facts: dict[str, Any]
+
+    def __str__(self) -> str:
+        return as_text(self.facts)
+
+    def __repr__(self) -> str:
+        sizes = self.facts["sizes"]
+        return (
+            f"<Inspection of {self.mechanism.name}: {counted(sizes['coordinates'], 'coordinate')}, "
+            f"{counted(sizes['rows'], 'row')}, {counted(self.facts['degrees_of_freedom'], 'degree')} of freedom>"
+        )
+
+    def _repr_html_(self) -> str:
+        return f"<details><summary>{escape(repr(self)[1:-1])}</summary><pre>{escape(str(self))}</pre></details>"
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page of equations, ``.html``.
+
+        Raises
+        ------
+        InputError
+            If the ending is another one, the mechanism is too large for a page, or the file cannot be written.
+        """
+        return write_page(self.mechanism, self.settings, Path(path), "save")
+
+
+def method_of(settings: Settings) -> MethodChoice:
+    """Return the method with its options, before anything is compiled."""
+    own = {name.removeprefix("method."): str(value) for name, value in settings.options.items()}
+    return choose_method(settings.method, own)
+
+
+def write_page(mechanism: Mechanism, settings: Settings, path: Path, where: str, file: str = "") -> Path:
+    """Write the page of a mechanism.
+
+    Parameters
+    ----------
+    mechanism, settings : Mechanism, Settings
+        Subject of the page.
+    path : Path
+        The page.
+    where : str
+        The option or argument that names it, for messages.
+    file : str
+        The text that describes the mechanism.
+
+    Raises
+    ------
+    InputError
+        If the mechanism is too large, or the file cannot be written.
+    """
+    path = check_path(where, path, PAGES, "plot")
+    check_size(mechanism)
+    speeds = sum(len(body.speeds) for body in mechanism.bodies)
+    if settings.shape == "auto" and speeds <= MOST_STRAIGHT:  # whatever a run would take
+        settings = replace(settings, shape="straight")
+    derived, choice, run = mechanism, method_of(settings), None
+    try:
+        run, derived, choice = run_at_start(mechanism, settings)
+        degrees = counted(run.compiled.info.nv - run.start.rank, "degree")
+        facts = [f"At the start D has rank {run.start.rank}: {degrees} of freedom.", *run.start.notes]
+        if run.start.redundant_rows:
+            facts.append(f"Redundant at the start: {', '.join(run.start.redundant_rows)}.")
+        if settings.coordinates == "auto":
+            facts.append(f"Coordinates: {run.plan.coordinates_reason}.")
+    except AssemblyError as error:
+        facts = [f"It does not close, and is drawn as described: {error}"]
+    values = parameter_values(mechanism, settings.parameters)
+    return write_whole(path, EquationPage(mechanism, derived, choice, values, facts, file, run).html())
+
+
+def run_at_start(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, Mechanism, MethodChoice]:
+    """Return a mechanism at the start of a run.
+
+    Raises
+    ------
+    AssemblyError, InputError
+        As `symgen.run.planning.prepare.prepare` does.
+
+    Returns
+    -------
+    Prepared
+        Without outputs, whose integrals are the runtime's.
+    Mechanism
+        With its tree where coordinates are those of joints.
+    MethodChoice
+        The method as compiled, with the solver that the start requires.
+    """
+    run = prepare(structs.replace(mechanism, outputs=()), settings, Purpose.STATE)
+    choice, solver = run.plan.choice, str(run.compiled.law.options.get("solver", ""))
+    if solver and solver != choice.options["solver"]:  # bodies are light
+        choice = choice.with_options(solver=solver)
+    return run, mechanism if run.tree is None else run.mechanism, choice
+
+
+def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> dict[str, Any]:
+    """Return all facts, expressions as text.
+
+    Parameters
+    ----------
+    whole : Mechanism
+        The description.
+    settings : Settings
+        Of which ``method``, ``options``, ``shape``, ``coordinates``, ``parameters`` and ``start`` count.
+    with_method : bool
+        Whether the functions of the method are included.
+    """
+    run, mechanism, choice = run_at_start(whole, settings)
+    plan, start = run.plan, run.start
+    of_tree: dict[str, Any] = {}
+    if mechanism.topology is not None:
+        links = mechanism.topology.links
+        tree = [{"body": x.body, "joint": x.joint or None, "on": x.parent if x.joint else None} for x in links]
+        of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": tree}
+    equations = formulate(mechanism)
+    show, words = texts(equations), row_words(mechanism)
+    values = parameter_values(whole, settings.parameters)
+    parameters = [_parameter(p, values[p.name]) for p in mechanism.parameters]
+    facts: dict[str, Any] = {
+        "mechanism": whole.name,
+        "space": whole.space,
+        "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
+        **of_tree,
+        "title": whole.title,
+        "sizes": _sizes(equations),
+        "shape": {"shape": run.compiled.shape, "reason": plan.shape_reason, "kernels": _kernels(whole)},
+        "rank": start.rank,
+        "degrees_of_freedom": equations.nv - start.rank,
+        "redundant_rows": list(start.redundant_rows),
+        **({"friction": _frictions(mechanism, jamming_numbers(run))} if mechanism.frictions else {}),
+        **({"stops": _stops(mechanism)} if mechanism.stops else {}),
+        "dropped_rows": list(equations.dropped_rows),
+        "notes": list(start.notes),
+        "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
+        "velocities": [{"name": v.name, "unit": v.unit} for v in equations.velocities],
+        "parameters": [p for p in parameters if p["name"] not in equations.inputs],
+        "inputs": [p for p in parameters if p["name"] in equations.inputs],
+        "rows": [
+            {
+                "name": row.name,
+                "joint": row.joint,
+                "unit": row.unit,
+                "words": words[row.name].words,
+                "vectors": words[row.name].vectors,
+                "phi": None if row.phi is None else show(row.phi),
+                "nu": show(row.nu),
+                "gamma": show(row.gamma),
+                "jacobian": {equations.velocities[i].name: show(node) for i, node in row.entries},
+            }
+            for row in equations.rows
+        ],
+        "pattern": pattern(equations),
+        "mass": [
+            {
+                "velocities": [equations.velocities[i].name for i in block.columns],
+                "matrix": [[show(node) for node in line] for line in block.entries],
+            }
+            for block in equations.mass
+        ],
+        "forces": {v.name: show(node) for v, node in zip(equations.velocities, equations.forces, strict=True)},
+        "energies": {
+            "kinetic": show(equations.kinetic),
+            "potential": show(equations.potential),
+            "power": show(equations.power),
+        },
+        "joint_coordinates": {
+            c.name: {"unit": c.unit, "value": show(c.value), "rate": show(c.rate)} for c in equations.joint_coordinates
+        },
+        "operations": _operations(equations),
+        "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
+    }
+    facts |= _by_terms(mechanism, equations)
+    if equations.states:
+        rates = zip(equations.states, equations.state_rates, strict=True)
+        facts["states"] = {x.name: {"unit": x.unit, "rate": show(node)} for x, node in rates}
+    if with_method:
+        facts["method"] = _method(mechanism, equations, choice)
+    return facts
+
+
+def _parameter(parameter: Parameter, value: float) -> dict[str, Any]:
+    """Return a parameter with its value in SI units and, where the file has another unit, in that."""
+    number, unit = parameter.as_written(value)
+    written = {"as_written": {"value": number, "unit": unit}} if parameter.shown else {}
+    return {"name": parameter.name, "unit": parameter.unit, "value": value, **written}
+
+
+def _by_terms(mechanism: Mechanism, equations: Equations) -> dict[str, Any]:
+    """Return gamma and forces, long ones by shared terms, and the terms."""
+    gammas, forces, show = [row.gamma for row in equations.rows], list(equations.forces), texts(equations)
+    long = {n for n in (*gammas, *forces) if len(show(n)) > SHORT or equations.graph.tree_operations([n]) > LONGEST}
+    named = structure if mechanism.space == "spatial" else element_terms
+    others = {*input_names(equations).values()}
+    terms = shared_terms(equations.graph, sorted(long), named(mechanism, equations), others)
+    by_terms, definition = texts_by_terms(equations, terms)
+
+    def write(node: int) -> str:
+        return by_terms(node) if node in long else show(node)
+
+    return {
+        "terms": {terms[node]: definition(node) for node in sorted(terms)},
+        "gamma_by_terms": {row.name: write(row.gamma) for row in equations.rows},
+        "forces_by_terms": {v.name: write(n) for v, n in zip(equations.velocities, forces, strict=True)},
+    }
+
+
+def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
+    """Return which joints carry bodies, which close loops, and which bodies are rigid with what carries them."""
+    moving = {name.rpartition(".")[0] for name, _ in state_names(mechanism, topology)[1]}
+    return {
+        "tree": [link.joint for link in topology.links if link.joint],
+        "cut": list(topology.cut),
+        "merged": [link.body for link in topology.links if link.joint and not {link.joint, link.body} & moving],
+        "prescribed": [x.driver for x in topology.prescribed],
+    }
+
+
+def _kernels(mechanism: Mechanism) -> dict[str, int]:
+    """Return how many instances each kernel of the looped shape would have."""
+    return dict(Counter(kernel_stems(instances(mechanism))))
+
+
+def pattern(equations: Equations) -> list[str]:
+    """Return the pattern of D, one text a row: ``1`` a constant of the scene, ``x`` a varying entry, ``.`` nothing."""
+    lines = []
+    for row in equations.rows:
+        line = ["."] * equations.nv
+        for column, node in row.entries:
+            line[column] = "x" if equations.graph.value(node) is None else "1"
+        lines.append("".join(line))
+    return lines
+
+
+def _sizes(equations: Equations) -> dict[str, int]:
+    return {
+        "coordinates": equations.nq,
+        "velocities": equations.nv,
+        "rows": equations.m,
+        "parameters": len(equations.parameters),
+        "jacobian_entries": sum(len(row.entries) for row in equations.rows),
+        "jacobian_constants": sum(line.count("1") for line in pattern(equations)),
+    }
+
+
+def _operations(e: Equations) -> dict[str, dict[str, int]]:
+    """Count operations by quantity, each with its own common subexpressions, and of all together."""
+    parts = e.nodes() | {"energies": [e.kinetic, e.potential, e.power]}
+    parts |= {"states": list(e.state_rates)} if e.states else {}
+    parts["together"] = [node for nodes in parts.values() for node in nodes]
+    return {
+        name: {"before": e.graph.tree_operations(nodes), "after": e.graph.operations(nodes)}
+        for name, nodes in parts.items()
+    }
+
+
+def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str, Any]:
+    """Return the functions emitted for a method with their operation counts."""
+    program = lower_model(equations, digest(mechanism))
+    law = law_at_start(mechanism, equations, program, choice)
+    return {
+        "name": choice.method.name,
+        "summary": choice.method.summary,
+        "options": dict(choice.options),
+        "parameters": dict(law.info.parameters),
+        "functions": {
+            block.name: {"purpose": block.purpose, "before": block.tree_operations, "after": block.operations}
+            for block in (*program.blocks, *law.blocks)
+        },
+        "elimination_order": [equations.rows[i].name for i in program.order],
+        "fill": program.fill,
+    }
+
+
+def _frictions(mechanism: Mechanism, jamming: Mapping[str, float]) -> list[dict[str, Any]]:
+    """Return the dry friction of a mechanism: rows with bounds."""
+    return [
+        {
+            "name": x.name,
+            "row": x.row,
+            "unit": f"N{' m' if x.unit == 'rad' else ''}",
+            "reaction": list(x.pressed),
+            "jamming_number": jamming.get(x.name),
+            **{key: to_text(getattr(x, key)) for key in ("static", "sliding", "viscous")},
+            "stribeck_speed": None if x.stribeck_speed is None else to_text(x.stribeck_speed),
+        }
+        for x in mechanism.frictions
+    ]
+
+
+def _stops(mechanism: Mechanism) -> list[dict[str, Any]]:
+    """Return the stops of a mechanism: rows whose force only pushes."""
+    return [
+        {
+            "name": x.name,
+            "row": x.row,
+            "unit": "N m" if x.unit == "rad" else "N",
+            "restitution": to_text(x.restitution),
+        }
+        for x in mechanism.stops
+    ]
+
+
+def as_text(facts: dict[str, Any]) -> str:
+    """Return the text of ``symgen inspect``."""
+    sizes, lines = facts["sizes"], list[str]()
+
+    def section(title: str) -> None:
+        lines.extend(["", title, "-" * len(title)])
+
+    lines.append(f"{facts['mechanism']}: {facts['title']}")
+    lines.append(
+        f"{counted(sizes['coordinates'], 'coordinate')}, {counted(sizes['velocities'], 'velocity', 'velocities')}, "
+        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}, "
+        f"{counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start"
+    )
+    lines += [f"note: {note}" for note in facts["notes"]]
+    shape = facts["shape"]
+    kinds = Counter[str]()
+    for name, count in shape["kernels"].items():  # a kind, and a digest of what the kernel computes
+        kinds[name.rpartition("_")[0]] += count
+    kernels = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+    lines.append(f"shape: {shape['shape']}, as {shape['reason']}")
+    lines.append(f"as loops: {counted(len(shape['kernels']), 'kernel')} for {kernels}")
+    if "tree" in facts:
+        cut = ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
+        lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {cut}")
+        lines += [
+            f"  {x['body']} " + (f"on {x['on']} by {x['joint']}" if x["joint"] else "free") for x in facts["tree"]
+        ]
+    for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
+        lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
+    for x in facts.get("friction", ()):
+        viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
+        stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
+        unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
+        at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
+        jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
+        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}{jam}")
+    for x in facts.get("stops", ()):
+        closed = f"row {x['row']} in force where it is closed, pushing [{x['unit']}]"
+        lines.append(f"stop {x['name']}: {closed}; restitution {x['restitution']}")
+    section("Coordinates q and velocities v")
+    lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
+    lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]
+    for title in ("parameters", "inputs"):
+        if facts[title]:
+            section(title.capitalize())
+            written = [(p["name"], p.get("as_written", p)) for p in facts[title]]
+            lines += [f"{name} = {x['value']:g} [{x['unit']}]" for name, x in written]
+    if facts["rows"]:
+        space = facts["space"] == "spatial"  # there rows in Euler parameters show little
+        section("Rows in words" + ", and by vectors of bodies" * space)
+        for r in facts["rows"]:
+            vectors = f"; {r['vectors']}" if space and r["vectors"] else ""
+            lines.append(f"{r['name']}: {r['words']}{vectors}")
+    section("Constraints Phi = 0")
+    lines += [f"{r['name']} [{r['unit']}]: {r['phi'] or 'none (nonholonomic)'}" for r in facts["rows"]]
+    section("Jacobian D: D v = nu")
+    if sizes["velocities"] <= WIDEST:
+        width = max((len(r["name"]) for r in facts["rows"]), default=0)
+        lines += [f"{r['name']:<{width}}  {line}" for r, line in zip(facts["rows"], facts["pattern"], strict=True)]
+        lines.append("x: varies; 1: constant, of any value; .: zero in every position")
+    lines += [f"D[{r['name']}, {v}] = {entry}" for r in facts["rows"] for v, entry in r["jacobian"].items()]
+    lines += [f"nu[{r['name']}] = {r['nu']}" for r in facts["rows"] if r["nu"] != "0"] or ["nu = 0"]
+    section("Quadratic velocity terms gamma: D v' = gamma")
+    lines += [f"gamma[{name}] = {gamma}" for name, gamma in facts["gamma_by_terms"].items()]
+    section("Mass matrix M")
+    lines += [f"M[{', '.join(b['velocities'])}] = {_matrix(b['matrix'])}" for b in facts["mass"]]
+    section("Forces f: M v' + D^T lambda = f" if facts["rows"] else "Forces f: M v' = f")
+    lines += [f"f[{name}] = {force}" for name, force in facts["forces_by_terms"].items()]
+    if facts["terms"]:
+        section("Shared terms of gamma and f")
+        lines += [f"{name} = {term}" for name, term in facts["terms"].items()]
+    if "states" in facts:
+        section("States of the file")
+        lines += [f"{name}' = {x['rate']} [{x['unit']}/s]" for name, x in facts["states"].items()]
+    section("Energies")
+    lines += [f"{name} = {expression}" for name, expression in facts["energies"].items()]
+    section("Operations, each quantity with its common subexpressions")
+    lines += [f"{name}: {n['after']}" for name, n in facts["operations"].items()]
+    if "method" in facts:
+        method = facts["method"]
+        section(f"Functions emitted for {method['name']}")
+        lines += [f"{name}: {f['after']}  {f['purpose']}" for name, f in method["functions"].items()]
+        lines.append(f"elimination order: {', '.join(method['elimination_order'])}; fill-ins: {method['fill']}")
+    section("Left out")
+    lines += [f"{o['what']}: {o['why']}" for o in facts["left_out"]]
+    return "\n".join(lines) + "\n"
+
+
+def _matrix(entries: list[list[str]]) -> str:
+    return entries[0][0] if len(entries) == 1 else "[" + ", ".join("[" + ", ".join(r) + "]" for r in entries) + "]"

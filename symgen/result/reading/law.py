@@ -1,0 +1,274 @@
+"""The law of a method as the steps that are solved, read from the tape that all code is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from symgen.base.escapes import latex_text
+from symgen.derive.lower.record import Part, RecordedLaw, record_law
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._formula import FormulaStep, needed
+from symgen.result.reading.boxes import (
+    Box,
+    bracket,
+    dotted,
+    fraction,
+    function_box,
+    latex,
+    literal_box,
+    name,
+    plain,
+    power,
+    row,
+    sign,
+    transposed,
+)
+
+_QUANTITIES = {"gamma": "gamma", "nu": "nu", "phi": "Phi", "f": "f", "v": "v"}
+_SIGNS = {"add": "+", "sub": "-"}
+#: Names of results of functions.
+_PLACES = {
+    "rates.q": dotted(name("q")),
+    "rates.v": dotted(name("v")),
+    "rates.work": dotted(name("W")),
+    "multipliers": name("lambda"),
+    "residual": name("r"),
+    "change": name("delta"),
+    "v": dotted(name("v")),
+    "q": name("Q"),
+    "law_": name("S"),
+    "dense": name("D"),
+}
+
+
+@dataclass(frozen=True)
+class Step:
+    """An equation of a law.
+
+    Attributes
+    ----------
+    function, purpose : str
+        The emitted function that it belongs to, and the purpose of that.
+    left, right : Box
+        Its sides.
+    solved : bool
+        Whether it is solved for the last factor of the left side.
+    """
+
+    function: str
+    purpose: str
+    left: Box
+    right: Box
+    solved: bool = False
+
+    @property
+    def box(self) -> Box:
+        """The whole equation."""
+        return row(self.left, sign("="), self.right)
+
+    @property
+    def latex(self) -> str:
+        """The equation as a line of an environment such as ``aligned``."""
+        return rf"{latex(self.left)} &= {latex(self.right)}" + (r" && \text{(solved)}" if self.solved else "")
+
+    def __str__(self) -> str:
+        return ("solve " if self.solved else "") + plain(self.box)
+
+
+@dataclass(frozen=True)
+class Law:
+    """The steps of a method's law, in the order in which they are computed.
+
+    Attributes
+    ----------
+    method, summary, form : str
+        Name, description, and the way v' is computed: ``direct``, ``iterated``, ``dense`` or ``tangent``.
+    options : mapping
+        Structural options.
+    steps : tuple of Step
+        Equations, function by function; those of the correction stand last.
+    """
+
+    method: str
+    summary: str
+    form: str
+    options: Mapping[str, str]
+    steps: tuple[Step, ...]
+
+    @property
+    def parts(self) -> list[tuple[str, str, list[Step]]]:
+        """Emitted functions with their purposes and steps."""
+        groups: dict[tuple[str, str], list[Step]] = {}
+        for step in self.steps:
+            groups.setdefault((step.function, step.purpose), []).append(step)
+        return [(function, purpose, steps) for (function, purpose), steps in groups.items()]
+
+    def latex(self) -> str:
+        """Return the steps as lines of LaTeX, for an environment such as ``aligned``."""
+        lines = list[str]()
+        for function, _, steps in self.parts:
+            lines += [rf"&\text{{{latex_text(function)}}}", *(step.latex for step in steps)]
+        return " \\\\\n".join(lines)
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle \begin{{aligned}} {self.latex()} \end{{aligned}}$"
+
+    def __str__(self) -> str:
+        lines = [f"{self.method}: {self.summary}"]
+        for function, purpose, steps in self.parts:
+            lines += [f"{function}: {purpose}", *(f"  {step}" for step in steps)]
+        return "\n".join(lines)
+
+
+def law(method: str, options: Mapping[str, str] | None = None, driven: bool = False) -> Law:
+    """Return the law of a method as steps.
+
+    Parameters
+    ----------
+    method : str
+        Name of the method.
+    options : mapping, optional
+        Its structural options; defaults are filled in.
+    driven : bool
+        Whether drivers prescribe coordinates, so that they work where there is no row: b v' + c.
+
+    Raises
+    ------
+    InputError
+        If there is no such method or option.
+    """
+    chosen = METHODS.get(method, "law")
+    complete = chosen.complete_options(options or {})
+    record = record_law(chosen, complete, driven).resolved(schur=True)
+    steps = [step for part in record.parts for step in _LawReader(record, part).steps()]
+    return Law(chosen.name, chosen.summary, record.form, complete, tuple(steps))
+
+
+class _LawReader:
+    """Reads one function of a law; what is used more than once, and what is solved for, has a step of its own."""
+
+    def __init__(self, record: RecordedLaw, part: Part) -> None:
+        self.operations, self.part = record.operations, part
+        self.result: list[Step] = []
+        self.boxes: dict[int, Box] = {}
+
+    def steps(self) -> list[Step]:
+        ends = [index for _, index in self.part.outputs]
+        order = needed(ends, lambda i: self.operations[i].operands)
+        uses: dict[int, int] = {}
+        for index in order:
+            for operand in self.operations[index].operands:
+                uses[operand] = uses.get(operand, 0) + 1
+        places = {index: _place(place) for place, index in self.part.outputs}
+        ends_as: dict[int, Box] = {}
+        letters = iter("xyzadeghijklnoprsu")
+        for index in order:
+            operation = self.operations[index]
+            if operation.kind == "driving":  # works with the rate as it is called, not as it is computed
+                self.boxes |= {i: places[i] for i in operation.operands if i in places}
+            box = self._box(operation)
+            if operation.kind == "solve":
+                unknown = places.get(index) or (name("lambda") if operation.size == "m" else name(next(letters)))
+                matrix, right = (self.boxes[i] for i in operation.operands)
+                self._add(row(_factor(matrix), unknown), right, solved=True)
+                box = unknown
+            elif uses.get(index, 0) > 1 and box.kind in ("row", "over") and index not in places:
+                short = name(next(letters))
+                self._add(short, box)
+                box = short
+            self.boxes[index] = ends_as[index] = box
+        for place, index in self.part.outputs:
+            if self.operations[index].kind != "solve":
+                self._add(_place(place), ends_as[index])
+        return self.result
+
+    def _add(self, left: Box, right: Box, solved: bool = False) -> None:
+        self.result.append(Step(self.part.name, self.part.purpose, left, right, solved))
+
+    def _box(self, operation: FormulaStep) -> Box:
+        kind, parts = operation.kind, [self.boxes[i] for i in operation.operands]
+        if kind in _SIGNS:
+            left, right = parts
+            return row(left, sign(_SIGNS[kind]), _factor(right) if kind == "sub" else right)
+        if kind in _FORMS:
+            return _FORMS[kind](*parts)
+        payload = str(operation.payload[0]) if operation.payload else ""
+        if kind == "constant":
+            return literal_box(float(operation.payload[0]))
+        if kind == "quantity":
+            return row(name("N"), name("v")) if payload == "q_rates" else name(_QUANTITIES[payload])
+        if kind in ("keep", "keep_constraints", "keep_factor", "stored_factor"):
+            return parts[0]
+        return _named(payload or kind)
+
+
+def _named(text: str) -> Box:
+    box = _PLACES.get(text)
+    return box if box is not None else name(text)
+
+
+def _place(place: str) -> Box:
+    return _named(place.removeprefix("status.") or "factor")
+
+
+def _factor(box: Box) -> Box:
+    """Return a box as a factor: a sum in brackets."""
+    signs = box.kind == "row" and any(p.kind == "sign" for p in box.parts)
+    return bracket(box) if signs else box
+
+
+def _inverse(box: Box) -> Box:
+    return power(box, literal_box(-1.0))
+
+
+def _times(*boxes: Box) -> Box:
+    return row(*map(_factor, boxes))
+
+
+_D, _M, _G = name("D"), name("M"), name("G")
+#: The identity of bodies' velocities u = B v + b, pulled back to those of the state.
+_BODIES = row(transposed(name("B")), name("B"))
+_FORMS: dict[str, Callable[..., Box]] = {
+    "neg": lambda x: row(sign("-"), _factor(x)),
+    "mul": lambda a, b: _times(a, b),
+    "div": lambda a, b: fraction(a, b),
+    "pow": lambda a, b: power(_factor(a), b),
+    "sqrt": lambda a: function_box("sqrt", [a]),
+    "min": lambda a, b: function_box("min", [a, b]),
+    "dot": lambda a, b: row(transposed(_factor(a)), _factor(b)),
+    "product": lambda a, x: _times(a, x),
+    "transposed": lambda a, y: row(transposed(a), _factor(y)),
+    "times_transposed": lambda a, b: row(a, transposed(b)),
+    "constraints": lambda: _D,
+    "stored_constraints": lambda: _D,
+    "mass": lambda x: _times(_M, x),
+    "minv": lambda x: _times(_inverse(_M), x),
+    "free_acceleration": lambda x: _times(_inverse(_M), x),
+    "inverse_mass_root": lambda: power(_M, name("-1/2")),
+    "schur": lambda: row(_D, _inverse(_M), transposed(_D)),
+    "compliant": lambda e: row(_D, _inverse(_M), transposed(_D), sign("+"), e),
+    "pseudoinverse": lambda b: row(_factor(b), transposed(_factor(b))),
+    "augmented": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
+    "augmented_metric": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
+    "penalties": lambda a: a,
+    "row_stiffness": lambda k: name("K"),
+    "rank": lambda: row(_D, _G, transposed(_D)),
+    "weighted_mass": lambda r: row(_D, _inverse(_M), transposed(_D)),
+    "weighted_identity": lambda r: row(_D, transposed(_D)),
+    "weighted_body": lambda r: row(_D, _inverse(bracket(_BODIES)), transposed(_D)),
+    "body_entries": lambda: _BODIES,
+    "body_inverse": lambda x: _times(_inverse(bracket(_BODIES)), x),
+    "weighted_dependent": lambda r: row(_D, name("P"), _G, transposed(_D)),
+    "geometry": lambda r: row(name("Phi"), sign(","), name("nu"), sign(","), _D),
+    "gauged": lambda x: _times(_G, x),
+    "partition_quality": lambda a, b: fraction(function_box("det", [b]), function_box("det", [a])),
+    "zeros": lambda: literal_box(0.0),
+    "power": lambda: name("P"),
+    "driving": lambda a: row(name("b"), _factor(a), sign("+"), name("c")),
+    "at_velocity": lambda x, v: row(_factor(x), sign("|"), v),
+    "mass_rate": lambda x, v: row(dotted(_M), _factor(x)),
+    "constraint_rate_transposed": lambda y, v: row(transposed(dotted(_D)), _factor(y)),
+    "flag": lambda: name("flag"),
+    "holonomic_or": lambda x: name("Phi"),
+}

@@ -1,0 +1,239 @@
+"""Rows of joints in words and by vectors of bodies, where the derived row is a polynomial in Euler parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number
+from symgen.base.vocabulary.measures import (
+    GROUND,
+    Angle,
+    Bearing,
+    BladeSpeed,
+    Component,
+    Direction,
+    Distance,
+    Dot,
+    FormulaMeasure,
+    FormulaSpeed,
+    HalfSquare,
+    Holonomic,
+    LinkStretch,
+    Marker,
+    Measure,
+    PointSpeed,
+    RimHeight,
+    RollingSpeed,
+    Row,
+    Speed,
+    Spin,
+    Sum,
+    Turn,
+    parts,
+)
+from symgen.describe.formulas.formula_text import to_text
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+
+_AXES = "xyz"
+
+
+@dataclass(frozen=True)
+class RowWords:
+    """A row for people.
+
+    Attributes
+    ----------
+    words : str
+        What it holds, in a line.
+    vectors : str
+        The same as an equation: ``r(P)`` is the place of a point, ``v(P)`` its velocity, ``e_x(B)`` an axis of a body,
+        ``u(B [...])`` another unit vector of it, ``theta(B)`` its angle, ``omega(B)`` its angular velocity. Empty for a
+        formula of the file.
+    """
+
+    words: str
+    vectors: str
+
+
+def row_words(mechanism: Mechanism) -> dict[str, RowWords]:
+    """Return what each row holds, by the row's name; rows of friction and of stops are in force at times."""
+    writer = _Writer(mechanism)
+    texts = {f"{joint.name}.{row.label}": writer.row(row) for joint in mechanism.joints for row in joint.rows}
+    for friction in mechanism.frictions:
+        words = f"while it sticks, {writer.noun(friction.measure)} does not change"
+        texts[friction.row] = RowWords(words, "")
+    for stop in mechanism.stops:
+        held = writer.holonomic(Holonomic("", stop.measure, stop.value))
+        texts[stop.row] = RowWords(f"while it is closed, {held.words}", held.vectors)
+    return texts
+
+
+class _Writer:
+    """Names of the points and directions of a mechanism, and sentences made of them."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._points: Mapping[tuple[str, tuple[Expr, ...]], str] = {
+            (body.name, place): point
+            for body in mechanism.bodies
+            for point, place in (*body.points, ("centre", body.centre_of_mass))
+        }
+
+    def row(self, row: Row) -> RowWords:
+        """Return a row."""
+        if isinstance(row, Holonomic):
+            return self.holonomic(row)
+        sentence, left = self._speed(row.speed)
+        end = "" if row.value == ZERO else f", but for {to_text(row.value)}"
+        return RowWords(sentence + end, f"{left} = {_number(row.value)}" if left else "")
+
+    def holonomic(self, row: Holonomic) -> RowWords:
+        """Return a row on a measure."""
+        value, free = _number(row.value), row.value == ZERO
+        measure = _unsigned(row.measure) if free else row.measure
+        match measure:
+            case LinkStretch(a, b, length):
+                sentence = f"{self.point(a)} and {self.point(b)} keep the distance {_number(length)}"
+                return RowWords(sentence, f"|{self._between(a, b)}| = {_number(length)}")
+            case Component(a, b, along) if free:
+                sentence = f"{self.point(a)} and {self.point(b)} coincide {_in_direction(along)}"
+            case Angle(a, b) if free and GROUND not in (a, b):
+                sentence = f"{a} and {b} do not turn against each other"
+            case Angle(a, b) if free:
+                sentence = f"{b if a == GROUND else a} does not turn"
+            case RimHeight() if free:
+                sentence = f"the rim of {measure.centre.body} touches the plane"
+            case Dot(u, v) if free:
+                sentence = f"{_phrase(u)} stays perpendicular to {_phrase(v)}"
+            case _:
+                moves = any(isinstance(x, Name) and x.name == "t" for x in parts(row.value))
+                sentence = f"{self.noun(measure)} {'follows' if moves else 'is'} {value}"
+        left = self.formula(measure)
+        return RowWords(sentence, f"{left} = {value}" if left else "")
+
+    def noun(self, measure: Measure) -> str:
+        """Return what a measure is."""
+        match measure:
+            case Component(a, b, along):
+                return f"the distance from {self.point(a)} to {self.point(b)} {_in_direction(along)}"
+            case Distance(a, b) | LinkStretch(a, b):
+                return f"the distance of {self.point(a)} and {self.point(b)}"
+            case HalfSquare(a, b):
+                return f"half the square of the distance of {self.point(a)} and {self.point(b)}"
+            case Angle(a, b):
+                return f"the angle of {b}" if a == GROUND else f"the angle of {b} against {a}"
+            case Turn(zero, _, pointer):
+                return f"the angle of {pointer.body} against {zero.body}"
+            case Bearing(a, b):
+                return f"the direction from {self.point(a)} to {self.point(b)}"
+            case Dot(u, v):
+                return f"the cosine between {_phrase(u)} and {_phrase(v)}"
+            case Spin(a, b, along):
+                return f"the turn of {b} against {a} about {_phrase(along)}"
+            case RimHeight():
+                return f"the height of the rim of {measure.centre.body} over the plane"
+            case FormulaMeasure():
+                return "a formula of the file"
+            case _:
+                terms = [
+                    self.noun(term) if factor == ONE else f"{_number(factor)} times {self.noun(term)}"
+                    for factor, term in measure.terms
+                ]
+                return " plus ".join(terms)
+
+    def formula(self, measure: Measure) -> str:
+        """Return a measure by vectors; empty for formulas of the file and for angles about an axis."""
+        match measure:
+            case Component(a, b, along):
+                return f"{_vector(along)} . ({self._between(a, b)})"
+            case Distance(a, b) | LinkStretch(a, b):
+                return f"|{self._between(a, b)}|"
+            case Angle(a, b):
+                angles = [f"theta({body})" for body in (b, a) if body != GROUND]
+                return " - ".join(angles) if b != GROUND else f"-{angles[0]}"
+            case Dot(u, v):
+                return f"{_vector(u)} . {_vector(v)}"
+            case RimHeight(plane, normal, centre, axis, radius):
+                n = _vector(normal)
+                height = f"{n} . ({self._between(plane, centre)})"
+                return f"{height} - {_number(radius)} sqrt(1 - ({n} . {_vector(axis)})^2)"
+            case _:
+                return ""
+
+    def _speed(self, speed: Speed) -> tuple[str, str]:
+        """Return the sentence of a velocity that is 0, and the velocity by vectors."""
+        match speed:
+            case PointSpeed(at, along):
+                sentence = f"{self.point(at)} does not move {_in_direction(along)}"
+                return sentence, f"{_vector(along)} . v({self.point(at)})"
+            case RollingSpeed(centre, along, normal, radius, axis):
+                n, turn = _vector(normal), f"{_number(radius)} omega({centre.body})"
+                lever = n if axis is None else f"({n} - ({n} . {_vector(axis)}) {_vector(axis)})"
+                below = "" if axis is None else f" / sqrt(1 - ({n} . {_vector(axis)})^2)"
+                sentence = f"where {centre.body} touches the plane it does not slip {_in_direction(along)}"
+                return sentence, f"{_vector(along)} . (v({self.point(centre)}) - {turn} x {lever}{below})"
+            case BladeSpeed(at, normal, blade):
+                sentence = f"{self.point(at)} does not move across the blade {_phrase(blade)}"
+                return sentence, f"v({self.point(at)}) . ({_vector(normal)} x {_vector(blade)})"
+            case FormulaSpeed():
+                return "a formula of the file, linear in velocities, is 0", ""
+
+    def point(self, marker: Marker) -> str:
+        """Return how a point is called: by its name, or by its coordinates in its body."""
+        name = self._points.get((marker.body, marker.point))
+        return f"{marker.body} {_tuple(marker.point)}" if name is None else f"{marker.body}.{name}"
+
+    def _between(self, a: Marker, b: Marker) -> str:
+        return f"r({self.point(b)}) - r({self.point(a)})"
+
+
+def _unsigned(measure: Measure) -> Measure:
+    """Return a measure that is 0 where another one is: that one without its sign."""
+    match measure:
+        case Sum(((Number(value=factor), term),)) if abs(factor) == 1.0:
+            return term
+        case _:
+            return measure
+
+
+def _axis(direction: Direction) -> tuple[str, str] | None:
+    """Return the sign and the letter of an axis of a frame, if a direction is one."""
+    places = [i for i, e in enumerate(direction.vector) if not (isinstance(e, Number) and e.value == 0)]
+    if len(places) != 1:
+        return None
+    entry = direction.vector[places[0]]
+    if not isinstance(entry, Number) or abs(entry.value) != 1:
+        return None
+    return "-" if entry.value < 0 else "", _AXES[places[0]]
+
+
+def _vector(direction: Direction) -> str:
+    """Return a direction in a formula."""
+    axis = _axis(direction)
+    if axis is None:
+        return f"u({direction.body} {_tuple(direction.vector)})"
+    text = f"{axis[0]}e_{axis[1]}({direction.body})"
+    return f"({text})" if axis[0] else text
+
+
+def _phrase(direction: Direction) -> str:
+    """Return a direction in a sentence."""
+    axis = _axis(direction)
+    return f"{_tuple(direction.vector)} of {direction.body}" if axis is None else f"e_{axis[1]} of {direction.body}"
+
+
+def _in_direction(direction: Direction) -> str:
+    axis = _axis(direction)
+    return f"in {axis[1]}" if axis is not None and direction.body == GROUND else f"along {_phrase(direction)}"
+
+
+def _tuple(entries: tuple[Expr, ...]) -> str:
+    return f"[{', '.join(map(_number, entries))}]"
+
+
+def _number(expression: Expr) -> str:
+    """Return an expression; numbers with six digits."""
+    return f"{expression.value + 0.0:.6g}" if isinstance(expression, Number) else to_text(expression)

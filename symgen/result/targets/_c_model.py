@@ -1,0 +1,281 @@
+"""A mechanism as C99: emitted functions, numbers of its start, and values for the templates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.base.errors import InputError
+from symgen.base.ir.program import COUNTERS, SETTLED
+from symgen.compile.native.c99 import broken_line, c_functions, c_limit, c_number, macros
+from symgen.compile.native.formula_lines import C, NotInLines
+from symgen.compile.native.read import Foreign
+from symgen.derive.emit.module import render
+from symgen.describe.parts.events import RESET, STOP
+from symgen.result.targets._c_names import defined_names, prefix_of
+from symgen.run.compiling.checked import checked, checked_function
+from symgen.run.compiling.events import DIRECTIONS
+from symgen.run.compiling.printed import Printed, PrintedEvents
+from symgen.run.compiling.side import compile_side
+from symgen.run.effects.stepping import FAILED
+from symgen.run.layout import abi
+from symgen.run.layout.model_arrays import lengths_of
+from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import Prepared, prepare
+from symgen.run.planning.start_lines import (
+    derived_lines,
+    exported_start,
+    independent_places,
+    is_described,
+    written_start,
+)
+
+if TYPE_CHECKING:
+    from symgen.base.vocabulary.quantities import Quantity
+    from symgen.compile.native.binding import BoundFunctions
+    from symgen.compile.native.language import Function
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.targets._target import Request
+    from symgen.run.layout.compiled import CompiledModel
+
+#: Functions of a law and of a model that exist in C.
+_NAMES = ("rhs", "accept", "geometry", "confirm", "masses", "move", "bodies")
+#: Memory that every mechanism has.
+_OWN = ("y", "p", "w", "iw")
+#: Maximum number of operations of a right-hand side: a compiler takes half a minute for it.
+MOST_OPERATIONS = 40_000
+
+
+@dataclass(frozen=True)
+class CModel:
+    """A mechanism in C99.
+
+    Attributes
+    ----------
+    target : str
+        The target, for messages.
+    run : Prepared
+        Its code and consistent start.
+    """
+
+    target: str
+    run: Prepared
+
+    @classmethod
+    def of(cls, request: Request, target: str) -> CModel:
+        """Derive, emit and assemble a request.
+
+        Raises
+        ------
+        InputError
+            If the code is looped, implicit or too large.
+        """
+        model = cls(target, prepare(request.mechanism, request.settings(target), Purpose.STATE))
+        operations = model.compiled.law.operations.get("rhs", 0)
+        if operations > MOST_OPERATIONS:
+            expected = f"a right-hand side of at most {MOST_OPERATIONS} operations"
+            raise InputError(f"--target {target}", expected, f"{operations} of {request.mechanism.name}")
+        return model
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """Code in the coordinates of the state."""
+        return self.run.compiled
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism, with its tree for a state in joint coordinates."""
+        return self.run.mechanism
+
+    @property
+    def joint(self) -> bool:
+        """Whether the state has joint coordinates."""
+        return self.run.tree is not None
+
+    @cached_property
+    def prefix(self) -> str:
+        """Prefix of the names of the C functions."""
+        return prefix_of(self.mechanism.name, self.text)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Another name of the mechanism in C, in words."""
+        name = self.mechanism.name.replace("-", "_")
+        if self.prefix == name:
+            return ()
+        return (f"in C, names of '{self.mechanism.name}' begin with {self.prefix}: {name} has another meaning there",)
+
+    @cached_property
+    def text(self) -> str:
+        """Emitted functions in C."""
+        return c_functions(self.functions, self.bound, "mechanism", defined_names())
+
+    @property
+    def columns(self) -> tuple[Quantity, ...]:
+        """Coordinates, then velocities, of all bodies."""
+        info = self.run.assembled.of_bodies[0].info
+        return (*info.coordinates, *info.velocities)
+
+    @cached_property
+    def values(self) -> dict[str, Any]:
+        """The values that the templates print.
+
+        Raises
+        ------
+        InputError
+            If an event, a function or a formula of the start has no form in C.
+        """
+        start, info, law = self.run.start, self.compiled.info, self.compiled.law
+        mechanism, defaults = self.mechanism, self.mechanism.defaults
+        acting = [i for i, event in enumerate(mechanism.events) if event.action in (STOP, RESET)]
+        scratch = np.zeros(len(start.w))
+        for first, size in (info.sections[name] for name in SETTLED if name in info.sections):
+            scratch[first : first + size] = start.w[first : first + size]
+        parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
+        of_bodies = self.run.assembled.of_bodies[0].info
+        drivers = self.drivers
+        return {
+            "name": mechanism.name,
+            "title": mechanism.title or mechanism.name,
+            "method": law.method,
+            "prefix": self.prefix,
+            "upper": self.prefix.upper(),
+            **{"nq": info.nq, "nv": info.nv, "ny": info.ny, "m": info.m, "np": len(start.p), "nw": len(start.w)},
+            "ni": len(COUNTERS),
+            "columns": self.columns,
+            "outputs": mechanism.outputs,
+            "events": mechanism.events,
+            "acting": acting,
+            "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
+            "stopping": [i for i in acting if mechanism.events[i].action == STOP],
+            "failed": FAILED,
+            "effects": self.events.effects is not None,
+            "memory": [
+                {"name": name, "is_real": kind == "float", "size": size}
+                for name, (kind, size) in self.bound.memory.items()
+                if name not in _OWN
+            ],
+            "parameters": [
+                {"name": q.name, "unit": q.unit, "value": c_number(x), "input": q.name in info.inputs}
+                for q, x in zip(info.parameters, parameters.values(), strict=True)
+            ],
+            "inputs": _list(int(q.name in info.inputs) for q in info.parameters) or "0",
+            "independent": independent_places(mechanism, parameters),
+            "p0": self._defaults(),
+            "macros": macros(f"{self.prefix.upper()}_SINGLE"),
+            "y0": _list(map(c_number, start.y)),
+            "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
+            "driven": self.has_driven_rows,
+            "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
+            "moving": _list(f'"{name}"' for name in moving_names(info)),
+            **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
+            "row_lengths": _list(int(row.unit == "m") for row in info.rows),
+            "angular": _list(int(q.unit != "m/s") for q in info.velocities),
+            "lengths": _list(int(x) for x in lengths_of(info)),
+            "at": {
+                **{name: info.sections[name][0] for name in ("residual", "nu")},
+                **{"length": abi.LENGTH, "step": abi.STEP_STATUS},
+            },
+            "functions": self.text,
+            "confirm": "confirm" in self.functions,
+            "move": "move" in self.functions,
+            "joint": self.joint,
+            "signs": _list(int(x) for x in self.run.tree.signs) if self.run.tree is not None else "",
+            "observed": of_bodies.nq + 2 * of_bodies.nv,
+            "until": c_number(defaults.until),
+            "step": c_number(defaults.step),
+            "every": max(1, round((defaults.output_step or defaults.step) / defaults.step)),
+            **self._start(),
+        }
+
+    @cached_property
+    def functions(self) -> dict[str, Function]:
+        """Checked functions by their names in C."""
+        try:
+            functions = checked(self.compiled, _NAMES)
+        except Foreign as error:
+            raise InputError(f"--target {self.target}", "code that C has", f"{self.mechanism.name}: {error}") from None
+        functions["prepare_model"] = functions.pop("prepareModel")
+        functions["prepare_law"] = functions.pop("prepareLaw")
+        if self.compiled.info.nq == self.compiled.info.nv:
+            functions.pop("move", None)
+        if outputs := [(output.name, output.value) for output in self.mechanism.outputs]:
+            side = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
+            functions["formulas_of_outputs"] = checked_function(side.function, abi.OBSERVE)
+        return functions | self.events.functions
+
+    @cached_property
+    def events(self) -> PrintedEvents:
+        """The events."""
+        return PrintedEvents.of(self.mechanism, self.compiled)
+
+    @property
+    def has_driven_rows(self) -> bool:
+        """Whether rows of drivers are among the rows; in joint coordinates drivers may need none."""
+        return any(row.joint in self.drivers for row in self.compiled.info.rows)
+
+    @cached_property
+    def bound(self) -> BoundFunctions:
+        """Functions of the runtime."""
+        printed, start = Printed(self.functions), self.run.start
+        turns = None if self._is_described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
+        printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
+        further = ("apply_effects",) if self.events.effects else ()
+        printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
+        if self.has_driven_rows:
+            printed.add_lock(self.compiled, self.drivers)
+        if self.target == "fmu" and self.compiled.info.m:
+            printed.add_jacobian(self.compiled)
+        return printed.bound()
+
+    @property
+    def drivers(self) -> set[str]:
+        """Joints that drive."""
+        return {joint.name for joint in self.mechanism.joints if joint.kind == DRIVER}
+
+    @property
+    def _is_described(self) -> bool:
+        """Whether a start is closed from the described one.
+
+        One that specifies coordinates of joints, or is in joint coordinates, is closed from the exported one.
+        """
+        return not self.joint and is_described(self.mechanism)
+
+    def _defaults(self) -> str:
+        """Return the parameters; tolerances of the law have other limits for 32 bits."""
+        law, numbers = self.compiled.law, list(map(c_number, self.run.start.p))
+        for i, (name, _) in enumerate(law.parameters, law.parameter_offset):
+            if name.endswith("tolerance"):
+                numbers[i] = c_limit(float(self.run.start.p[i]))
+        return _list(numbers)
+
+    def _start(self) -> dict[str, str]:
+        """Return lines for the derived parameters and for the start."""
+        mechanism = self.mechanism
+        following = list[str]()
+        try:
+            for place, texts in derived_lines(mechanism, C):
+                following += [f"    if (!model->set[{place}]) {{", *(f"        {text}" for text in texts), "    }"]
+            written = written_start(mechanism, C, self._is_described)
+        except NotInLines as error:
+            raise InputError(f"--target {self.target}", "a start by formulas that C has", str(error)) from None
+        text = " ".join(written)
+        unused = [f"(void){name};" for name in ("q", "v", "own") if f"{name}[" not in text]
+        return {
+            "derived": "\n".join(following),
+            "described": "\n".join(f"    {line}" for line in (*unused, *written)),
+        }
+
+
+def _list(words: Iterable[object]) -> str:
+    return broken_line(", ".join(map(str, words)))
+
+
+def sources(values: Mapping[str, Any]) -> dict[str, str]:
+    """Return the header and the module of a mechanism, by file name."""
+    return {f"{values['prefix']}.{kind}": render(f"c/model.{kind}.j2", values) for kind in "hc"}

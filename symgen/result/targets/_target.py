@@ -1,0 +1,92 @@
+"""Targets write the code of a mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symgen.base.errors import InputError
+from symgen.base.settings import Settings
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.planning.package import Package
+
+#: The method of targets with a single method.
+USUAL = "direct-correction"
+
+
+@dataclass(frozen=True)
+class Request:
+    """A mechanism and the options of its code.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    path : Path
+        The folder, or the file of a single-file target.
+    methods : tuple of str or None
+        Names of methods, None for all that suit the mechanism, the shape and the target.
+    options : mapping of str to str
+        Options of methods.
+    coordinates : {"absolute", "joint", "auto"}
+        Coordinates of the state.
+    shape : {"straight", "looped"}
+        Code for this mechanism alone, or loops over tables.
+    fmi : {2, 3}
+        Version of the interface of an FMU.
+    """
+
+    mechanism: Mechanism
+    path: Path
+    methods: tuple[str, ...] | None = (USUAL,)
+    options: Mapping[str, str] | None = None
+    coordinates: str = "absolute"
+    shape: str = "straight"
+    fmi: int = 2
+
+    def settings(self, target: str) -> Settings:
+        """Return the settings of a run by the only method.
+
+        Parameters
+        ----------
+        target : str
+            The target, for messages.
+
+        Raises
+        ------
+        InputError
+            If there are several methods, or the shape is looped.
+        """
+        from symgen.run.compiling.choices import choose_coordinates
+
+        if self.shape != "straight":
+            raise InputError(f"--target {target}", "the straight shape", self.shape)
+        if self.methods is None or len(self.methods) != 1:
+            raise InputError(f"--target {target}", "one method", ", ".join(self.methods or ("all",)))
+        method = self.methods[0]
+        options = {f"method.{key.rpartition('.')[2]}": text for key, text in (self.options or {}).items()}
+        coordinates = choose_coordinates(self.mechanism, self.coordinates, "straight").name
+        return Settings(method, integrator="rk4", options=options, shape="straight", coordinates=coordinates)
+
+
+@dataclass(frozen=True)
+class Target:
+    """One use of emitted code; the first line of a target's file names it and the requirements of the code.
+
+    Attributes
+    ----------
+    write : callable
+        Writes the files of a request.
+    ending : str
+        Suffix of the mechanism's name in the default path.
+    bounded : bool
+        Whether its code may have dry friction and stops, whose modes are those that callers write.
+    """
+
+    write: Callable[[Request], Package]
+    ending: str = ""
+    bounded: bool = False

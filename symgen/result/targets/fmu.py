@@ -1,0 +1,196 @@
+"""An FMU of FMI 2.0 or 3.0, co-simulation and model exchange in one file: a C compiler at hand."""
+
+from __future__ import annotations
+
+import io
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+from uuid import NAMESPACE_OID, uuid5
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.base.files import check_path, write_all
+from symgen.base.version import __version__
+from symgen.derive.emit.module import render
+from symgen.result.targets._base_units import base_unit
+from symgen.result.targets._c_model import CModel, sources
+from symgen.result.targets._target import Request, Target
+from symgen.run.planning.package import Package
+
+#: Value references: parameters begin at 0, time follows all others.
+_COLUMN, _OUTPUT, _STATE, _RATE, _EVENT, _TIME = 10_000, 20_000, 30_000, 40_000, 50_000, 60_000
+#: Platforms by system: the folders of FMI 2 and FMI 3, the suffix of libraries.
+_PLATFORMS = {
+    "linux": ("linux64", "linux", ".so"),
+    "win32": ("win64", "windows", ".dll"),
+    "darwin": ("darwin64", "darwin", ".dylib"),
+}
+_CROSS = "x86_64-w64-mingw32-gcc"
+_OPTIONS = ("-std=c99", "-O2", "-shared", "-s")
+#: Smallest singular value that counts for the rank of rows, relative to the largest.
+_RANK = 1e-9
+
+
+@dataclass
+class Variable:
+    """A variable of the model description."""
+
+    name: str
+    reference: int
+    causality: str
+    variability: str = "continuous"
+    initial: str = "calculated"
+    unit: str = ""
+    start: str | None = None
+    description: str = ""
+    derivative: Variable | None = None
+    index: int = 0
+
+
+def _write(request: Request) -> Package:
+    if request.fmi not in (2, 3):
+        raise InputError("fmi", "2 or 3", str(request.fmi))
+    check_path("-o", request.path, {".fmu": ()}, "")
+    # inputs with formulas remain inputs of the FMU: the importing tool connects them
+    mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
+    model = CModel.of(replace(request, mechanism=mechanism), "fmu")
+    files = _files(model, request.fmi)
+    files |= _binaries(model.prefix, files, request.fmi)
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, data)
+    write_all({request.path: content.getvalue()})
+    compiled = model.compiled
+    return Package(request.path.parent, (request.path,), compiled.derive_seconds, compiled.emit_seconds, model.notes)
+
+
+def _files(model: CModel, fmi: int) -> dict[str, bytes]:
+    """Return the text files of an FMU by their names in it."""
+    texts = sources(model.values)
+    values = model.values | _partition(model)
+    values |= {
+        "fmi": fmi,
+        "guid": f"{{{uuid5(NAMESPACE_OID, ' '.join([*texts.values(), str(fmi), __version__]))}}}",
+        "version": __version__,
+        **{"at_column": _COLUMN, "at_output": _OUTPUT, "at_state": _STATE, "at_rate": _RATE, "at_event": _EVENT},
+        "at_time": _TIME,
+    }
+    texts["fmu.c"] = render("c/fmu.c.j2", values)
+    if fmi == 3:
+        texts["buildDescription.xml"] = render("c/buildDescription.xml.j2", values)
+    description = render(f"c/modelDescription{fmi}.xml.j2", values | _variables(model, values, fmi))
+    return {"modelDescription.xml": description.encode(), **{f"sources/{n}": t.encode() for n, t in texts.items()}}
+
+
+def _partition(model: CModel) -> dict[str, Any]:
+    """Return the numbers of dependent coordinates and velocities at the start, with their rows and indices."""
+    compiled, info = model.compiled, model.compiled.info
+    rows = compiled.jacobian(model.run.start.w)
+    holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
+    return {
+        "holonomic": holonomic,
+        "spins": [f"{{{first}, {turning}}}" for first, turning in info.spins],
+        "rank_q": _rank(rows[holonomic]) + len(info.spins),
+        "rank_v": _rank(rows),
+        "rest": len(info.states) + info.integrals,
+        "windings": info.windings,
+    }
+
+
+def _rank(rows: NDArray[np.float64]) -> int:
+    sizes = np.linalg.svd(rows, compute_uv=False) if rows.size else np.zeros(0)
+    return int(np.sum(sizes > _RANK * sizes.max(initial=0.0)))
+
+
+def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, Any]:
+    """Return the variables of the model description and of its structure."""
+    mechanism, info = model.mechanism, model.compiled.info
+    formulas = {p.name for p in mechanism.parameters if p.formula is not None}
+    parameters, following = list[Variable](), list[Variable]()
+    for i, parameter in enumerate(values["parameters"]):
+        name, unit, value = parameter["name"], parameter["unit"], parameter["value"]
+        if parameter["input"]:
+            parameters.append(Variable(name, i, "input", initial="", unit=unit, start=value))
+        elif name in formulas:
+            following.append(Variable(name, i, "calculatedParameter", "fixed", unit=unit))
+            parameters.append(following[-1])
+        else:
+            parameters.append(Variable(name, i, "parameter", "fixed", "exact", unit, value))
+    outputs = [Variable(q.name, _COLUMN + i, "output", unit=q.unit) for i, q in enumerate(model.columns)]
+    names = {v.name for v in (*parameters, *outputs)}
+    for i, output in enumerate(mechanism.outputs):
+        name = f"output.{output.name}" if output.name in names else output.name
+        outputs.append(Variable(name, _OUTPUT + i, "output", unit=output.unit))
+    count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
+    what = "independent coordinate or velocity, state or integral"
+    states = [Variable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
+    rates = [Variable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
+    marks = [*(f"event.{event.name}" for event in mechanism.events), "event.choice_of_states"] if fmi == 3 else []
+    indicators = [Variable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
+    variables = [*parameters, *outputs, *states, *rates, *indicators]
+    for i, variable in enumerate(variables, 1):
+        variable.index = i
+        variable.unit = "" if variable.unit == "1" else variable.unit
+    units = sorted({v.unit for v in variables} - {""})
+    return {
+        "variables": variables,
+        "units": [{"name": unit, "base": base_unit(unit) or {}} for unit in units],
+        "outputs_at": outputs,
+        "rates_at": rates,
+        "unknown_at": [*following, *outputs, *states, *rates],
+        "indicators": indicators,
+    }
+
+
+def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+    """Return shared libraries of an FMU for this machine, and for Windows if a cross compiler is installed.
+
+    Raises
+    ------
+    InputError
+        If there is no compiler, or it fails.
+    """
+    compiler = next((c for c in ("cc", "gcc", "clang") if shutil.which(c)), None)
+    if compiler is None:
+        raise InputError(
+            "--target fmu", "a C compiler (cc, gcc or clang)", "none", "--target c needs none to be written"
+        )
+    binaries = dict[str, bytes]()
+    with tempfile.TemporaryDirectory() as folder:
+        for name, data in files.items():
+            if name.endswith((".c", ".h")):
+                (Path(folder) / Path(name).name).write_bytes(data)
+        own = "win32" if sys.platform in ("win32", "cygwin") else sys.platform
+        commands = {own: [compiler, *_OPTIONS, *(() if own == "win32" else ("-fPIC", "-fvisibility=hidden"))]}
+        if own != "win32" and shutil.which(_CROSS):
+            commands["win32"] = [_CROSS, *_OPTIONS, "-static-libgcc"]
+        for system, command in commands.items():
+            two, three, ending = _PLATFORMS.get(system, _PLATFORMS["linux"])
+            machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())
+            target = two if fmi == 2 else f"{machine}-{three}"
+            library = Path(folder) / f"library{ending}"
+            result = subprocess.run(
+                [*command, "fmu.c", "-o", library.name, "-lm"], cwd=folder, capture_output=True, text=True, check=False
+            )
+            if result.returncode:
+                error = next((line for line in result.stderr.splitlines() if "error" in line), "an error")
+                raise InputError("--target fmu", f"code that {command[0]} compiles", error)
+            binaries[f"binaries/{target}/{prefix}{ending}"] = library.read_bytes()
+    return binaries
+
+
+KIND = Target(_write, ".fmu")

@@ -1,0 +1,347 @@
+"""Stops of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs behind them.
+
+A run ends a step at each of these times and takes the values behind it before the next step, so that no step or stage
+sees both sides of a jump. An error estimate notices a jump only where stages of a step lie on both sides of it: a push
+shorter than a step may lie between two stages.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import names_in
+from symgen.describe.facts.kinks import jumps_in_time, jumps_of_gaps
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.parts.inputs import DrivenMechanism, Jump
+from symgen.describe.remembered import remembered
+from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of
+from symgen.run.layout.abi import SAME_TIME
+from symgen.run.loops.run_spec import Stop
+
+#: Jumps closer than this fraction of the run are one.
+SAME = 1e-14
+#: Schemes of a lower order end steps where those of this order do.
+LEAST_ORDER = 3
+#: Distance from a jump at which a step ends and another begins, as a fraction of the run; and where constant steps do,
+#: between which no step lies: more than the rounding of stages, and of the time of the jump.
+_BESIDE, _NEXT_TO = 1e-12, 4.0 * 2.0**-52
+
+
+def stops_of(
+    driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
+) -> tuple[Stop, ...]:
+    """Return the stops of a motion from `first` to `until`, empty without jumps.
+
+    Parameters
+    ----------
+    driven : DrivenMechanism
+        Mechanism and its inputs.
+    values : mapping of str to float
+        Of all parameters.
+    until, first : float
+        End of the run, and its beginning [s].
+    behind : float
+        Range behind the end, as a fraction of it, that is searched for jumps as well: data need not reach there.
+
+    Raises
+    ------
+    InputError
+        If there are too many, or smooth data end before the run does.
+    """
+    formulas = InTime(driven.mechanism, values)
+    for name, data in driven.curves.items():
+        if data.t[0] > first or data.t[-1] < until:
+            got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
+            raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
+
+    until *= 1.0 + behind
+    jumps = {t for data in driven.samples.values() for t in data.t}
+    for jump in driven.jumps:
+        jumps.update(formulas.crossings(jump, until, first))
+    times = [first]
+    for t in sorted(jumps):
+        if t - times[-1] > SAME * until and until - t > SAME * until:
+            times.append(t)
+    if len(times) > MOST_PIECES:
+        raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{len(times) - 1}")
+    switches = [jump for jump in driven.jumps if jump.switch]
+    if not (switches or driven.samples or len(times) > 1):
+        return ()
+    result, before = list[Stop](), dict[str, float]()
+    for begin, end in pairwise([*times, until]):
+        middle = 0.5 * (begin + end)
+        now = {name: data.at(middle) for name, data in driven.samples.items()}
+        now |= {jump.switch: 0.0 if math.isnan(x := formulas.at(jump.value, middle)) else x for jump in switches}
+        result.append(Stop(begin, {name: x for name, x in now.items() if before.get(name) != x}))
+        before = now
+    return tuple(result)
+
+
+def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]:
+    """Return stops with changes of numbers and stops without in one sequence, one of each two at the same time."""
+    if not (stops and kinks):
+        return stops or kinks
+    apart, times, result = SAME * kinks[-1].t, [kink.t for kink in kinks], list(kinks)
+    for stop in stops:
+        at = bisect_left(times, stop.t - apart)
+        if at < len(times) and times[at] <= stop.t + apart:
+            result[at] = replace(result[at], values={**result[at].values, **stop.values})
+        else:
+            result.append(stop)
+    return tuple(sorted(result, key=lambda stop: stop.t))
+
+
+def beside(stops: tuple[Stop, ...], times: Sequence[float], until: float) -> tuple[Stop, ...]:
+    """Return stops on both sides of some times, in place of stops at these without changes of numbers."""
+    apart, result = _BESIDE * until, list[Stop]()
+    for stop in stops:
+        if stop.values or stop.t == 0.0 or not any(abs(stop.t - t) < apart for t in times):
+            result.append(stop)
+        else:
+            result += [Stop(t, {}) for t in (stop.t - apart, stop.t + apart) if 0.0 < t < until]
+    return tuple(result)
+
+
+@dataclass(frozen=True)
+class Foreseen:
+    """Foreseen discontinuities of the formulas of a mechanism; false without any.
+
+    Their times depend on parameters: the latest result is remembered. Constant steps go on at the next point of their
+    grid: a step up to it follows each discontinuity.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        Owner of the tables that formulas may read.
+    kinks, sides : tuple of Jump
+        From `symgen.describe.facts.kinks.jumps_in_time`.
+    gaps : tuple of Jump
+        From `symgen.describe.facts.kinks.jumps_of_gaps`: a closed stop gives the bodies on it another velocity there.
+    grid : (float, float) or None
+        First point and distance of the grid of constant steps [s], 0 for steps without a grid; None where steps vary.
+    latest : dict
+        The latest result, by the values on which it depends.
+    """
+
+    mechanism: Mechanism
+    kinks: tuple[Jump, ...] = ()
+    sides: tuple[Jump, ...] = ()
+    gaps: tuple[Jump, ...] = ()
+    grid: tuple[float, float] | None = None
+    latest: dict[tuple[float, ...], tuple[tuple[Stop, ...], bool]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
+
+    def __bool__(self) -> bool:
+        """Whether formulas have such discontinuities."""
+        return bool(self.kinks or self.sides or self.gaps)
+
+    @cached_property
+    def reads(self) -> frozenset[str]:
+        """Names on which the times depend: parameters, and t."""
+        return frozenset(name for jump in (*self.kinks, *self.sides, *self.gaps) for name in names_in(jump.argument))
+
+    def stops(self, values: Mapping[str, float], until: float) -> tuple[Stop, ...]:
+        """Return the stops of a run to `until` [s], at which no number changes; empty for a run in one piece.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Of all parameters.
+        until : float
+            End of the run [s].
+        """
+        return self._stops(values, until)[0]
+
+    def _stops(self, values: Mapping[str, float], until: float) -> tuple[tuple[Stop, ...], bool]:
+        """Return the stops, and whether they are complete: too many are left out."""
+        if not self:
+            return (), True
+        key = until, *(values[name] for name in sorted(self.reads & values.keys()))
+        result = self.latest.get(key)
+        if result is None:  # compared runs, or runs of a sweep, often agree in these values
+            kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until)
+            sides, all_sides = times_between(self.sides, self.mechanism, values, until, self.grid is not None)
+            gaps, all_gaps = times_between(self.gaps, self.mechanism, values, until, self.grid is not None)
+            if self.grid is None:
+                # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
+                beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
+                times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
+                stops = tuple(Stop(t, {}) for t in (0.0, *times)) if times else ()
+                if gaps:
+                    stops = merged(stops, skipping(gaps, gaps, (0.0, 0.0), until))
+            else:
+                stops = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
+            result = stops, all_kinks and all_sides and all_gaps
+            self.latest.clear()  # threads of a sweep do so, too
+            self.latest[key] = result
+        return result
+
+    def missed(self, values: Mapping[str, float], until: float) -> list[str]:
+        """Return the sentence about discontinuities that steps of a run may miss; parameters as for `stops`."""
+        if self._stops(values, until)[1]:
+            return []
+        often = "formulas change, or pass points of tables, more often than can be distinguished"
+        return [f"{often}: steps do not end there, and may miss what is short"]
+
+
+def skipping(
+    times: Sequence[float], gaps: Container[float], grid: tuple[float, float], until: float
+) -> tuple[Stop, ...]:
+    """Return the stops of constant steps at discontinuities.
+
+    A step ends just before each, and the next one begins just behind it, so that every stage lies on its side; it ends
+    at the next point of the grid.
+
+    Parameters
+    ----------
+    times : sequence of float
+        Of discontinuities, in their order [s].
+    gaps : container of float
+        Those of gaps.
+    grid : (float, float)
+        As in `Foreseen`.
+    until : float
+        End of the run [s].
+    """
+    (first, step), apart, result = grid, _NEXT_TO * until, list[Stop]()
+    for t, following in pairwise((*times, until)):
+        result += [Stop(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Stop(t + apart, {})]
+        if step > 0.0:
+            steps = (t - first) / step
+            point = first + math.ceil(steps) * step
+            if abs(steps - round(steps)) > SAME_TIME and point < following - SAME_TIME * step:
+                result.append(Stop(point, {}))
+    if result and result[0].t > 0.0:
+        result.insert(0, Stop(0.0, {}))
+    return tuple(result)
+
+
+def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: float | None) -> Foreseen:
+    """Return the discontinuities of formulas of joints, forces, integrals and stops at which constant steps end.
+
+    Where the k-th derivative of a table jumps, a step errs by its power k + 1: below the order of the scheme it counts,
+    as the points of linear tables always do.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    order : int
+        Order of the scheme.
+    first, step : float
+        First point and distance of the grid of steps [s].
+    """
+    kinks, sides, gaps, _ = _passed(mechanism)
+    kinks = tuple(kink for kink in kinks if kink.derivative + 1 < max(order, LEAST_ORDER))
+    return Foreseen(mechanism, kinks, sides, gaps, (first, step or 0.0))
+
+
+def foreseen_in_run(
+    mechanism: Mechanism,
+    events: Sequence[Event],
+    adaptive: bool,
+    order: int,
+    grid: tuple[float, float | None],
+) -> Foreseen:
+    """Return the discontinuities at which steps of a run end.
+
+    Parameters
+    ----------
+    mechanism, events
+        The description, and the events of the run.
+    adaptive : bool
+        Whether steps are adaptive (`foreseen`) or constant (`foreseen_by_steps`).
+    order, grid
+        Order of the scheme, first point and distance of the grid of constant steps.
+    """
+    return foreseen(mechanism, events) if adaptive else foreseen_by_steps(mechanism, order, *grid)
+
+
+def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
+    """Return the foreseen discontinuities of formulas of joints, forces, integrals and stops, and of events.
+
+    Steps find an event that is a straight line in t wherever they end; another one may come and go within a step.
+    """
+    if not events:
+        kinks, sides, gaps, latest = _passed(mechanism)
+        return Foreseen(mechanism, kinks, sides, gaps, latest=latest)
+    timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
+    values = parameter_values(mechanism)
+    happening = (
+        jump
+        for jump in (Jump(event.when) for event in events)
+        if "t" in (read := {*names_in(jump.argument)}) and read <= timely and line_of(jump, values) is None
+    )
+    kinks, sides = jumps_in_time(mechanism, events)
+    return Foreseen(mechanism, kinks, (*sides, *happening), jumps_of_gaps(mechanism))
+
+
+@remembered
+def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], tuple[Jump, ...], dict[Any, Any]]:
+    return *jumps_in_time(mechanism), jumps_of_gaps(mechanism), {}
+
+
+def times_between(
+    jumps: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float, at_start: bool = False
+) -> tuple[tuple[float, ...], bool]:
+    """Return the times inside a run at which formulas pass levels, and whether these are all.
+
+    Parameters
+    ----------
+    jumps : sequence of Jump
+        From `symgen.describe.facts.kinks`. Formulas that pass levels too often to be separated are left out.
+    mechanism : Mechanism
+        Owner of the tables that they may read.
+    values : mapping of str to float
+        Of all parameters.
+    until : float
+        End of the run [s].
+    at_start : bool
+        Whether the start counts, if formulas pass levels there.
+
+    Returns
+    -------
+    tuple of float
+        In order [s]; empty if more than `MOST_PIECES`.
+    bool
+        Whether nothing was left out.
+    """
+    formulas, crossings, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
+    for jump in jumps:
+        try:
+            crossings.update(formulas.crossings(_unrolled(jump, formulas, until), until))
+        except InputError:
+            whole = False
+    times = [0.0] if at_start and min(crossings, default=until) <= apart else list[float]()
+    for t in sorted(crossings):
+        if t - (times[-1] if times else 0.0) > apart and until - t > apart:
+            times.append(t)
+    return (tuple(times), whole) if len(times) <= MOST_PIECES else ((), False)
+
+
+def _unrolled(jump: Jump, formulas: InTime, until: float) -> Jump:
+    """Return a jump with all periodic levels in the range of its argument in a run.
+
+    Raises
+    ------
+    InputError
+        If the levels are too many.
+    """
+    if jump.period == 0.0:
+        return jump
+    low, high = formulas.range(jump, until)
+    turns = [(x - jump.levels[0]) / jump.period for x in (low, high)]
+    own = jump.levels[:-1]  # the last point is the first one of the next period
+    if not (turns[1] - turns[0] + 1.0) * len(own) <= MOST_PIECES:
+        raise InputError("formulas", f"at most {MOST_PIECES} points of a table", "more periods of it")
+    count = range(math.floor(turns[0]), math.floor(turns[1]) + 1)
+    return replace(jump, levels=tuple(x + k * jump.period for k in count for x in own))

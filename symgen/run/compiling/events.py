@@ -1,0 +1,195 @@
+"""Events of a run, and the comparisons of its formulas over the state, as functions for loops."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.ir.interpolation import Interpolation
+from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.describe.bounds.friction import bound_in_motion, components, mode_events, rate_of
+from symgen.describe.bounds.losses import places_of_losses
+from symgen.describe.bounds.stops import gap_of, stop_events
+from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, changing_rows, discontinuities_of
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import Event, Mechanism, SpatialBody
+from symgen.run.compiling.side import compile_side
+from symgen.run.effects.effects import Effect, Effects
+from symgen.run.layout.compiled import CompiledModel
+from symgen.run.loops.run_spec import BoundedRows, Switch, Watched
+from symgen.run.single.row_jumps import RowJumps
+
+Array = NDArray[np.float64]
+
+#: Sign of the change of a switching function at its event, 0 for both.
+DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
+
+
+def compile_events(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    events: Sequence[Event],
+    rtol: float | None = None,
+) -> Watched | None:
+    """Return the switching functions of a run, or None.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    compiled : CompiledModel
+        Model and method.
+    events : sequence of Event
+        Events of the run.
+    rtol : float, optional
+        Tolerance of adaptive steps, which end where formulas jump or have kinks over the state; constant steps do not.
+        In either, rows that change are examined there.
+    """
+    passed = tuple(x for x in discontinuities_of(mechanism) if rtol is not None or x.holds)
+    events = (*events, *mode_events(mechanism), *stop_events(mechanism))
+    if not (events or passed):
+        return None
+    functions = [(f"{event.name}: {event.text}", event.when) for event in events]
+    functions += [(to_text(x.argument), x.argument) for x in passed]
+    side = compile_side(mechanism, compiled, "events", "Switching functions", functions, 1, bool(passed))
+    return Watched(
+        names=tuple(event.name for event in events),
+        directions=tuple(DIRECTIONS[event.direction] for event in events),
+        actions=tuple(event.action for event in events),
+        function=side.function,
+        needs_rates="ydot" in side.reads or bool(mechanism.bounded),  # which leave multipliers in w
+        of_forces=tuple(i for i in range(len(functions)) if i in side.of_forces),
+        effects=effects_of(mechanism, compiled, events),
+        switches=tuple(switch_of(x, 1.0 if rtol is None else rtol) for x in passed),
+        jumps=any(x.jumps for x in passed),
+        rows=row_jumps(mechanism, compiled) if any(x.holds for x in passed) else None,
+        adaptive=rtol is not None,
+        bounded=bounded_rows(mechanism, compiled),
+    )
+
+
+def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows | None:
+    """Return the rows whose forces have bounds, or None."""
+    every, frictions, stops = mechanism.bounded, mechanism.frictions, mechanism.stops
+    if not every:
+        return None
+    state: list[tuple[str, Expr]] = [(f.name, rate_of(f, 0)) for f in frictions]
+    state += [(f"gap of {s.name}", gap_of(s)) for s in stops]
+    state += [(f"rate of {x.name}", rate_of(x)) for x in every]
+    state += [(f"bound of {f.name} at rest", f.static) for f in frictions]
+    state += [(f"bound of {f.name} in motion", bound_in_motion(f)) for f in frictions]
+    state += [(f"restitution of {s.name}", s.restitution) for s in stops]
+    rates = [(f"second derivative of {x.name}", rate_of(x, 2)) for x in every]
+    pressed = tuple(i for i, f in enumerate(frictions) if f.pressed)
+    forces = list[tuple[str, Expr]]()
+    for i in pressed:
+        forces += zip(
+            (f"{frictions[i].name}, reaction {k}" for k in range(2)), (*components(frictions[i]), ZERO), strict=False
+        )
+    return BoundedRows(
+        tuple(x.name for x in every),
+        len(frictions),
+        compile_side(mechanism, compiled, "friction", "Rows with bounds", state),
+        compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),
+        compile_side(mechanism, compiled, "reactions", "Reactions at dry friction", forces) if pressed else None,
+        pressed,
+        changes_in_time(mechanism),
+        tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
+    )
+
+
+def row_jumps(mechanism: Mechanism, compiled: CompiledModel) -> RowJumps:
+    """Return the rows whose formulas may jump or have kinks over the state."""
+    rows = tuple(row for row in changing_rows(mechanism) if row.switches)
+    formulas = [(to_text(e), e) for row in rows for e in row.switches]
+    formulas += [(row.name, row.formula) for row in rows]
+    side = compile_side(mechanism, compiled, "rows", "Rows that may jump", formulas)
+    return RowJumps(rows, side, mechanism.defaults.until)
+
+
+def effects_of(mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event]) -> Effects | None:
+    """Return the effects of events, or None where events change nothing."""
+    states = {state.name for state in mechanism.states}
+    parts = dict[int, tuple[list[tuple[Expr, Expr]], list[tuple[Expr, Expr]]]]()
+    for i, event in enumerate(events):
+        if event.reset:
+            written = [to_text(name) in states for name, _ in event.reset]
+            pairs = list(zip(event.reset, written, strict=True))
+            parts[i] = [x for x, own in pairs if not own], [x for x, own in pairs if own]
+    if not parts:
+        return None
+    struck = [pair for velocities, _ in parts.values() for pair in velocities]
+    masses = masses_of(mechanism) if struck else {}
+    formulas = [(to_text(name), name) for name, _ in struck]
+    formulas += [(f"{to_text(name)} afterwards", value) for name, value in struck]
+    formulas += [(f"{to_text(name)} afterwards", value) for _, writes in parts.values() for name, value in writes]
+    formulas += [(f"mass {i}, {j}", value) for (i, j), value in masses.items()]
+    carried = bool(struck) and mechanism.topology is not None
+    return Effects(
+        compiled=compiled,
+        names=tuple(event.name for event in events),
+        effects={
+            i: Effect(*(tuple(to_text(name) for name, _ in pairs) for pairs in effect)) for i, effect in parts.items()
+        },
+        formulas=compile_side(mechanism, compiled, "effects", "Effects of events", formulas).function,
+        entries=tuple(masses),
+        bodies=sum(len(body.speeds) for body in mechanism.bodies) if carried else 0,
+        first=mechanism.body_coordinates if carried else 0,
+    )
+
+
+def switch_of(passed: Discontinuity, rtol: float) -> Switch:
+    """Return a discontinuity in the form for loops.
+
+    If a fraction x of a step lies behind a jump of the k-th derivative, its stages err by x^k, which may be `rtol`.
+    Points of a table that matter less than `rtol` are left out: many of them together are a smooth curve, which the
+    error estimate sees.
+    """
+    table = passed.table
+    if table is None:
+        return Switch(rtol, holds=passed.holds)
+    period = table.x[-1] - table.x[0] if table.periodic else 0.0
+    own = table.x[:-1] if table.periodic else table.x
+    points = tuple(x for x, size in zip(own, sizes_of_kinks(table.interpolated), strict=False) if size > rtol)
+    return Switch(rtol ** (1.0 / KINKS[table.interpolation]), points, period if points else 0.0)
+
+
+def sizes_of_kinks(curve: Interpolation) -> tuple[float, ...]:
+    """Return the distance of both sides of each point of a table within the shorter piece, over the range of values."""
+    x, y, n = np.array(curve.x), np.array(curve.y), len(curve.x)
+    gaps = np.diff(x)
+    if curve.pieces:
+        (_, *before), (_, *after) = (np.array(curve.pieces[k : n + k]).T for k in (0, 1))
+        u = np.concatenate([[0.0], gaps])
+        b1, b2, b3 = before
+        parts = [after[0] - (b1 + u * (2.0 * b2 + u * (3.0 * b3))), after[1] - (b2 + 3.0 * u * b3), after[2] - b3]
+    else:
+        slopes = np.concatenate([[0.0], np.diff(y) / gaps, [0.0]])
+        parts = [np.diff(slopes)]
+    h = np.minimum(np.concatenate([gaps[:1], gaps]), np.concatenate([gaps, gaps[-1:]]))
+    total = np.zeros(n)
+    for k, part in enumerate(parts, 1):
+        total += np.abs(part) * h**k
+    span = float(np.ptp(y))
+    return tuple((total / span).tolist()) if span > 0.0 else (0.0,) * n
+
+
+def masses_of(mechanism: Mechanism) -> dict[tuple[int, int], Expr]:
+    """Return entries of M by row and column: off-diagonal ones, and diagonal ones where joints carry bodies."""
+    entries, first = dict[tuple[int, int], Expr](), 0
+    for body in mechanism.bodies:
+        inertia: tuple[Expr, ...] = ()
+        if isinstance(body, SpatialBody):
+            inertia = body.inertia or ()
+        elif body.inertia is not None:
+            inertia = (body.inertia,)
+        if mechanism.topology is not None:
+            diagonal = [body.mass] * len(mechanism.gravity) + list(inertia[:3])
+            entries |= {(first + i, first + i): value for i, value in enumerate(diagonal)}
+        for (i, j), value in zip(((3, 4), (3, 5), (4, 5)), inertia[3:], strict=False):
+            if value != ZERO:
+                entries[first + i, first + j] = value
+        first += len(body.speeds)
+    return entries

@@ -1,0 +1,293 @@
+"""Functions of starts and events bound to one compiled model, for printers of other languages."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.compile.loopcode.exact import compiled_form
+from symgen.compile.native import language as lang
+from symgen.compile.native import types
+from symgen.compile.native.binding import BoundFunctions, ConstantTable, Elements, Meaning, Room, bind
+from symgen.compile.native.loop_values import laid_out
+from symgen.compile.native.loops import read_loop
+from symgen.compile.native.read_values import Foreign
+from symgen.describe.parts.events import RECORD, STOP
+from symgen.run.compiling.checked import checked_function
+from symgen.run.compiling.events import DIRECTIONS, effects_of
+from symgen.run.compiling.side import compile_side
+from symgen.run.effects.applying import apply_effects
+from symgen.run.effects.effects import Effects
+from symgen.run.effects.locking import find_lock, new_lock_work
+from symgen.run.effects.stepping import find_rates, new_step_work, take_step, take_steps
+from symgen.run.layout import abi
+from symgen.run.layout.ensemble_abi import N_SUMMARY
+from symgen.run.layout.scales import fill_jacobian
+from symgen.run.layout.start_records import Instant, StartConditions
+from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.starting import begin_row, close_row, observe_nothing
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.starts.assembler import Assembly
+
+#: Names of the switching functions of events, and of the formulas of their effects.
+SWITCHING, CHANGED = "formulas_of_events", "formulas_of_effects"
+#: Name of an array in the memory, by the parameter; None where it is constant, empty where it is passed.
+Naming = Callable[[str], str | None]
+
+
+def source_of(function: Any) -> lang.Function:
+    """Return a function of the runtime, whose callees are functions of their own.
+
+    Raises
+    ------
+    Foreign
+        If nothing is compiled, so that no types are known.
+    """
+    signature = getattr(compiled_form(function), "signature", None)
+    if signature is None:
+        raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
+    return read_loop(compiled_form(function), signature.arguments, None, apart=True)
+
+
+def meanings_of(
+    function: Any, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
+) -> dict[str, Meaning]:
+    """Return the meanings of a function's parameters for the arguments of a call.
+
+    Parameters
+    ----------
+    function : Exact
+        The function, with a signature.
+    arguments : tuple
+        Records, numbers, arrays and functions, as it is called with them.
+    emitted : mapping of int to Function
+        Emitted functions by the identity of those in the arguments; others are functions of the runtime.
+    room : callable
+        See `Naming`.
+    """
+    compiled = compiled_form(function)
+    assert compiled.signature is not None, "an entry has a signature"
+    names = compiled.py_func.__code__.co_varnames
+    meanings = dict[str, Meaning]()
+    for name, kind, argument in zip(names, compiled.signature.arguments, arguments, strict=False):
+        _, parameters = laid_out(name, kind)
+        for parameter, value in zip(parameters, _items(kind, argument), strict=True):
+            meanings[parameter.name] = _meaning(parameter, value, emitted, room)
+    return meanings
+
+
+def _items(kind: types.Kind, value: Any) -> Iterator[Any]:
+    """Yield numbers, arrays and functions of an argument in the order of parameters."""
+    if isinstance(kind, types.RecordType):
+        for part, item in zip(kind, value, strict=True):
+            yield from _items(part, item)
+    else:
+        yield value
+
+
+def _meaning(
+    parameter: lang.FunctionParameter, value: Any, emitted: Mapping[int, lang.Function], room: Naming
+) -> Meaning:
+    if parameter.address:
+        return emitted[id(value)] if id(value) in emitted else source_of(value)
+    if not parameter.array:
+        if value is None:
+            return None
+        number = float(value) if parameter.type == "float" else int(value)
+        return lang.Constant(parameter.type, number)
+    name, values = room(parameter.name), np.ravel(value)
+    if name is not None:
+        return Room(name, len(values)) if name else Elements(len(values))
+    table = tuple(values.tolist())
+    return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
+
+
+@dataclass(frozen=True)
+class PrintedEvents:
+    """The events of a mechanism, for printed steps.
+
+    Attributes
+    ----------
+    directions, ends : sequence of int
+        Of each event, as in `symgen.run.effects.stepping.STEP_MODEL`; 1 for each event that ends runs, else 0. Empty
+        where all events are only recorded.
+    switching : emitted function, optional
+        Switching functions of all events.
+    effects : Effects, optional
+        What events change.
+    """
+
+    directions: Sequence[int] = ()
+    ends: Sequence[int] = ()
+    switching: Any = None
+    effects: Effects | None = None
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, compiled: CompiledModel) -> PrintedEvents:
+        """Return the events of a mechanism."""
+        events = mechanism.events
+        if not events:
+            return cls()
+        conditions = [(event.name, event.when) for event in events]
+        switching = compile_side(mechanism, compiled, "events", "Switching functions", conditions).function
+        effects = effects_of(mechanism, compiled, events)
+        if all(event.action == RECORD for event in events):
+            return cls((), (), switching, effects)
+        directions = [2 if event.action == RECORD else DIRECTIONS[event.direction] for event in events]
+        return cls(directions, [int(event.action == STOP) for event in events], switching, effects)
+
+    @property
+    def functions(self) -> dict[str, lang.Function]:
+        """Emitted functions by their names in the text."""
+        sides = {SWITCHING: self.switching, CHANGED: self.effects.formulas if self.effects else None}
+        return {name: checked_function(f, abi.OBSERVE) for name, f in sides.items() if f is not None}
+
+
+#: Arrays that are no part of a record; states and rates are passed.
+_ALONE = {"y": "", "rate": "", "state": "", "p": "p", "w": "w", "iw": "iw", "chosen": "chosen"}
+
+
+def _room_of_steps(name: str) -> str | None:
+    """Return the name of an array of steps or effects in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    if owner == "work":
+        return own if own == "chosen" else f"step_{own}"
+    if owner == "impact":
+        return f"effect_{own.replace('.', '_')}"
+    return own.replace("y", "") if owner == "now" else _ALONE.get(name)
+
+
+def _room_of_lock(name: str) -> str | None:
+    """Return the name of an array of `find_lock` in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    return own.replace("y", "") if owner == "now" else f"lock_{own}" if owner == "work" else None
+
+
+@dataclass(frozen=True)
+class Printed:
+    """Functions of the runtime for one compiled model in another language.
+
+    Attributes
+    ----------
+    emitted : dict of str to Function
+        Emitted functions by their names in the text; those that starts need further are added.
+    entries : dict
+        Functions of the runtime by their names in the text, with the meanings of their parameters.
+    """
+
+    emitted: dict[str, lang.Function]
+    entries: dict[str, tuple[lang.Function, dict[str, Meaning]]] = field(default_factory=dict)
+
+    def bound(self) -> BoundFunctions:
+        """Return the functions bound to the model."""
+        return bind(self.entries, frozenset(f.key for f in self.emitted.values()))
+
+    def add_steps(self, compiled: CompiledModel, events: PrintedEvents, names: Collection[str]) -> None:
+        """Add functions of `symgen.run.effects.stepping`, and the effects of events.
+
+        They are ``find_rates(t, y, rate)``, ``take_step(t, h, y)`` and ``take_steps(until, h, y)``, and where events
+        change the state ``apply_effects(t, y)`` for the events in ``chosen``.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        events : PrintedEvents
+            The events.
+        names : collection of str
+            Names of those functions that are added.
+        """
+        law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
+        confirm = getattr(law, "confirm", law.rhs)
+        effects = events.effects or Effects(compiled, (), {}, observe_nothing, ())
+        layout, geometry, formulas, bodies, changes = effects.model
+        switching = events.switching or observe_nothing
+        emitted = {id(law.rhs): self.emitted["rhs"], id(law.accept): self.emitted["accept"]}
+        emitted[id(confirm)] = self.emitted["rhs" if confirm is law.rhs else "confirm"]
+        emitted[id(geometry)] = self.emitted["geometry"]
+        if events.switching is not None:
+            emitted[id(switching)] = self.emitted[SWITCHING]
+        if events.effects is not None:
+            emitted[id(formulas)] = self.emitted[CHANGED]
+        if effects.bodies:
+            emitted[id(bodies)] = self.emitted["bodies"]
+        directions, ends = (np.array(x, dtype=np.int64) for x in (events.directions, events.ends))
+        steps = layout, law.rhs, confirm, law.accept, switching, directions
+        of_effects = layout, geometry, formulas, bodies, changes
+        now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
+        work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
+        iw, rate = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(ny)
+        arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
+            "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
+            "take_step": (take_step, (steps, None, None, now, iw, work)),
+            "take_steps": (take_steps, ((steps, of_effects, ends), None, None, now, iw, work, impact)),
+            "apply_effects": (apply_effects, (of_effects, None, now, work.chosen, impact)),
+        }
+        for name in names:
+            function, values = arguments[name]
+            own = function is apply_effects  # whose memory has another name elsewhere
+            room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
+            self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+
+    def add_lock(self, compiled: CompiledModel, drivers: Collection[str]) -> None:
+        """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
+        layout, geometry = layout_of(compiled), compiled.model.geometry
+        driven = np.array([int(row.joint in drivers) for row in compiled.info.rows], dtype=np.int64)
+        now = Instant(np.zeros(compiled.info.ny), np.zeros(1), compiled.scratch())
+        arguments = (layout, geometry, driven), None, now, new_lock_work(layout)
+        emitted = {id(geometry): self.emitted["geometry"]}
+        self.entries["find_lock"] = source_of(find_lock), meanings_of(find_lock, arguments, emitted, _room_of_lock)
+
+    def add_jacobian(self, compiled: CompiledModel) -> None:
+        """Add ``fill_jacobian()``, which writes the dense D to the array ``d``."""
+        layout = layout_of(compiled)
+        arguments = layout, compiled.scratch(), np.zeros(layout.m * layout.nv)
+        meanings = meanings_of(fill_jacobian, arguments, {}, {"w": "w", "rows": "d"}.get)
+        self.entries["fill_jacobian"] = source_of(fill_jacobian), meanings
+
+    def add_start(self, assembly: Assembly) -> None:
+        """Add ``begin_row(state)`` and ``close_row()``, which make the start consistent; see `starting.py`.
+
+        Parameters
+        ----------
+        assembly : Assembly
+            The start, in which no joint coordinates are held.
+        """
+        joints, work = assembly.memory()
+        *own, observe = map(compiled_form, assembly.own)
+        compiled, functions = assembly.compiled, dict[int, lang.Function]()
+        for name, kind, function in zip(_NAMES, _KINDS, own, strict=True):
+            if kind is not None and getattr(compiled.model, name, None) is function:
+                if name not in self.emitted:
+                    self.emitted[name] = checked_function(function, kind)
+                functions[id(function)] = self.emitted[name]
+        functions[id(own[-1])] = self.emitted["rhs"]
+        scratch = compiled.scratch()
+        now = Instant(np.zeros(compiled.info.ny), compiled.parameter_array(defaultdict(float), {}), scratch)
+        conditions = StartConditions(np.zeros(assembly.layout.nv), np.zeros(0), np.zeros(N_SUMMARY))
+
+        def room(name: str) -> str | None:
+            owner, _, own = name.partition(".")
+            if owner == "now":
+                return own
+            return f"start_{own}" if owner in ("work", "conditions") else _ALONE.get(name)
+
+        model = (assembly.layout, *own), observe, joints
+        meanings = meanings_of(close_row, (model, now, conditions, work), functions, room)
+        self.entries["close_row"] = source_of(close_row), meanings
+        places, counters = np.flatnonzero(scratch), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        described = assembly.layout, places, scratch[places]
+        meanings = meanings_of(begin_row, (described, now.y, now, counters, conditions), {}, room)
+        self.entries["begin_row"] = source_of(begin_row), meanings
+
+
+#: Functions that a start calls, by their names in models, and their types.
+_NAMES = ("geometry", "measure", "move", "spread", "solve", "turns", "rhs")
+_KINDS = (abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, None, None, None)

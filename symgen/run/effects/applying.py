@@ -1,0 +1,243 @@
+"""Effects of events applied to the state of a run: one function of the loop language for single runs and rows."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.effects.impulse import IMPULSE, new_impulse, smallest_impulse
+from symgen.run.layout import abi
+from symgen.run.layout.redundancy import is_off
+from symgen.run.layout.scales import fill_jacobian
+from symgen.run.layout.start_records import INSTANT, LAYOUT, record_type
+
+_N, _A, _K = types.int64, types.float64[::1], types.int64[::1]
+
+#: Codes: the state has changed; velocities, or values of states, contradict each other or are not finite.
+APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
+
+#: What the events of a run change, in the order of the function of their formulas: velocities, their new values, values
+#: that are written, entries of the mass matrix of bodies.
+#: - bodies, first: Velocities of bodies that joints of a tree carry, and the first of these among the numbers that the
+#:   emitted function of bodies sets; 0 where bodies have the velocities of the state.
+#: - owners, columns (shape (k,)): Event of each velocity; its number in the state, -1 where it is another one.
+#: - writes (shape (2 l,)): (event, place in the state) of each value.
+#: - entries (shape (2 e,)): (row, column) of each entry; diagonal ones only where joints carry bodies.
+CHANGES = record_type("Changes", __name__, ("bodies first", _N), ("owners columns writes entries", _K))
+Changes: Any = CHANGES.constructor
+
+#: Working memory.
+#: - out, still, state, rate, scratch: Of emitted functions; `state` is the state afterwards.
+#: - motion, carried, drift: Numbers of the function of bodies; their velocities by those of the state, and at rest.
+#: - energy (shape (1,)): Change of the energy [J].
+EFFECT_WORK = record_type(
+    "EffectWork",
+    __name__,
+    ("out still state rate scratch motion carried drift energy", _A),
+    ("impulse", IMPULSE),
+)
+EffectWork: Any = EFFECT_WORK.constructor
+#: Layout of a model, ``geometry``, the functions of formulas and of bodies, and `Changes`.
+EFFECT_MODEL = types.RecordType((LAYOUT, abi.MEASURE, abi.OBSERVE, abi.OBSERVE, CHANGES))
+
+
+def new_effect_work(layout: Any, changes: Any, width: int, nw: int) -> Any:
+    """Return working memory for the states of `width` numbers of a model whose scratch has `nw`."""
+    k, n = len(changes.owners), layout.nv
+    out = 2 * k + (len(changes.writes) + len(changes.entries)) // 2
+    bodies = changes.bodies
+    sizes = out, width, width, width, nw, changes.first + 2 * bodies, bodies * n, bodies, 1
+    return EffectWork._make((*(np.zeros(size) for size in sizes), new_impulse(n, layout.m + k)))
+
+
+@exact()
+def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> None:
+    """Write the rows of velocities that get values, and the velocities of bodies by the state's velocities.
+
+    Both are linear in v: their coefficients are differences of values at unit velocities and at rest.
+    """
+    layout, _, formulas, bodies, changes = model
+    n, nq, m, count = layout.nv, layout.nq, layout.m, changes.owners.shape[0]
+    still, out, impulse, motion = work.still, work.out, work.impulse, work.motion
+    plain, k = changes.bodies == 0, m
+    for i in range(count):
+        if chosen[changes.owners[i]] != 0:
+            plain = plain and changes.columns[i] >= 0
+            for j in range(n):
+                impulse.rows[k * n + j] = 1.0 if j == changes.columns[i] else 0.0
+            k += 1
+    if plain:
+        return
+    for i in range(still.shape[0]):
+        still[i] = now.y[i]
+    for column in range(-1, n):
+        for j in range(n):
+            still[nq + j] = 1.0 if j == column else 0.0
+        formulas(t, still, now.p, work.scratch, work.rate, out)
+        if changes.bodies > 0:
+            bodies(t, still, now.p, work.scratch, work.rate, motion)
+        k = m
+        for i in range(count):
+            if chosen[changes.owners[i]] != 0:
+                if column < 0:
+                    impulse.room[k] = out[i]
+                    impulse.values[k] -= out[i]
+                else:
+                    impulse.rows[k * n + column] = out[i] - impulse.room[k]
+                k += 1
+        for b in range(changes.bodies):
+            if column < 0:
+                work.drift[b] = motion[changes.first + b]
+            else:
+                work.carried[b * n + column] = motion[changes.first + b] - work.drift[b]
+
+
+@exact()
+def fill_masses(model: Any, w: Any, work: Any) -> None:
+    """Write M from the entries that stand last in the numbers of formulas."""
+    layout, _, _, _, changes = model
+    n, mass, entries, carried = layout.nv, work.impulse.mass, changes.entries, work.carried
+    first = work.out.shape[0] - entries.shape[0] // 2
+    for j in range(n * n):
+        mass[j] = 0.0
+    if changes.bodies == 0:
+        for j in range(n):
+            mass[j * n + j] = w[layout.mass + j]
+    for e in range(entries.shape[0] // 2):
+        row, column, value = entries[2 * e], entries[2 * e + 1], work.out[first + e]
+        if changes.bodies == 0:
+            mass[row * n + column] = mass[column * n + row] = value
+        else:
+            for i in range(n):
+                for j in range(n):
+                    product = carried[row * n + i] * carried[column * n + j]
+                    if row != column:
+                        product += carried[column * n + i] * carried[row * n + j]
+                    mass[i * n + j] += value * product
+
+
+@exact()
+def added_energy(model: Any, v: Any, first: int, work: Any) -> float:
+    """Return the change of the kinetic energy."""
+    layout, _, _, _, changes = model
+    n, mass, after, entries = layout.nv, work.impulse.mass, work.impulse.after, changes.entries
+    energy, masses = 0.0, work.out.shape[0] - entries.shape[0] // 2
+    for i in range(n):
+        for j in range(n):
+            energy += 0.5 * (after[i] - v[first + i]) * mass[i * n + j] * (after[j] + v[first + j])
+    for e in range(entries.shape[0] // 2 if changes.bodies > 0 else 0):
+        row, column, value = entries[2 * e], entries[2 * e + 1], work.out[masses + e]
+        for j in range(n):
+            change = after[j] - v[first + j]
+            energy += value * change * work.carried[row * n + j] * work.drift[column]
+            if row != column:
+                energy += value * change * work.carried[column * n + j] * work.drift[row]
+    return energy
+
+
+@exact()
+def written_values(changes: Any, chosen: Any, work: Any) -> bool:
+    """Write the values of states to the state afterwards; return whether they are finite and agree."""
+    writes, first = changes.writes, 2 * changes.owners.shape[0]
+    for i in range(writes.shape[0] // 2):
+        if chosen[writes[2 * i]] != 0:
+            if not math.isfinite(work.out[first + i]):
+                return False
+            for j in range(i):
+                if chosen[writes[2 * j]] != 0 and writes[2 * j + 1] == writes[2 * i + 1]:
+                    if work.out[first + j] != work.out[first + i]:
+                        return False
+            work.state[writes[2 * i + 1]] = work.out[first + i]
+    return True
+
+
+@exact()
+def struck_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> bool:
+    """Write the velocities after the smallest impulse to the state afterwards; return whether there are any."""
+    layout, geometry, _, _, changes = model
+    n, nq, m, impulse = layout.nv, layout.nq, layout.m, work.impulse
+    count, rows, k, finite = changes.owners.shape[0], impulse.rows, m, True
+    for i in range(count):
+        if chosen[changes.owners[i]] != 0:
+            impulse.values[k] = work.out[count + i]
+            finite = finite and math.isfinite(work.out[count + i])
+            k += 1
+    if not finite:
+        return False
+    geometry(t, now.y, now.p, work.scratch)
+    fill_jacobian(layout, work.scratch, rows)
+    for i in range(m):
+        impulse.values[i] = work.scratch[layout.nu + i]
+        if is_off(layout, i, work.scratch):
+            impulse.values[i] = 0.0
+            for j in range(n):
+                rows[i * n + j] = 0.0
+    probe_velocities(model, t, now, chosen, work)
+    fill_masses(model, work.scratch, work)
+    for j in range(n):
+        work.still[j] = now.y[nq + j]
+    if smallest_impulse(n, k, work.still, impulse) != 0:
+        return False
+    for i in range(m, k):
+        column, others = -1, 0
+        for j in range(n):
+            others += 1 if rows[i * n + j] != 0.0 else 0
+            column = j if rows[i * n + j] == 1.0 else column
+        if column >= 0 and others == 1:  # a velocity itself: exactly, so that one at rest is at rest
+            impulse.after[column] = impulse.values[i]
+    for j in range(n):
+        if not math.isfinite(impulse.after[j]):
+            return False
+        work.state[nq + j] = impulse.after[j]
+    work.energy[0] = added_energy(model, now.y, nq, work)
+    return True
+
+
+@exact(types.int64(EFFECT_MODEL, types.float64, INSTANT, _K, EFFECT_WORK))
+def apply_effects(model: Any, t: float, now: Any, chosen: Any, work: Any) -> int:
+    """Apply the effects of events at one time, which are one, to the state of a run.
+
+    Velocities change by the smallest impulse that gives them their new values and leaves joints closed; formulas are
+    evaluated before anything changes. Where effects contradict each other or joints, nothing changes.
+
+    Parameters
+    ----------
+    model : tuple
+        See `EFFECT_MODEL`.
+    t : float
+        Time [s].
+    now : Instant
+        State, parameters and scratch; the work and the kinetic energy of the state follow its velocities.
+    chosen : Array of int
+        1 for each event that happens, else 0.
+    work : EffectWork
+        Working memory; it keeps the problem of impulses, its solution and the energy.
+
+    Returns
+    -------
+    int
+        `APPLIED`, or why there is no state afterwards.
+    """
+    layout, _, formulas, _, changes = model
+    ny, struck = layout.ny, False
+    for i in range(work.scratch.shape[0]):
+        work.scratch[i] = now.w[i]
+    for i in range(work.state.shape[0]):
+        work.state[i] = now.y[i]
+    work.energy[0] = 0.0
+    formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
+    for i in range(changes.owners.shape[0]):
+        struck = struck or chosen[changes.owners[i]] != 0
+    if not written_values(changes, chosen, work):
+        return int(NO_VALUES)
+    if struck and not struck_velocities(model, t, now, chosen, work):
+        return int(NO_VELOCITIES)
+    for i in range(ny):
+        now.y[i] = work.state[i]
+    now.y[layout.nq + layout.nv] += work.energy[0]  # work of the impulses: the energy balance continues
+    now.w[abi.KINETIC] += work.energy[0]
+    return int(APPLIED)

@@ -1,0 +1,233 @@
+"""The effects of the events of a run, with the data that their loops take."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.compile.loopcode.exact import compiled_form
+from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES, Changes, apply_effects, new_effect_work
+from symgen.run.effects.impulse import new_impulse, smallest_impulse
+from symgen.run.layout.start_records import Instant
+from symgen.run.starts.assembler import layout_of
+from symgen.run.starts.starting import observe_nothing
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What an event changes.
+
+    Attributes
+    ----------
+    velocities : tuple of str
+        Velocities that get new values.
+    writes : tuple of str
+        States of the file's own that get new values.
+    """
+
+    velocities: tuple[str, ...] = ()
+    writes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Impact:
+    """Effect of events at one time on a state.
+
+    Attributes
+    ----------
+    v : Array, shape (nv,)
+        Velocities afterwards.
+    impulses : Array
+        Of each row of D, then of each velocity that was set.
+    imposed : tuple of str
+        These velocities.
+    energy : float
+        Change of the energy [J].
+    """
+
+    v: Array
+    impulses: Array
+    imposed: tuple[str, ...]
+    energy: float
+
+
+@dataclass(frozen=True)
+class Effects:
+    """The effects of the events of a run.
+
+    Attributes
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    names : tuple of str
+        Names of the events.
+    effects : mapping of int to Effect
+        By number of the event.
+    formulas : emitted function
+        Velocities, their new values, values that are written, entries of the mass matrix of bodies.
+    entries : sequence of (int, int)
+        Row and column of each of these entries.
+    bodies : int
+        Number of velocities of bodies that joints of a tree carry, else 0.
+    first : int
+        Index of these velocities in the output of the emitted function of bodies.
+    """
+
+    compiled: CompiledModel
+    names: tuple[str, ...]
+    effects: Mapping[int, Effect]
+    formulas: Any
+    entries: Sequence[tuple[int, int]]
+    bodies: int = 0
+    first: int = 0
+
+    @cached_property
+    def changes(self) -> Any:
+        """The data of the effects for loops."""
+        info = self.compiled.info
+        places = {q.name: info.own_states.start + i for i, q in enumerate(info.states)}
+        owners = [n for n, effect in self.effects.items() for _ in effect.velocities]
+        writes = [(n, places[name]) for n, effect in self.effects.items() for name in effect.writes]
+        own = {} if self.bodies else {v.name: i for i, v in enumerate(info.velocities)}
+        columns = [own.get(name, -1) for effect in self.effects.values() for name in effect.velocities]
+        numbers = (np.array(x, dtype=np.int64).ravel() for x in (owners, columns, writes, list(self.entries)))
+        return Changes._make((self.bodies, self.first, *numbers))
+
+    @cached_property
+    def model(self) -> tuple[Any, ...]:
+        """First argument of `apply_effects`."""
+        emitted = self.compiled.model
+        bodies = emitted.bodies if self.bodies else observe_nothing
+        functions = (compiled_form(f) for f in (emitted.geometry, self.formulas, bodies))
+        return layout_of(self.compiled), *functions, self.changes
+
+    def memory(self, width: int, nw: int) -> Any:
+        """Return working memory for states of `width` numbers and scratch of `nw`; each thread has its own."""
+        return new_effect_work(self.model[0], self.changes, width, nw)
+
+    def chosen(self, numbers: Sequence[int]) -> NDArray[np.int64]:
+        """Return 1 for each of these events, else 0."""
+        return np.isin(np.arange(len(self.names)), numbers).astype(np.int64)
+
+    def apply(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
+        """Change a state by the effects of events at one time.
+
+        Parameters
+        ----------
+        numbers : sequence of int
+            Numbers of the events.
+        t : float
+            Time [s].
+        y, p, w : Array
+            State, parameters and scratch; the state and its kinetic energy are written.
+
+        Raises
+        ------
+        InputError
+            If the joints, or other effects, do not allow an effect; nothing is changed then.
+        """
+        return self.applied(numbers, t, y, p, w, self.memory(len(y), len(w)))
+
+    def applied(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, work: Any) -> Impact:
+        """Change a state as `apply` does; working memory keeps the problem of impulses."""
+        info = self.compiled.info
+        chosen, before = self.chosen(numbers), y[info.nq : info.work].copy()
+        try:
+            with np.errstate(all="ignore"):
+                code = int(compiled_form(apply_effects)(self.model, t, Instant(y, p, w), chosen, work))
+        except (ArithmeticError, ValueError):  # where nothing is compiled
+            code = NO_VELOCITIES
+        if code == NO_VALUES:
+            raise self._no_values(numbers, chosen, work, t)
+        if code == NO_VELOCITIES:
+            raise self.no_velocities(numbers, work, before, t)
+        return self.impact(numbers, y[info.nq : info.work], work.impulse.impulses, float(work.energy[0]))
+
+    def impact(self, numbers: Sequence[int], v: Array, impulses: Array, energy: float) -> Impact:
+        """Return what some events have changed: velocities behind it, impulses (and memory behind these), energy."""
+        labels = self._labels(numbers)
+        return Impact(v.copy(), impulses[: self.compiled.info.m + len(labels)].copy(), labels, energy)
+
+    def _labels(self, numbers: Sequence[int]) -> tuple[str, ...]:
+        """Return the velocities that some events set."""
+        return tuple(name for n in self.effects if n in numbers for name in self.effects[n].velocities)
+
+    def _where(self, numbers: Sequence[int]) -> str:
+        names = " and ".join(f"'{self.names[n]}'" for n in numbers)
+        return f"event{'s' * (len(numbers) > 1)} {names}: reset"
+
+    def _no_values(self, numbers: Sequence[int], chosen: NDArray[np.int64], work: Any, t: float) -> InputError:
+        """Return the error on values of states that are not finite, or that differ for one state."""
+        writes = [(n, name) for n, effect in self.effects.items() for name in effect.writes]
+        values = work.out[2 * len(self.changes.owners) :]
+        got = ", ".join(f"{name} = {x:.6g}" for (n, name), x in zip(writes, values, strict=False) if chosen[n])
+        return InputError(self._where(numbers), "one finite value of each state", f"{got} at t = {t:.6g} s")
+
+    def no_velocities(self, numbers: Sequence[int], work: Any, v: Array, t: float) -> InputError:
+        """Return the error on velocities that cannot be, with the nearest that joints allow."""
+        info, problem, labels = self.compiled.info, work.impulse, self._labels(numbers)
+        k, n = info.m + len(labels), info.nv
+        rows, values = problem.rows[: k * n].reshape(k, n), problem.values[:k]
+        mass = problem.mass.reshape(n, n)
+        goals, close = (
+            ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True))
+            for numbers in (values[info.m :], nearest_values(mass, rows, values, v, info.m))
+        )
+        expected = "velocities that the joints and each other allow"
+        return InputError(self._where(numbers), expected, f"{goals} at t = {t:.6g} s", f"the nearest are {close}")
+
+
+def impulse_along(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:
+    """Return the velocities after the smallest impulse along some rows.
+
+    Parameters
+    ----------
+    mass : Array, shape (nv, nv)
+        M.
+    rows, values : Array, shapes (k, nv), (k,)
+        C and c.
+    v : Array, shape (nv,)
+        Velocities before.
+
+    Returns
+    -------
+    v : Array, shape (nv,)
+        Velocities afterwards.
+    impulses : Array, shape (k,)
+        Of each row, in the directions of the rows; of least norm where rows depend on each other.
+    contradictory : bool
+        Whether ``C v+ - c`` is larger than rounding.
+    """
+    k, n = len(values), len(v)
+    work = new_impulse(n, k)
+    work.mass[:], work.rows[:], work.values[:] = mass.ravel(), rows.ravel(), values
+    contradictory = compiled_form(smallest_impulse)(n, k, np.array(v, dtype=np.float64), work) != 0
+    return work.after.copy(), work.impulses.copy(), contradictory
+
+
+def nearest_values(mass: Array, rows: Array, values: Array, v: Array, count: int) -> Array:
+    """Return the values of the last rows nearest to the wanted ones, while the first rows hold exactly.
+
+    Velocities with the wanted values change by as little as possible, measured by the last rows.
+
+    Parameters
+    ----------
+    mass, rows, values, v
+        As for `impulse_along`.
+    count : int
+        Number of the first rows, those of joints.
+    """
+    own = rows[count:]
+    free = impulse_along(mass, own, values[count:], v)[0]
+    return np.asarray(own @ impulse_along(own.T @ own, rows[:count], values[:count], free)[0])

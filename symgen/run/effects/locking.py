@@ -1,0 +1,97 @@
+"""Where drivers lock: rows that vanish together, for programs without loops of their own."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.layout import abi
+from symgen.run.layout.redundancy import farthest
+from symgen.run.layout.scales import square_rows
+from symgen.run.layout.start_records import INSTANT, LAYOUT, record_type
+
+_A, _K = types.float64[::1], types.int64[::1]
+
+#: Sine of the angle between rows below which they vanish together, its square where rows depend on each other always,
+#: the share of the largest factor below which a row takes no part, and the number of inverse iterations.
+SINE, DEPENDENT, HOLDS, ROUNDS = 1e-2, 1e-12, 3e-5, 8
+#: Layout, ``geometry``, and 1 for each row of a driver, else 0.
+LOCK_MODEL = types.RecordType((LAYOUT, abi.MEASURE, _K))
+#: Working memory, and what is found.
+#: - numbers, scale, factors, sums: Of the choice of rows; reciprocal lengths of rows, and factors of rows in the
+#:   combination that vanishes, before and after an iteration.
+#: - jumps (shape (nv,)): How far coordinates would jump, relative to each other.
+#: - drivers (shape (m,)): 1 for each row of a driver that can go no further, else 0.
+LOCK_WORK = record_type("LockWork", __name__, ("numbers scale factors sums jumps", _A), ("drivers", _K))
+LockWork: Any = LOCK_WORK.constructor
+
+
+def new_lock_work(layout: Any) -> Any:
+    """Return working memory."""
+    m, n = layout.m, layout.nv
+    return LockWork(*map(np.zeros, (m * (n + m) + m, m, m, m, n)), np.zeros(m, dtype=np.int64))
+
+
+@exact(types.boolean(LOCK_MODEL, types.float64, INSTANT, LOCK_WORK))
+def find_lock(model: Any, t: float, now: Any, work: Any) -> bool:
+    """Return whether drivers lock at a state: with other rows, their rows nearly vanish.
+
+    Inverse iteration finds the combination of rows that vanishes first, and the velocity that hardly changes any row.
+
+    Parameters
+    ----------
+    model : tuple
+        See `LOCK_MODEL`.
+    t : float
+        Time [s].
+    now : Instant
+        State, parameters and scratch.
+    work : LockWork
+        Working memory.
+    """
+    layout, geometry, driven = model
+    m, n, numbers, factors, jumps = layout.m, layout.nv, work.numbers, work.factors, work.jumps
+    width, largest, usual, size, locked = n + m, 0.0, 0.0, 0.0, False
+    geometry(t, now.y, now.p, now.w)
+    square_rows(layout, now.w, work.scale)
+    for i in range(m):  # rows as lengths
+        square = work.scale[i] * (1.0 if layout.rows[2 * i + 1] != 0 else now.w[abi.LENGTH] ** 2)
+        work.scale[i] = 1.0 / math.sqrt(square) if square > 0.0 else 0.0
+        usual = work.scale[i] if work.scale[i] > usual else usual
+        factors[i] = 1.0 + i / m
+    farthest(layout, width, m, DEPENDENT, 0, now.w, numbers)
+    for _ in range(ROUNDS):
+        for j in range(n):
+            jumps[j] = 0.0
+        for i in range(m):
+            work.sums[i] = 0.0
+        for k in range(m):
+            if numbers[m * width + k] < 0.0:  # an independent row
+                square = product = 0.0
+                for j in range(n):
+                    square += numbers[k * width + j] * numbers[k * width + j]
+                for i in range(m):
+                    product += numbers[k * width + n + i] * work.scale[i] * factors[i]
+                for j in range(n):
+                    jumps[j] += product / square * numbers[k * width + j]
+                for i in range(m):
+                    work.sums[i] += product / square * numbers[k * width + n + i]
+        size = largest = 0.0
+        for i in range(m):
+            work.sums[i] *= work.scale[i]
+            size += work.sums[i] * work.sums[i]
+        size = math.sqrt(size)
+        for i in range(m):
+            factors[i] = work.sums[i] / size if size > 0.0 else 0.0
+            largest = abs(factors[i]) if abs(factors[i]) > largest else largest
+    for i in range(m):
+        holds = driven[i] != 0 and abs(factors[i]) > HOLDS * largest
+        work.drivers[i] = 1 if holds else 0
+        locked = locked or holds
+    for j in range(n):
+        jumps[j] = abs(jumps[j])
+    return locked and size * SINE * SINE > usual * usual

@@ -1,0 +1,41 @@
+"""The right-hand side of a law at all nodes of a step at once."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from symgen.compile.native import types
+from symgen.compile.store.emitted import EmittedFunction, NodesFunction
+from symgen.compile.store.jit import jit
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+
+#: Prefix of modules of right-hand sides in straight code.
+STRAIGHT = "rhs_direct"
+_A = types.float64[::1]
+_functions: dict[Any, Any] = {}
+
+
+@jit(types.int64(_A, _A, _A, _A, _A))
+def absent(t: Any, y: Any, p: Any, w: Any, rate: Any) -> int:
+    """Replace a right-hand side at all nodes; it is never called."""
+    return 0
+
+
+def at_nodes(compiled: CompiledModel) -> tuple[Any, int]:
+    """Return the right-hand side of a law at all nodes, and 1; `absent` and 0 where its code is not straight.
+
+    Laws that iterate, choose coordinates or factorise in loops are evaluated at one node after another, and so is
+    looped code.
+    """
+    rhs = compiled.law_module.rhs
+    if compiled.shape != "straight" or not isinstance(rhs, EmittedFunction):
+        return absent, 0
+    # integrals of outputs are added up by a function around that of the law
+    own = rhs.py_func.__globals__.get("law_rhs", rhs)
+    if not own.py_func.__module__.rpartition(".")[2].startswith(STRAIGHT):
+        return absent, 0
+    if rhs not in _functions:
+        _functions[rhs] = NodesFunction(rhs)
+    return _functions[rhs], 1

@@ -1,0 +1,289 @@
+"""Records of schemes for loops: their coefficients and the Newton matrices that they factorise."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from symgen.compile.native import types
+from symgen.run.layout import abi
+
+_F, _I = types.float64, types.int64
+_A, _K = types.float64[::1], types.int64[::1]
+
+
+class TableauRecord(NamedTuple):
+    """An explicit Runge-Kutta scheme.
+
+    Attributes
+    ----------
+    start, column, value : Array
+        Nonzero coefficients row by row: the stages, b, the stages of dense output, then the error weights. Row r has
+        the entries from ``start[r]`` to ``start[r + 1]``.
+    nodes : Array
+        c of all stages, 1 for the end of the step behind those of the scheme.
+    dense : Array, shape (degree, padded stages), flat
+        y(t + x h) = y + h sum_k K_k sum_j dense[j, k] x^(j + 1); empty without dense output.
+    count : Array of int64
+        0, 1, 2, ... for all stages.
+    stages, estimates, order, degree : int
+        Stages of a step, error estimates, the order of the estimate, and the degree of dense output.
+    ends : int
+        1 where an error estimate needs the stage at the end of the step.
+    """
+
+    start: Any
+    column: Any
+    value: Any
+    nodes: Any
+    dense: Any
+    count: Any
+    stages: int
+    estimates: int
+    order: int
+    degree: int
+    ends: int
+
+
+class Rotations(NamedTuple):
+    """A tableau applied to rotation vectors.
+
+    Attributes
+    ----------
+    tableau : TableauRecord
+        The scheme.
+    spins : Array of int64
+        First index of the angular velocity of each body in v.
+    width : int
+        Length of a stage.
+    """
+
+    tableau: Any
+    spins: Any
+    width: int
+
+
+class Screws(NamedTuple):
+    """A tableau applied to screws: as `Rotations`, and first indices of Euler parameters and omega of free bodies."""
+
+    tableau: Any
+    spins: Any
+    bodies: Any
+    width: int
+
+
+class Multistep(NamedTuple):
+    """An Adams scheme: its highest order, and Gauss' quadrature on (-1, 1); `count` holds 0, 1, 2, ..."""
+
+    nodes: Any
+    factors: Any
+    count: Any
+    order: int
+
+
+class Stages(NamedTuple):
+    """An implicit Runge-Kutta scheme on the descriptor form.
+
+    Attributes
+    ----------
+    a, b, c : Array
+        The tableau, `a` row by row.
+    errors : Array, shape (s + 1,)
+        Weights of the error estimate on the derivatives at the beginning of the step and of the stages.
+    filtered : float
+        The estimate is filtered by ``(dF/dk + h filtered dF/dy)^-1 dF/dk``; 0: it is not filtered.
+    stages, together, order : int
+        Stages, 1 where they are solved together, and the order of the estimate.
+    entries : Array of int64
+        Equation of each number that ``tangent`` writes, then its unknown.
+    slopes : Array
+        Output of ``tangent`` in each stage; the last element is 1.
+    numbers, plan, filter_numbers, filter_plan : Array
+        Of the Newton matrix, and of one stage's matrix (`symgen.run.loops.newton.stage_plan`).
+    """
+
+    a: Any
+    b: Any
+    c: Any
+    errors: Any
+    filtered: float
+    stages: int
+    together: int
+    order: int
+    entries: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
+    filter_numbers: Any
+    filter_plan: Any
+
+
+class Alpha(NamedTuple):
+    """A scheme of Newmark's family, with the sources, numbers and plan of its Newton matrix."""
+
+    alpha_m: float
+    alpha_f: float
+    gamma: float
+    beta: float
+    slopes: Any
+    numbers: Any
+    plan: Any
+
+
+class Projection(NamedTuple):
+    """The trapezoidal rule with projections.
+
+    Attributes
+    ----------
+    penalty : int
+        Index of the requested penalty in ``p``.
+    slopes, numbers, plan : Array
+        Of W, see `symgen.run.loops.newton.projection_plan`.
+    pulls : Array of int64
+        Row, velocity and source of each entry of D^T.
+    masses : Array of int64
+        Sources of the diagonal of M.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
+    """
+
+    penalty: int
+    slopes: Any
+    numbers: Any
+    plan: Any
+    pulls: Any
+    masses: Any
+    nonholonomic: Any
+
+
+class ConstrainedStages(NamedTuple):
+    """An explicit scheme whose stages meet constraints by forces along D^T.
+
+    Attributes
+    ----------
+    a, c : Array
+        The tableau, row by row, its last row being b, and the nodes, the last one 1.
+    stages : int
+        Number of stages.
+    spins : Array of int64
+        First index of the angular velocity of each body in v.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
+    slopes, numbers, plan : Array
+        Of M and D, see `symgen.run.loops.newton.acceleration_plan`.
+    """
+
+    a: Any
+    c: Any
+    stages: int
+    spins: Any
+    nonholonomic: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
+
+
+class PartitionedStages(NamedTuple):
+    """An explicit pair whose stages close states of their own.
+
+    Attributes
+    ----------
+    a, c : Array
+        Stages row by row, and their nodes.
+    closing, closed : Array
+        States that the multipliers of the stages close, row by row, the last one at the end, and their nodes.
+    embedded : Array
+        Weights of the embedded scheme on the stages and on the rate at the end.
+    stages, order : int
+        Number of stages, and order of the estimate.
+    spins : Array of int64
+        First index of the angular velocity of each body in v.
+    slopes, numbers, plan : Array
+        Of M and D, see `symgen.run.loops.newton.acceleration_plan`.
+    """
+
+    a: Any
+    c: Any
+    closing: Any
+    closed: Any
+    embedded: Any
+    stages: int
+    order: int
+    spins: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
+
+
+class Symmetric(NamedTuple):
+    """A symmetric scheme between projections of its model.
+
+    Attributes
+    ----------
+    geometry, measure, spread : function
+        Emitted functions of the model.
+    share, residual : int
+        Index in ``p`` of the part of the projection at the beginning, and the first one of the section in ``w``.
+    nonholonomic : Array
+        1 for rows without Phi, else 0.
+    """
+
+    geometry: Any
+    measure: Any
+    spread: Any
+    share: int
+    residual: int
+    nonholonomic: Any
+
+
+class Nodes(NamedTuple):
+    """A collocation scheme whose rates are unknown at all nodes of a step at once.
+
+    Attributes
+    ----------
+    derive : function
+        ``derive(t, y, p, w, ydot)``, the right-hand side at all nodes (`symgen.compile.native.nodes`).
+    vector : int
+        1 where this function exists, 0 where the right-hand side is evaluated at one node after another.
+    rows : Array of int64
+        As for `symgen.compile.loopcode.nodes`.
+    table, middle : Array
+        Coefficients of states at the nodes, and at points between them.
+    share : Array
+        Weights of the nodes in an integral over the step.
+    legendre : Array, shape (9, 16), flat
+        Coefficients of Legendre polynomials from rates.
+    dense : Array, shape (200,)
+        Table of `symgen.compile.loopcode.nodes.refine`.
+    degree : int
+        Of the polynomial by which rates of a step are predicted from those of the step before.
+    tableau : TableauRecord
+        The scheme of steps across singular positions.
+    """
+
+    derive: Any
+    vector: int
+    rows: Any
+    table: Any
+    middle: Any
+    share: Any
+    legendre: Any
+    dense: Any
+    degree: int
+    tableau: Any
+
+
+#: Fields of schemes' records that belong to the state of a run.
+KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
+
+#: Types of the records in compiled loops.
+TABLEAU = types.RecordType((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), TableauRecord)
+ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
+SCREWS = types.RecordType((TABLEAU, _K, _K, _I), Screws)
+MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
+STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
+ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
+NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _I, TABLEAU), Nodes)
+CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
+PARTITIONED = types.RecordType((_A, _A, _A, _A, _A, _I, _I, _K, _A, _A, _K), PartitionedStages)
+SYMMETRIC = types.RecordType((abi.MEASURE, abi.MEASURE, abi.MOVE, _I, _I, _A), Symmetric)
+PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)

@@ -1,0 +1,208 @@
+"""Parts of the frame that schemes and targets replace: their plain forms, and the codes that they return.
+
+| name | takes | does |
+| --- | --- | --- |
+| `prepare` | system, scheme, span, run | initial data of the scheme |
+| `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
+| `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
+| `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
+| `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
+| `inside` | system, scheme, run, t, following, h, i, y | a state inside a good attempt |
+| `located` | system, scheme, run, following, h, search | tests whether an event lies inside an acceptable step |
+| `prepare_search` | system, run, doing | other work of `symgen.run.loops.event_loop`: `LOOK`, `REMEMBER`, `RECALL` |
+| `step_to_point` | system, run, h | the step to try: `h`, or one that ends where a point of a table is passed |
+| `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
+
+`attempt` returns its error estimate over the tolerance, 0 without an estimate, and changes no data of the run: it may
+be repeated with a shorter step. All data for the next step are in the arrays of `symgen.run.layout.records.State`, so a
+loop can be left and entered again, in another process too.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.compile.loopcode.bare import bare, part
+from symgen.compile.loopcode.loop_instances import viewing
+from symgen.run.layout import abi
+from symgen.run.layout.records import Run
+from symgen.run.loops.watch import keep_maxima
+
+#: Positions of the step to try, and of the longest one that ends before the event sought, in the data of events
+#: (`symgen.run.loops.search_records`).
+TRY, LOW = range(2)
+
+# -- defaults of a loop; schemes may set others ------------------------------------------------------------------------
+#: Whether steps follow the error estimate; whether it is rough, so that the error of the first steps is a large part of
+#: an energy that is only building up.
+ADAPTIVE, ROUGH = False, False
+#: Whether outputs inside a step are interpolated; otherwise each is reached by a shortened step.
+DENSE = False
+#: Whether events are sought; if not, the search is not compiled.
+EVENTS = False
+
+#: Results of an attempt: an iteration did not converge; a matrix does not fit into its room.
+DIVERGED, TOO_LARGE = -1.0, -2.0
+#: Results of `located`: no event; an event, so that shorter steps locate it; the same, and the next attempt is taken;
+#: the state ends in an event; little room for more notes; a comparison in formulas changes, so that the scheme begins
+#: anew; the motion is held at such a switch, which it crosses to and fro; the step is too long to show its events; a
+#: condition is undefined.
+NOTHING, SEEK, TAKE, MEET, CROWD, RESTART, HOLD, DIVIDE, FAIL = range(9)
+#: Test of a step that is not good enough: whether its error is that of a switch inside, which is then sought.
+DOUBT = FAIL + 1
+#: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the
+#: beginning of a step; restore it.
+LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
+
+
+def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+    """Do nothing: a scheme without memory needs nothing at the start."""
+
+
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Stand for the step of a scheme."""
+    return DIVERGED
+
+
+def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Do nothing: a scheme without memory keeps nothing of a step."""
+
+
+def refuse(run: Any) -> None:
+    """Do nothing: the memory of a scheme is valid for another attempt as well."""
+
+
+def interpolate(
+    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+) -> None:
+    """Stand for the dense output of a scheme."""
+
+
+def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at inner point i of a good attempt, before its correction; return its part of the step.
+
+    0 where the scheme has none: then states are those of a cubic through both ends and their rates.
+    """
+    return 0.0
+
+
+def located(system: Any, scheme: Any, run: Any, following: float, h: float, search: int) -> int:
+    """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
+    return NOTHING
+
+
+def prepare_search(system: Any, run: Any, doing: int) -> int:
+    """Do nothing: placeholder for the initial sides of events (`LOOK`), `REMEMBER` and `RECALL`."""
+    return NOTHING
+
+
+def step_to_point(system: Any, run: Any, h: float) -> float:
+    """Return the step to try in place of one of `h` seconds, proposed by the error estimate."""
+    return h
+
+
+def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+    """Return False: only rows that may jump are examined."""
+    return False
+
+
+# -- parts that depend on the target -----------------------------------------------------------------------------------
+
+
+@viewing
+def opened(sizes: Any, state: Any) -> Any:
+    """Return the state of a run, its working memory divided into parts."""
+    s, width = bare(state), sizes.width
+    trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
+    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.passages, s.memory
+    return Run(*kept, s.share, s.metric, s.scales, room)
+
+
+def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
+    """Set `rate` to the rate of the state `y`."""
+    if system.rhs(t, y, run.p, run.w, run.iw, rate) != 0:
+        system.confirm(t, y, run.p, run.w, run.iw, rate)
+
+
+def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+    """Correct and measure a state, without a trace if it is between steps; return the bits of ``accept``."""
+    run.iw[abi.PROBING] = 1 if between else 0
+    bits = system.accept(t, y, run.p, run.w, run.iw)
+    run.iw[abi.PROBING] = 0
+    return int(bits)
+
+
+def note_step(run: Any, h: float) -> None:
+    """Store the present step for emitted functions."""
+    run.w[abi.STEP_STATUS] = h
+
+
+def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+    """Write output `k`: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
+    for i in range(sizes.ny):
+        outputs.states[k, i] = y[i]
+    for i in range(abi.N_STATUS):
+        outputs.status[k, i] = w[i]
+    for i in range(abi.N_STATUS, outputs.status.shape[1]):
+        outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
+
+
+def store_behind(outputs: Any, count: int, now: float, near: float, y: Any, w: Any) -> None:
+    """Have outputs at the time of a reset hold the state behind it, from which the motion goes on.
+
+    Parameters
+    ----------
+    outputs, count : Outputs, int
+        Outputs of the run, and the number of those written.
+    now, near : float
+        The time, and the difference up to which times count as the same [s].
+    y, w : Array
+        State and scratch behind the reset.
+    """
+    out = count
+    while out > 0 and abs(outputs.times[out - 1] - now) <= near:
+        out -= 1
+        for i in range(outputs.states.shape[1]):
+            outputs.states[out, i] = y[i]
+        outputs.status[out, abi.KINETIC] = w[abi.KINETIC]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            outputs.status[out, abi.N_STATUS + i] = w[abi.WINDING + i]
+
+
+def store_between(sizes: Any, run: Any, outputs: Any) -> None:
+    """Measure and store the trial state as an output between steps."""
+    out = run.control[abi.OUTPUTS]
+    keep_maxima(sizes, run, run.trial)
+    store(sizes, run.w, outputs, out, run.trial)
+    run.control[abi.OUTPUTS] = out + 1
+
+
+def taken_back(run: Any, times: Any, t: float) -> None:
+    """Remove the outputs after the time `t` [s].
+
+    Outputs inside a step are written before its end is fixed: a step that is refused, or shortened to an event, has
+    others.
+    """
+    out = run.control[abi.OUTPUTS]
+    while out > 0 and times[out - 1] > t:
+        out -= 1
+    run.control[abi.OUTPUTS] = out
+
+
+def largest_turn(sizes: Any, span: Any, run: Any) -> float:
+    """Return the largest change of an angle from the state to the trial state [rad]."""
+    largest = 0.0
+    for i in range(sizes.nq):
+        if run.metric[i] == 0.0:
+            largest = max(largest, abs(run.trial[i] - run.y[i]))
+    return largest
+
+
+def refused(run: Any, times: Any, t: float, phi: float, drift: float, energy: float) -> None:
+    """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it."""
+    run.control[abi.REJECTED] += 1
+    run.control[abi.REFUSED] = 1
+    run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY] = phi, drift, energy
+    taken_back(run, times, t)

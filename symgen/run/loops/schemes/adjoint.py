@@ -1,0 +1,259 @@
+"""Explicit Runge-Kutta runs that keep their stages, and the adjoint of such a run, step by step backwards.
+
+Behind the scheme's own memory lies the number of kept steps, then one record of each: its end, the step, the
+corrections of its state, the accepted state, and the rates of all stages. The first record is the start: it has no
+stages. With these the states at stages are sums, so the adjoint evaluates nothing but adjoints.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from symgen.compile.loopcode.bare import bare, part
+from symgen.compile.loopcode.loop_instances import compiled_loop
+from symgen.compile.loopcode.vectors import copied, follow, total
+from symgen.compile.native import types
+from symgen.run.layout import abi
+from symgen.run.layout.scheme_records import TABLEAU
+from symgen.run.loops.frame import loop
+from symgen.run.loops.schemes.explicit import ADAPTIVE_PARTS, CONSTANT_PARTS
+from symgen.run.loops.schemes.explicit import attempt as adaptive_step
+from symgen.run.loops.schemes.explicit import attempt_constant as constant_step
+from symgen.run.loops.schemes.explicit import renew as set_first_stage
+
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; then the state.
+TIME, STEP, CORRECTIONS, ANGLES, HEAD = 0, 1, 2, 3, 8
+_F, _I = types.float64, types.int64
+_A, _K = types.float64[::1], types.int64[::1]
+#: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
+RATES = types.FunctionType(types.int64(_F, _A, _A, _A, _K, _A, _A, _A, _A, _A))
+
+#: Adjoint of ``accept`` with some rounds: adjoints of y, p and w follow its arguments.
+CORRECTION = types.FunctionType(types.int64(_F, _A, _A, _A, _K, _A, _A, _A))
+
+
+class Corrections(NamedTuple):
+    """Adjoints of ``accept`` with some rounds before its last one."""
+
+    none: Any
+    one: Any
+    two: Any
+    three: Any
+
+
+class Transposed(NamedTuple):
+    """Coefficients of a scheme by columns, as the adjoint takes them.
+
+    Attributes
+    ----------
+    start, column, value : Array
+        Row s has the coefficients of the rate at stage s in all later stages, and in the end of the step behind them;
+        then a row of ones for all stages.
+    """
+
+    start: Any
+    column: Any
+    value: Any
+
+
+def transposed(scheme: Any) -> Transposed:
+    """Return the coefficients of a tableau by columns."""
+    stages, start, column, value = int(scheme.stages), [0], list[int](), list[float]()
+    first, columns, values = (x.tolist() for x in (scheme.start, scheme.column, scheme.value))
+    for s in range(stages):
+        for row in range(s + 1, stages + 1):
+            for k in range(first[row], first[row + 1]):
+                if columns[k] == s:
+                    column.append(row)
+                    value.append(values[k])
+        start.append(len(column))
+    column += range(stages)
+    value += [1.0] * stages
+    start.append(len(column))
+    return Transposed(np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value))
+
+
+def record_size(width: int, stages: int) -> int:
+    """Return the length of the record of a step."""
+    return HEAD + (1 + stages) * width
+
+
+def keep(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any) -> None:
+    """Keep an accepted step."""
+    width, count = system.sizes.width, int(run.memory[memory])
+    size = HEAD + (1 + scheme.stages) * width
+    record = part(run.memory, memory + HEAD + count * size, size)
+    record[TIME], record[STEP] = t, run.clock[abi.STEP]
+    record[CORRECTIONS] = run.iw[abi.ITERATIONS] - run.memory[memory + 1]
+    for i in range(min(HEAD - ANGLES, run.w.shape[0] - abi.WINDING)):
+        record[ANGLES + i] = run.w[abi.WINDING + i]
+    copied(width, run.y, part(record, HEAD, width))
+    copied(scheme.stages * width, stages, part(record, HEAD + width, scheme.stages * width))
+    run.memory[memory] = count + 1.0
+
+
+def attempt_constant(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try a constant step; note how many rounds of corrections there were before."""
+    run.memory[1] = run.iw[abi.ITERATIONS]
+    return float(constant_step(system, scheme, span, run, t, following, h, between))
+
+
+def attempt_adaptive(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try an adaptive step; note how many rounds of corrections there were before."""
+    run.memory[scheme.nodes.shape[0] * system.sizes.width + 1] = run.iw[abi.ITERATIONS]
+    return float(adaptive_step(system, scheme, span, run, t, following, h, between))
+
+
+def renew_constant(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Keep a constant step."""
+    keep(system, scheme, run, t, 0, run.room)
+
+
+def renew_adaptive(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Keep an adaptive step, and set the first stage of the next one."""
+    keep(system, scheme, run, t, scheme.nodes.shape[0] * system.sizes.width, run.memory)
+    set_first_stage(system, scheme, span, run, t, changed)
+
+
+constant = loop(
+    __name__, "constant", TABLEAU, **CONSTANT_PARTS | {"attempt": attempt_constant, "renew": renew_constant}
+)
+adaptive = loop(
+    __name__, "adaptive", TABLEAU, **ADAPTIVE_PARTS | {"attempt": attempt_adaptive, "renew": renew_adaptive}
+)
+
+
+def undo(
+    corrections: Any, rounds: int, t: float, y: Any, p: Any, w: Any, iw: Any, y_bar: Any, p_bar: Any, w_bar: Any
+) -> None:
+    """Do nothing: accepted states are those at the ends of steps."""
+
+
+def undo_rounds(
+    corrections: Any, rounds: int, t: float, y: Any, p: Any, w: Any, iw: Any, y_bar: Any, p_bar: Any, w_bar: Any
+) -> None:
+    """Take back a correction: the adjoint of the corrected state becomes the adjoint of the state `y` before."""
+    if rounds == 0:
+        corrections.none(t, y, p, w, iw, y_bar, p_bar, w_bar)
+    elif rounds == 1:
+        corrections.one(t, y, p, w, iw, y_bar, p_bar, w_bar)
+    elif rounds == 2:
+        corrections.two(t, y, p, w, iw, y_bar, p_bar, w_bar)
+    else:
+        corrections.three(t, y, p, w, iw, y_bar, p_bar, w_bar)
+
+
+def backward(
+    rates: Any,
+    corrections: Any,
+    scheme: Any,
+    table: Any,
+    width: int,
+    angles: int,
+    records: Any,
+    p: Any,
+    w: Any,
+    iw: Any,
+    bars: Any,
+    room: Any,
+) -> int:
+    """Turn the adjoint of the state at the end of a run into adjoints of start, parameters and scratch.
+
+    Parameters
+    ----------
+    rates : function
+        Adjoint of ``rhs``.
+    corrections : Corrections
+        Adjoints of ``accept`` with 0, 1, 2 and 3 rounds before its last one; 0 where it changes no state.
+    scheme : TableauRecord
+        The scheme.
+    table : Transposed
+        Its coefficients by columns.
+    width, angles : int
+        Numbers of elements of a state, and of angles that count turns.
+    records : Array
+        The start and the steps.
+    p, w, iw : Array
+        As of the run; the scratch is changed.
+    bars : Array
+        Adjoints of the state, the parameters and the scratch one behind the other; changed.
+    room : Array
+        Working memory of (stages + 4) states.
+    """
+    scheme, table, records, p, w, iw, bars, room = (
+        bare(scheme),
+        bare(table),
+        bare(records),
+        bare(p),
+        bare(w),
+        bare(iw),
+        bare(bars),
+        bare(room),
+    )
+    stages, start, column, value = scheme.stages, scheme.start, scheme.column, scheme.value
+    size = HEAD + (1 + stages) * width
+    y_bar, p_bar = part(bars, 0, width), part(bars, width, p.shape[0])
+    w_bar = part(bars, width + p.shape[0], w.shape[0])
+    trial, rate, rate_bar = part(room, 0, width), part(room, width, width), part(room, 2 * width, width)
+    bars_of_stages = part(room, 3 * width, (stages + 1) * width)
+    count = records.shape[0] // size - 1
+    for back in range(count):
+        k = count - back
+        h, t = records[k * size + STEP], records[(k - 1) * size + TIME]
+        before = part(records, (k - 1) * size + HEAD, width)
+        ks = part(records, k * size + HEAD + width, stages * width)
+        w[abi.STEP_STATUS] = h
+        for i in range(angles):
+            w[abi.WINDING + i] = records[(k - 1) * size + ANGLES + i]
+        follow(width, h, start[stages], start[stages + 1], column, value, ks, before, trial)
+        undo(
+            corrections,
+            int(records[k * size + CORRECTIONS]),
+            records[k * size + TIME],
+            trial,
+            p,
+            w,
+            iw,
+            y_bar,
+            p_bar,
+            w_bar,
+        )
+        copied(width, y_bar, part(bars_of_stages, stages * width, width))
+        for last in range(stages):
+            s = stages - 1 - last
+            stage_bar = part(bars_of_stages, s * width, width)
+            follow(width, h, start[s], start[s + 1], column, value, ks, before, trial)
+            total(width, h, table.start[s], table.start[s + 1], table.column, table.value, bars_of_stages, rate_bar)
+            for i in range(width):
+                stage_bar[i] = 0.0
+            rates(t + scheme.nodes[s] * h, trial, p, w, iw, rate, stage_bar, p_bar, w_bar, rate_bar)
+        follow(
+            width,
+            1.0,
+            table.start[stages],
+            table.start[stages + 1],
+            table.column,
+            table.value,
+            bars_of_stages,
+            y_bar,
+            y_bar,
+        )
+    return 0
+
+
+_TABLE = types.RecordType((_K, _K, _A), Transposed)
+_ARGUMENTS = TABLEAU, _TABLE, types.int64, types.int64, _A, _A, _A, _K, _A, _A
+back_through = compiled_loop(__name__, "back_through", backward, types.int64(RATES, types.int64, *_ARGUMENTS))
+back_through_corrected = compiled_loop(
+    __name__,
+    "back_through_corrected",
+    backward,
+    types.int64(RATES, types.RecordType((CORRECTION,) * len(Corrections._fields), Corrections), *_ARGUMENTS),
+    undo=undo_rounds,
+)

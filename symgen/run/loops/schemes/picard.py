@@ -1,0 +1,433 @@
+"""Collocation at Lobatto's points by Picard's iteration, the right-hand side evaluated at all nodes at once.
+
+A step is a polynomial of degree 8 through the rates at its start and at eight nodes; its integrals are the states at
+the nodes, which determine new rates. The iteration begins with the extrapolated polynomial of the step before, and
+ends where its error, the last change times the factor by which changes fall, is below the tolerance. Coordinates whose
+rate is a velocity follow from accelerations by second integrals, so that each iteration adds two orders to them.
+
+The error of the polynomial is that of its last two Legendre coefficients, extrapolated by the fourth power of their
+ratio to the two before: rounding of the iteration, which they contain, is subtracted. Steps are chosen for five
+iterations; a step that will not converge in seven is given up as soon as that is foreseen.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.compile.loopcode.bare import part
+from symgen.compile.loopcode.loop_instances import called, viewing
+from symgen.compile.loopcode.nodes import (
+    PLACES,
+    POINTS,
+    TERMS,
+    distance,
+    expand,
+    extrapolate,
+    integrate_legendre,
+    place,
+    refine,
+    sum_up,
+)
+from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.types import NODES
+from symgen.run.layout import abi
+from symgen.run.layout.records import Run
+from symgen.run.layout.scales import still, weights_of
+from symgen.run.layout.scheme_records import NODES as SCHEME
+from symgen.run.loops.frame import loop
+from symgen.run.loops.frame_parts import DIVERGED, correct, evaluate, store
+from symgen.run.loops.schemes.explicit import attempt as one_step
+from symgen.run.loops.schemes.explicit import complete_stages, read_stages
+from symgen.run.loops.watch import keep_maxima
+
+#: As in the frame: whether steps follow the error estimate.
+ADAPTIVE = False
+#: Intended and largest number of iterations of a step, and the number for one without a polynomial before it.
+AIM, MOST, FIRST = 5, 7, 24
+#: Iterations of a constant step, which continues down to rounding, and the square of changes that are rounding.
+CONSTANT, ROUNDING = 60, 1e8
+#: The next step over this one: at least, at most, and after a refused one; the square of a change that diverges, and
+#: the least square of the factor by which changes fall.
+_SHORTEST, _LONGEST, _AGAIN, _ENDLESS, _FASTEST = 0.3, 2.0, 0.8, 1e60, 1e-4
+#: The same after the first step, at most.
+_FIRST_GROWTH = 3.0
+#: A step is slow whose changes fall by more than the root of the first, and whose rates have coefficients of degree 5
+#: and 6 below the root of the second, over the tolerance: stiffness bounds it, not the motion.
+_SLOW, _SMOOTH = 0.008, 1.0
+#: Factor of the estimate, so that errors over the tolerance are those of `dop853`.
+STRICT = 10.0
+#: Outputs use more rates where the last coefficients of rates, over the tolerance, are more than this.
+_LEFT_OUT = 12.0
+#: Memory, before rates at the start of a step and Legendre coefficients of those of the last: the last step [s], 0 at
+#: a start; 1 where nodes are evaluated one by one; 1 where the rates at the start of the step have to be evaluated.
+STEP, SINGLE, STALE = range(3)
+#: In working memory: the next step over this one; the buffer with the rates of the step; 1 where outputs need more of
+#: them; 1 where nodes were evaluated one by one; 1 where the iteration has not converged; 1 where convergence bounds
+#: the step, not the motion. A step across a singular position has `ACROSS` for the last but one.
+RATIO, BUFFER, COARSE, ALONE, ADRIFT, SLOW = range(6)
+ACROSS = 2.0
+#: First indices of its parts: times of nodes, squares of coefficients, places of eight outputs, integrals and second
+#: integrals of polynomials up to them, and arrays of the width of a state.
+_TIMES, _SQUARES, _PARTS_OF_STEP, _ONCE = NODES, 2 * NODES, 4 * NODES, 5 * NODES
+_TWICE = _ONCE + TERMS * NODES
+_WIDE = _TWICE + TERMS * NODES
+#: Of these, in widths: weights, a state, its rate, coefficients, states at nodes, two buffers of rates, a third, and
+#: coefficients from all three.
+_WEIGHED, _STATE, _RATE, _COEFFICIENTS, _STATES, _BUFFERS = 0, 1, 2, 3, 3 + 2 * NODES, 3 + 3 * NODES
+_MORE = _BUFFERS + 2 * NODES
+_REFINED = _MORE + NODES
+_ENDS = _REFINED + TERMS
+
+
+def memory(width: int) -> int:
+    """Return the length of the memory of a run."""
+    return NODES + width + 2 * NODES * width
+
+
+def room(width: int, windings: int) -> int:
+    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
+    return _WIDE + _ENDS * width + abi.N_STATUS + windings
+
+
+# -- a step ------------------------------------------------------------------------------------------------------------
+
+
+@called
+def one_by_one(system: Any, run: Any, times: Any, states: Any, rates: Any) -> None:
+    """Evaluate the right-hand side at one node after another."""
+    n, width = system.sizes.ny, system.sizes.width
+    y, rate = part(run.room, _WIDE + _STATE * width, width), part(run.room, _WIDE + _RATE * width, width)
+    for i in range(n, width):
+        y[i] = 0.0
+    for k in range(NODES):
+        for i in range(n):
+            y[i] = states[i * NODES + k]
+        evaluate(system, run, times[k], y, rate)
+        for i in range(n):
+            rates[i * NODES + k] = rate[i]
+
+
+def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: Any, weights: Any) -> None:
+    """Set `weights` to factors that turn squares of rates into squares of errors over tolerances in a step of `h` [s].
+
+    `ends` are states at the nodes, of which the last is the end of the step. Errors of accelerations count as errors of
+    velocities, and half a step later of coordinates.
+    """
+    sizes, y, share = system.sizes, run.y, weights_of(span, run)
+    work = sizes.nq + sizes.nv
+    mean = 1.0 / sizes.controlled
+    for i in range(sizes.ny):
+        place, end = share[sizes.width + i], ends[i * NODES + NODES - 1]
+        allowed = span.atol + span.rtol * share[i] * max(abs(y[i] - place), abs(end - place))
+        error = h * share[i] / allowed if allowed > 0.0 else 0.0
+        if not ADAPTIVE:
+            scale = 1e-16 * max(1.0, run.scales[i] * max(abs(y[i]), abs(end)))
+            error = h * run.scales[i] / scale
+        weights[i] = mean * error * error
+    if ADAPTIVE:
+        least = span.atol
+        if span.relative != 0.0:
+            least *= run.w[abi.KINETIC] + abs(run.w[abi.POTENTIAL])
+        allowed = least + span.rtol * max(run.gauges[abi.ENERGY_SCALE], abs(y[work]))
+        weights[work] = (h / allowed) * (h / allowed) if allowed > 0.0 else 0.0
+    rows, count = scheme.rows, scheme.rows[0]
+    for c in range(1, count + 1):
+        if rows[c + count] >= 0:
+            weights[rows[c]] += 0.25 * h * h * weights[rows[c + count]]
+
+
+def rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
+    """Return whether no velocity is more than its tolerance at the beginning and at the end of a step."""
+    share, largest = weights_of(span, run), 0.0
+    for i in range(sizes.nq, sizes.nq + sizes.nv):
+        largest = max(largest, share[i] * max(abs(run.y[i]), abs(ends[i * NODES + NODES - 1])))
+    return bool(largest <= still(span))
+
+
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try a step; rates, their Legendre coefficients and the next step over this one are kept in working memory."""
+    sizes, rows, table = system.sizes, scheme.rows, scheme.table
+    n, width, size = sizes.ny, sizes.width, NODES * sizes.width
+    head, first = part(run.memory, 0, NODES), part(run.memory, NODES, width)
+    single, times = part(run.room, 0, NODES), part(run.room, _TIMES, NODES)
+    squares, weights = part(run.room, _SQUARES, 2 * NODES), part(run.room, _WIDE + _WEIGHED * width, width)
+    states, buffers = part(run.room, _WIDE + _STATES * width, size), _WIDE + _BUFFERS * width
+    old = part(run.room, buffers, size)
+    if head[STALE] != 0.0:
+        begin(system, run, t)
+    last = head[STEP]
+    if last > 0.0:
+        coefficients = part(run.memory, NODES + width, 2 * size)
+        extrapolate(rows, scheme.degree, h / last, part(table, PLACES, NODES), coefficients, old)
+    else:
+        for c in range(1, rows[0] + 1):
+            i = rows[c]
+            for k in range(NODES):
+                old[i * NODES + k] = first[i]
+    for k in range(NODES):
+        times[k] = t + table[PLACES + k] * h
+    times[NODES - 1] = following
+    alone = scheme.vector == 0 or head[SINGLE] != 0.0
+    patient = last == 0.0
+    most = CONSTANT if not ADAPTIVE else (FIRST if patient else MOST)
+    early = 6 if patient else 2
+    which, iterations, converged = 0, 0, False
+    change, fall, error = 0.0, 0.25, 0.0  # squares of norms
+    while True:
+        before, after = part(run.room, buffers + which * size, size), part(run.room, buffers + (1 - which) * size, size)
+        place(h, rows, run.y, first, before, table, states)
+        if iterations == 0:
+            weigh_rates(system, scheme, span, run, h, states, weights)
+        elif iterations == 1 and ADAPTIVE and rests(sizes, span, run, states):
+            weights[sizes.nq + sizes.nv] = 0.0  # the work of what rests is rounding
+        odd = 0
+        if alone:
+            one_by_one(system, run, times, states, after)
+        else:
+            odd = scheme.derive(times, states, run.p, run.w, after)
+        iterations += 1
+        which = 1 - which
+        past = change
+        change = STRICT * STRICT * distance(rows, weights, scheme.share, after, before)
+        if not change < _ENDLESS:
+            if odd == 0:
+                break
+            alone, which, iterations, change = True, 1 - which, iterations - 1, past
+            continue
+        if iterations > 1:
+            fall = max(change / past, _FASTEST) if past > 0.0 else _FASTEST
+            error = change * fall
+        if (iterations > 1 and (error < 1.0 or (not ADAPTIVE and fall > 0.25 and change < ROUNDING))) or change == 0.0:
+            if odd == 0:
+                converged = True
+                break
+            alone, most = True, most + 3
+        elif iterations > 1 and ((ADAPTIVE and iterations >= early and not fall < 1.0) or iterations >= most):
+            break
+        elif ADAPTIVE and iterations >= early:
+            for _ in range(iterations, most):
+                error *= fall
+            if error > 4.0:
+                break
+    run.control[abi.EVALUATIONS] += NODES * iterations
+    rates = part(run.room, buffers + which * size, size)
+    single[BUFFER] = float(which)
+    ratio = _LONGEST
+    if not change < _ENDLESS:
+        ratio = _SHORTEST
+    else:
+        at_aim = change
+        for _ in range(iterations, AIM + 1):
+            at_aim *= min(fall, 1.0)
+        for _ in range(AIM + 1, iterations):
+            at_aim /= min(fall, 1.0)
+        if at_aim > 1e-7:
+            ratio = 0.93 * at_aim ** (-0.5 / (NODES + AIM))
+    single[RATIO] = min(_AGAIN, max(_SHORTEST, ratio))
+    if not ADAPTIVE and not converged:
+        return DIVERGED
+    single[ADRIFT] = 0.0
+    if not converged:
+        crosses = run.control[abi.IN_ZONE] == 1 and run.control[abi.BARRED] == 0 and run.gauges[abi.FALL] > 0.0
+        return step_across(system, scheme, span, run, t, following, h) if crosses else math.inf
+    single[ALONE] = 1.0 if alone else 0.0
+    coefficients = part(run.room, _WIDE + _COEFFICIENTS * width, 2 * size)
+    expand(rows, weights, first, rates, scheme.legendre, coefficients, squares)
+    ends, middle = max(squares[NODES], squares[NODES - 1]), max(squares[NODES - 2], squares[NODES - 3])
+    decay = min(1.0, math.sqrt(ends / middle)) if middle > 0.0 else 1.0
+    single[SLOW] = 1.0 if fall > _SLOW and STRICT * STRICT * middle < _SMOOTH else 0.0
+    left = STRICT * math.sqrt(ends) - 15.0 * math.sqrt(error)
+    truncation = left * decay**4 if left > 0.0 else 0.0
+    single[COARSE] = 1.0 if left * math.sqrt(decay) > _LEFT_OUT else 0.0
+    if truncation > 1e-4:
+        ratio = min(ratio, 0.9 * truncation ** (-1.0 / 16.0))
+    if last == 0.0 and truncation <= 1.0:
+        ratio = min(_FIRST_GROWTH, 0.9 * max(truncation, 1e-12) ** (-1.0 / 16.0))
+    single[RATIO] = min(_FIRST_GROWTH if last == 0.0 else _LONGEST, max(_SHORTEST, ratio))
+    place(h, rows, run.y, first, rates, table, states)
+    copied(width, run.y, run.trial)
+    for i in range(n):
+        run.trial[i] = states[i * NODES + NODES - 1]
+    if not ADAPTIVE:
+        return 0.0
+    if truncation > 1.0:
+        single[RATIO], single[ADRIFT] = min(_AGAIN, single[RATIO]), 1.0
+        return truncation
+    return math.sqrt(error)
+
+
+@called
+def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> float:
+    """Try a step across a singular position, where iterations diverge, by `dop853`; return its error."""
+    width, tableau = system.sizes.width, scheme.tableau
+    begin(system, run, t)
+    one = as_one_step(system, tableau, run)
+    copied(width, part(run.memory, NODES, width), one.memory)
+    error = one_step(system, tableau, span, one, t, following, h, False)
+    run.control[abi.ORDER] = NODES
+    run.room[ADRIFT] = ACROSS
+    return max(2.0, error)
+
+
+@viewing
+def as_one_step(system: Any, tableau: Any, run: Any) -> Any:
+    """Return the run with the stages of a step across a singular position for its memory."""
+    width = system.sizes.width
+    stages = part(run.room, _WIDE + _STATES * width, tableau.nodes.shape[0] * width)
+    room = part(run.room, _WIDE + _WEIGHED * width, _STATES * width)
+    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.passages, stages
+    return Run(*fields, run.share, run.metric, run.scales, room)
+
+
+def refuse(run: Any) -> None:
+    """Restart where two attempts in a row were refused: the polynomial of the step before is misleading."""
+    if run.control[abi.REFUSED] == 1:
+        run.memory[STALE] = 1.0
+
+
+def shrunk(span: Any, run: Any, error: float) -> float:
+    """Return the next step over a refused one."""
+    return float(run.room[RATIO])
+
+
+def grown(span: Any, run: Any, h: float, error: float) -> float:
+    """Return the next step over an accepted one."""
+    return float(run.room[RATIO])
+
+
+@called
+def begin(system: Any, run: Any, t: float) -> None:
+    """Clear the polynomial; evaluate the rates at the start of a step."""
+    evaluate(system, run, t, run.y, part(run.memory, NODES, system.sizes.width))
+    run.control[abi.EVALUATIONS] += 1
+    run.memory[STEP] = run.memory[STALE] = 0.0
+
+
+@called
+def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+    """Initialise the memory, and choose a first step."""
+    sizes, first, t = system.sizes, part(run.memory, NODES, system.sizes.width), run.clock[abi.TIME]
+    begin(system, run, t)
+    run.control[abi.ORDER] = NODES
+    if not ADAPTIVE or span.step > 0.0:
+        return
+    speed = acceleration = 0.0
+    for j in range(sizes.nq, sizes.nq + sizes.nv):
+        speed = max(speed, abs(run.y[j]) * run.scales[j])
+        acceleration = max(acceleration, abs(first[j]) * run.scales[j])
+    step = 0.01 * span.duration
+    if acceleration > 0.0:
+        motion = max(speed / acceleration, math.sqrt(0.1 * run.w[abi.LENGTH] / (acceleration * run.w[abi.SPEED])))
+        step = min(step, 0.5 * span.rtol ** (1.0 / 12.0) * motion)
+    run.clock[abi.NEXT] = min(step, span.until - t)
+
+
+def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Store the rates at the end of the step, and its polynomial, where the iteration has converged."""
+    if run.room[ADRIFT] != 0.0:
+        begin(system, run, t)
+        return
+    run.control[abi.POINTS] += int(run.room[SLOW])
+    width, size, rows = system.sizes.width, NODES * system.sizes.width, scheme.rows
+    rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
+    for c in range(1, rows[0] + 1):
+        i = rows[c]
+        run.memory[NODES + i] = rates[i * NODES + NODES - 1]
+    copied(2 * size, part(run.room, _WIDE + _COEFFICIENTS * width, 2 * size), part(run.memory, NODES + width, 2 * size))
+    run.memory[STEP], run.memory[SINGLE] = run.clock[abi.STEP], run.room[ALONE]
+
+
+@called
+def interpolate(
+    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+) -> None:
+    """Write the outputs inside a step, each corrected; the status at the end of the step is restored.
+
+    Where the polynomial of the nodes is less accurate than the tolerance inside the step, the right-hand side is
+    evaluated once more, at eight points between the nodes. Eight states are summed up at once.
+    """
+    rows, n, width, size = scheme.rows, system.sizes.ny, system.sizes.width, NODES * system.sizes.width
+    states, new = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _STATE * width, width)
+    places, once = part(run.room, _PARTS_OF_STEP, NODES), part(run.room, _ONCE, TERMS * NODES)
+    twice, terms, coefficients = part(run.room, _TWICE, TERMS * NODES), POINTS, _WIDE + _COEFFICIENTS * width
+    windings, behind = outputs.status.shape[1] - abi.N_STATUS, _WIDE + _ENDS * width
+    before, angles = part(run.room, behind, abi.N_STATUS), part(run.room, behind + abi.N_STATUS, windings)
+    for i in range(abi.N_STATUS):
+        before[i] = run.w[i]
+    for i in range(windings):
+        angles[i] = run.w[abi.WINDING + i]
+    one, across = as_one_step(system, scheme.tableau, run), run.room[ADRIFT] == ACROSS
+    if across:
+        complete_stages(system, scheme.tableau, run, one.memory, one.room, t, following, h)
+    elif run.room[COARSE] != 0.0:
+        refine_rates(system, scheme, run, t, h)
+        terms, coefficients = TERMS, _WIDE + _REFINED * width
+    series = part(run.room, coefficients, TERMS * width)
+    spare = part(run.room, _WIDE + _COEFFICIENTS * width, TERMS * width)
+    out = last = run.control[abi.OUTPUTS]
+    while last < outputs.times.shape[0] and outputs.times[last] < following:
+        last += 1
+    copied(width, run.y, new)
+    while out < last:
+        count = min(NODES, last - out)
+        for k in range(NODES):
+            places[k] = (outputs.times[out + min(k, count - 1)] - t) / h
+        if not across:
+            integrate_legendre(terms, places, once, twice)
+            sum_up(h, terms, places, rows, run.y, series, once, twice, states)
+        for k in range(count):
+            if across:
+                read_stages(width, scheme.tableau, places[k], h, run.y, one.memory, spare, new)
+            else:
+                for i in range(n):
+                    new[i] = states[i * NODES + k]
+            correct(system, run, outputs.times[out], new, True)
+            keep_maxima(system.sizes, run, new)
+            store(system.sizes, run.w, outputs, out, new)
+            out += 1
+    run.control[abi.OUTPUTS] = out
+    for i in range(abi.N_STATUS):
+        run.w[i] = before[i]
+    for i in range(windings):
+        run.w[abi.WINDING + i] = angles[i]
+
+
+def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+    """Set `y` to the state at a node inside a good attempt, and return its part of the step; 0 without nodes."""
+    if run.room[ADRIFT] != 0.0:
+        return 0.0
+    states = part(run.room, _WIDE + _STATES * system.sizes.width, NODES * system.sizes.width)
+    for j in range(system.sizes.ny):
+        y[j] = states[j * NODES + i]
+    return float(scheme.table[PLACES + i])
+
+
+@called
+def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None:
+    """Evaluate rates between the nodes; set Legendre coefficients that they correct."""
+    rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
+    states, more = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _MORE * width, size)
+    rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
+    coefficients, refined = _WIDE + _COEFFICIENTS * width, part(run.room, _WIDE + _REFINED * width, 2 * size)
+    times = part(run.room, _TIMES, NODES)
+    place(h, rows, run.y, part(run.memory, NODES, width), rates, scheme.middle, states)
+    for k in range(NODES):
+        times[k] = t + scheme.middle[PLACES + k] * h
+    if scheme.vector == 0 or scheme.derive(times, states, run.p, run.w, more) != 0:
+        one_by_one(system, run, times, states, more)
+    run.control[abi.EVALUATIONS] += NODES
+    refine(rows, scheme.dense, part(run.room, coefficients, 2 * size), more, refined)
+
+
+_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew, "inside": inside}
+
+constant = loop(__name__, "constant", SCHEME, **_PARTS)
+adaptive = loop(
+    *(__name__, "adaptive", SCHEME),
+    **{**_PARTS, "interpolate": interpolate, "refuse": refuse, "shrunk": shrunk, "grown": grown},
+    ADAPTIVE=True,
+    DENSE=True,
+)

@@ -1,0 +1,76 @@
+"""Inputs of a mechanism: formulas, data and numbers put into their places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from symgen.base.errors import InputError
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.mechanism import Mechanism, bounded
+from symgen.describe.parts.inputs import DrivenMechanism, driven
+from symgen.run.breaks.stops import stops_of
+from symgen.run.loops.run_spec import Stop
+
+if TYPE_CHECKING:
+    from symgen.base.settings import Settings
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """A mechanism and settings with the inputs of a run in their places.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With formulas and data in the places of inputs, and the largest step of the run.
+    settings : Settings
+        Without inputs; their values at the start are among the parameters.
+    stops : tuple of Stop
+        Parts of the run between jumps of inputs; empty where none jumps.
+    words : mapping of str to str or float
+        Each input as a text, or as its number.
+    driven : DrivenMechanism or None
+        The formulas and data of inputs; None where all inputs are numbers.
+    """
+
+    mechanism: Mechanism
+    settings: Settings
+    stops: tuple[Stop, ...]
+    words: Mapping[str, str | float]
+    driven: DrivenMechanism | None = None
+
+
+def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) -> Inputs:
+    """Put the inputs of a run into their places.
+
+    Parameters
+    ----------
+    mechanism, settings : Mechanism, Settings
+        The description and the settings of a run.
+    behind : float
+        Jumps are searched for this fraction of the run beyond its end, see `stops_of`.
+
+    Raises
+    ------
+    InputError
+        If an input is wrong, see `symgen.describe.parts.inputs.driven`, or set twice.
+    """
+    for name in settings.inputs:
+        if name in settings.parameters:
+            raise InputError(f"input '{name}'", "one way of giving it a value", "two: a parameter is set by that name")
+    mechanism = bounded(mechanism, settings.max_step)
+    numbers = {name: settings.parameters[name] for name in mechanism.inputs if name in settings.parameters}
+    if not settings.inputs:
+        values = parameter_values(mechanism, settings.parameters) if mechanism.inputs else {}
+        return Inputs(mechanism, settings, (), {name: values[name] for name in mechanism.inputs})
+    sources = driven(mechanism, {**numbers, **settings.inputs})
+    parameters = {**settings.parameters, **sources.numbers}
+    until = mechanism.defaults.until if settings.until is None else settings.until
+    values = parameter_values(sources.mechanism, parameters)
+    stops = stops_of(sources, values, until, behind=behind)
+    parameters |= stops[0].values if stops else {}
+    # defaults of inputs may follow other parameters, so numbers are read from the values
+    words = {name: x if isinstance(x, str) else values[name] for name, x in sources.descriptions.items()}
+    return Inputs(sources.mechanism, replace(settings, parameters=parameters, inputs={}), stops, words, sources)

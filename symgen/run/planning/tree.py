@@ -1,0 +1,450 @@
+"""Runs in joint coordinates: the start of bodies as a start of joints, and the motion of joints as one of bodies.
+
+A run in joint coordinates begins where one in the bodies' own coordinates does: both are assembled in those, so that
+what is held, noted and refused is the same. What it gives is carried back to the bodies, where results, reactions,
+violations and outputs are read as of any other run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.derive.lower.windings import winding_order
+from symgen.describe.bounds.friction import mode_events
+from symgen.describe.bounds.stops import stop_events
+from symgen.describe.mechanism import Topology
+from symgen.describe.parts.topology import state_measures
+from symgen.run.compiling.carrying import carrying_of
+from symgen.run.compiling.choices import on_tree
+from symgen.run.layout import abi
+from symgen.run.layout.probe import Ready
+from symgen.run.layout.start_records import Instant
+from symgen.run.planning.continuation import choice_after, taken_up
+from symgen.run.planning.starts import compiled_for
+from symgen.run.single.outcome import Outcome
+from symgen.run.starts.assembler import ALONE, Assembly, one_row
+from symgen.run.starts.assembly import Start
+from symgen.run.starts.start_words import turned_over
+from symgen.run.starts.tree_start import TURNED_OVER, Carried
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Event, Mechanism
+    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.effects.effects import Effects, Impact
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.layout.records import State
+    from symgen.run.planning.plan import Plan
+    from symgen.run.single.events import Happening
+    from symgen.run.single.last_state import LastState
+
+Array = NDArray[np.float64]
+
+#: What both descriptions of a motion measure alike, taken over from the run.
+_SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
+#: Places of bodies after a change of parameters, beside their size or that of the mechanism: what is rounding.
+MOVED = 1e-12
+
+#: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
+_BODIES = ("body_y", "body_p", "body_w", "tree_rank")
+
+
+@dataclass(frozen=True)
+class TreeRun:
+    """A run in joint coordinates, and what carries it to bodies.
+
+    Attributes
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    compiled, start : CompiledModel, Start
+        In joint coordinates.
+    bodies : CompiledModel
+        In the bodies' own.
+    body_start : Start
+        Where the same run would begin there.
+    events : tuple of Event
+        That are looked for.
+    effects : callable, optional
+        Returns what they change on bodies, where many runs share that.
+    over : int
+        Which of the bodies that turn in space would start turned over, -1 where none.
+    """
+
+    whole: Mechanism
+    mechanism: Mechanism
+    compiled: CompiledModel
+    start: Start
+    bodies: CompiledModel
+    body_start: Start
+    events: tuple[Event, ...] = ()
+    effects: Callable[[], Effects | None] | None = None
+    over: int = -1
+
+    @property
+    def topology(self) -> Topology:
+        """The tree."""
+        assert self.mechanism.topology is not None, "the mechanism has a tree"
+        return self.mechanism.topology
+
+    # -- the motion of bodies ------------------------------------------------------------------------------------------
+
+    def positions(self, outcome: Outcome) -> Array:
+        """Return the coordinates of bodies at the outputs, shape (k, nq)."""
+        return self._moving(outcome)[:, : self.bodies.info.nq]
+
+    def carried(self, outcome: Outcome) -> CarriedOutcome:
+        """Return the outcome of a run as the motion of bodies."""
+        info, own = self.bodies.info, self.compiled.info
+        moving = self._moving(outcome)
+        k, n = len(outcome.times), info.nq + info.nv
+        states = np.zeros((k, info.ny))
+        states[:, :n] = moving[:, :n]
+        states[:, n:] = outcome.states[:, own.work :]
+        status = np.zeros((k, abi.N_STATUS + info.kept))
+        status[:, : abi.N_STATUS] = outcome.status_columns[:, : abi.N_STATUS]
+        # the joints of the tree hold by construction: their rows count as independent
+        status[:, abi.RANK] += self.body_start.rank - self.start.rank
+        for i, turned in enumerate(self._turns(outcome.states, outcome.status_columns[:, abi.N_STATUS :])):
+            status[:, abi.N_STATUS + i] = turned
+        # rows of cut joints alone may be off, the same ones in the same order
+        status[:, abi.N_STATUS + info.windings :] = outcome.status_columns[:, abi.N_STATUS + own.windings :]
+        w = self.body_start.w.copy()
+        w[list(_SCALES)] = outcome.w[list(_SCALES)]
+        self.bodies.modes(w)[:] = self.compiled.modes(outcome.w)
+        for i in range(info.windings):
+            w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
+        values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
+        start = replace(self.body_start, notes=outcome.start.notes)
+        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": start}
+        happened, halt = self._happened(outcome)
+        values |= {"p": self._parameters(outcome.p), "w": w, "happened": happened}
+        if halt is not None:
+            values |= {"code": abi.HALTED, "reason": str(halt)}
+        values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
+        last = outcome.simulation.state.y
+        end = self._of_bodies(outcome.end, last, outcome.p)
+        return CarriedOutcome(**values, inner=outcome, end_state=end, work=last[own.work], tree=self)
+
+    def arrays(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
+        """Return the arrays from which another run goes on, beside the loop's."""
+        y = self.body_start.y.copy()
+        y[: self.bodies.info.work] = outcome.end_state
+        rank = np.array([self.start.rank])
+        return dict(zip(_BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
+
+    def _happened(self, outcome: Outcome) -> tuple[tuple[Happening, ...], InputError | None]:
+        """Return the events with coordinates, velocities and row impulses of the bodies.
+
+        The second value is the error of the first reset that the joints of the bodies do not allow.
+        """
+        result: list[Happening] = []
+        impacts: dict[int, Impact] = {}
+        numbers = {event.name: i for i, event in enumerate(self._watched)}
+        effects = None
+        for event in outcome.happened:
+            p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
+            state, impact = self._of_bodies(event.t, event.state, p), event.impact
+            if impact is not None:
+                effects = effects or self._effects_on_bodies()
+                if id(impact) not in impacts:  # resets at the same time share what they do
+                    together = [numbers[x.name] for x in outcome.happened if x.impact is impact]
+                    try:
+                        impacts[id(impact)] = self._impact(effects, together, event, impact.v, state, p)
+                    except InputError as error:
+                        return tuple(result), error
+                impact = impacts[id(impact)]
+            result.append(replace(event, state=state, impact=impact))
+        return tuple(result), None
+
+    @cached_property
+    def _watched(self) -> tuple[Event, ...]:
+        """Events of the run, and of rows whose forces have bounds."""
+        return (*self.events, *mode_events(self.whole), *stop_events(self.whole))
+
+    def _effects_on_bodies(self) -> Effects:
+        from symgen.run.compiling.events import effects_of
+
+        effects = self.effects() if self.effects else effects_of(self.whole, self.bodies, self._watched)
+        assert effects is not None, "an event has changed something"
+        return effects
+
+    def _impact(
+        self, effects: Effects, numbers: Sequence[int], event: Happening, after: Array, state: Array, p: Array
+    ) -> Impact:
+        """Return the effect of resets on bodies in a state, where joints have some velocities afterwards."""
+        own, info = self.compiled.info, self.bodies.info
+        v = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], after]), p)[info.nq :]
+        y = np.zeros(info.ny)
+        y[: info.work] = state
+        y[info.own_states] = event.own
+        blow = effects.apply(numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
+        return replace(blow, v=v)
+
+    def _parameters(self, numbers: Array) -> Array:
+        """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""
+        p = self.body_start.p.copy()
+        count = len(self.bodies.info.parameters)
+        if np.array_equal(p[:count], numbers[:count]):
+            return p
+        p[:count] = numbers[:count]
+        self.bodies.prepare(p)
+        return p
+
+    @cached_property
+    def signs(self) -> Array:
+        """Signs, 1 or -1 each, that continue the Euler parameters of bodies from the start."""
+        info = self.bodies.info
+        here, signs = self.bodies_at(self.start.t, self.start.y, self.start.p, self.start.w), np.ones(info.nq)
+        for first, _ in info.spins:
+            if here[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
+                signs[first : first + 4] = -1.0
+        return signs
+
+    def _moving(self, outcome: Outcome) -> Array:
+        info = self.bodies.info
+        motion = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
+        motion[:, : info.nq] *= self.signs
+        return motion
+
+    def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
+        """Return coordinates and velocities of bodies at one state."""
+        state = self.bodies_at(t, y, p, self.start.w)
+        state[: self.bodies.info.nq] *= self.signs
+        return state
+
+    def bodies_at(self, t: float, y: Array, p: Array, w: Array) -> Array:
+        """Return coordinates and velocities of bodies at one state of joints."""
+        own, info = self.compiled.info, self.bodies.info
+        state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
+        state[: own.work] = y[: own.work]
+        Ready(self.compiled.model.bodies, abi.OBSERVE)(t, state, p, w.copy(), np.zeros(own.ny), out)
+        return out[: info.nq + info.nv]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the coordinates and velocities of bodies."""
+        return [x.name for x in (*self.bodies.info.coordinates, *self.bodies.info.velocities)]
+
+    def refuse_moves(self, t: float, state: State, p: Array) -> None:
+        """Refuse parameters that move bodies at a state: joints of the tree hold wherever they are.
+
+        Raises
+        ------
+        InputError
+            If they do.
+        """
+        numbers = state.p.copy()
+        numbers[: len(p)] = p
+        with np.errstate(all="ignore"):
+            self.compiled.prepare(numbers)
+            before, after = (self.bodies_at(t, state.y, x, state.w) for x in (state.p, numbers))
+        places = np.zeros(len(before))
+        places[: len(self.body_start.datum)] = self.body_start.datum
+        by = np.abs(after - before) / np.maximum(np.abs(before - places), float(state.w[abi.LENGTH]))
+        if not by.max(initial=0.0) <= MOVED:
+            name = self.names[int(np.argmax(np.where(np.isfinite(by), by, np.inf)))]
+            expected = "parameters that leave the position of every joint as it is"
+            raise InputError("set", expected, f"some that move {name}", "start anew for another geometry")
+
+    def _turns(self, states: Array, windings: Array) -> list[Array]:
+        """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
+        places = places_of_turns(self.whole, self.mechanism, self.bodies.shape)
+        return [sign * states[:, i] if own else windings[:, i] for own, i, sign in places]
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class CarriedOutcome(Outcome):
+    """The outcome of a run in joint coordinates, as the motion of bodies.
+
+    Attributes
+    ----------
+    inner : Outcome
+        Outcome of the loop.
+    end_state : Array, shape (nq + nv,)
+        Coordinates and velocities of bodies in the last state that was accepted.
+    work : float
+        Work done until there [J].
+    tree : TreeRun
+        The run.
+    """
+
+    inner: Outcome = field(repr=False)
+    end_state: Array = field(repr=False)
+    work: float
+    tree: TreeRun = field(repr=False)
+
+
+def places_of_turns(whole: Mechanism, mechanism: Mechanism, shape: str) -> list[tuple[bool, int, float]]:
+    """Return where a tree has the angles that the code for bodies counts turns of.
+
+    Parameters
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    shape : str
+        Of the code for bodies.
+
+    Returns
+    -------
+    list of (bool, int, float)
+        Whether it is a coordinate of the tree, else one of its own angles that count turns; index; and sign.
+    """
+    assert mechanism.topology is not None, "it has a tree"
+    coordinates = state_measures(mechanism, mechanism.topology)
+    own = {m: i for i, m in enumerate(winding_order(mechanism, "straight"))}
+    places = list[tuple[bool, int, float]]()
+    for measure in winding_order(whole, shape):
+        if measure in coordinates:
+            i, _, sign = coordinates[measure]
+            places.append((True, i, sign))
+        else:
+            places.append((False, own[measure], 1.0))
+    return places
+
+
+def on_tree_of(plan: Plan, bodies: CompiledModel, start: Start) -> TreeRun:
+    """Return the run in joint coordinates that begins where a run in coordinates of bodies begins.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    bodies, start : CompiledModel, Start
+        In the bodies' own coordinates.
+
+    Raises
+    ------
+    AssemblyError
+        If a body of the tree would start turned over.
+    """
+    mechanism, compiled = tree_code(plan.mechanism, plan.choice, bodies)
+    carried = carried_of(plan.mechanism, mechanism, bodies, compiled, start.t)
+    return upright(begin_on_tree(plan.mechanism, mechanism, carried, start, plan.method_parameters, plan.events))
+
+
+def upright(run: TreeRun) -> TreeRun:
+    """Return a run in which no body of the tree starts turned over.
+
+    Raises
+    ------
+    AssemblyError
+        If one would.
+    """
+    if run.over >= 0:
+        raise turned_over(run.bodies.info, run.over)
+    return run
+
+
+def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel) -> tuple[Mechanism, CompiledModel]:
+    """Return a mechanism with its tree, and its compiled model for the method that bodies are run with.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    choice : MethodChoice
+        The method.
+    bodies : CompiledModel
+        In the bodies' own coordinates; its solver is the tree's.
+    """
+    carried = on_tree(mechanism)
+    weight = {name: value for name, value in choice.options.items() if name == "weight"}
+    return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
+
+
+def carried_of(
+    whole: Mechanism, mechanism: Mechanism, bodies: CompiledModel, compiled: CompiledModel, t: float = 0.0
+) -> Carried:
+    """Return the map from starts of bodies at a time to starts of a tree.
+
+    Parameters
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    bodies, compiled : CompiledModel
+        In the bodies' own coordinates, and in joint coordinates.
+    t : float
+        Time [s].
+    """
+    return Carried(bodies, Assembly(compiled, t=t), carrying_of(whole, mechanism, bodies, compiled))
+
+
+def begin_on_tree(
+    whole: Mechanism,
+    mechanism: Mechanism,
+    carried: Carried,
+    start: Start,
+    method_parameters: Mapping[str, float],
+    events: tuple[Event, ...] = (),
+    effects: Callable[[], Effects | None] | None = None,
+) -> TreeRun:
+    """Return a run in joint coordinates from a start of bodies.
+
+    Parameters
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    carried : Carried
+        From `carried_of`.
+    start : Start
+        In the bodies' own coordinates.
+    method_parameters : mapping
+        Values of the method's parameters that differ from the defaults.
+    events : tuple of Event
+        That are looked for.
+    effects : callable, optional
+        As in `TreeRun`, where many runs share it.
+    """
+    bodies, compiled = carried.bodies, carried.assembly.compiled
+    names = (x.name for x in bodies.info.parameters)
+    p = compiled.parameter_array(dict(zip(names, start.p, strict=False)), method_parameters)
+    y, w = np.zeros(compiled.info.ny), compiled.scratch()
+    over = settled(carried, Instant(start.y, start.p, start.w), Instant(y, p, w))
+    notes = start.notes, start.changes, start.light, start.warnings
+    own = Start(y, p, w, compiled.rank(w), compiled.redundant(w), *notes, t=start.t, work=start.work)
+    return TreeRun(whole, mechanism, compiled, own, bodies, start, events, effects, over)
+
+
+def settled(carried: Carried, of_bodies: Instant, now: Instant) -> int:
+    """Map a start of bodies to a tree, in place; return the body in space that would start turned over, -1 for none.
+
+    Parameters
+    ----------
+    carried : Carried
+        From `carried_of`.
+    of_bodies, now : Instant
+        The start of bodies, and the tree's, whose parameters are not yet prepared.
+    """
+    alike = carried.settle(one_row(*of_bodies), one_row(*now), *ALONE)[0]
+    now.y[carried.assembly.compiled.info.work :] = of_bodies.y[carried.bodies.info.work :]
+    return over_of(alike)
+
+
+def over_of(alike: Array) -> int:
+    """Return the first body in space that would start turned over, -1 for none, from products of Euler parameters."""
+    if not len(alike):
+        return -1
+    over = np.flatnonzero(np.abs(alike) < TURNED_OVER)
+    return int(over[0]) if len(over) else -1
+
+
+def tree_taken_up(plan: Plan, last: LastState) -> TreeRun | None:
+    """Return a run that takes up what another one in the same coordinates kept, None where there is none."""
+    if last.arrays is None or not {*_BODIES} <= {*last.arrays}:
+        return None
+    bodies = compiled_for(plan.mechanism, choice_after(plan, last))
+    carried, compiled = tree_code(plan.mechanism, plan.choice, bodies)
+    start = taken_up(compiled, plan, last)
+    if start is None or last.arrays["body_w"].shape != bodies.scratch().shape:
+        return None
+    y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
+    of_bodies = Start(y, p, w, last.rank, bodies.redundant(w), start.notes, t=last.t, work=last.work_before)
+    start = replace(start, rank=int(rank[0]))
+    return TreeRun(plan.mechanism, carried, compiled, start, bodies, of_bodies, plan.events)

@@ -1,0 +1,416 @@
+"""Loops over many runs of one compiled model: no Python between runs, no lock held, memory of one run and the results.
+
+Each run is an instance of the frame of single runs, so it takes the same steps. Several threads call these functions at
+once, each with its own rows and working memory.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.compile.loopcode.bare import bare, part
+from symgen.compile.loopcode.loop_instances import called, compiled_loop, signature_of
+from symgen.compile.native import types
+from symgen.compile.store.jit import jit
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
+from symgen.run.layout.redundancy import choose_rows
+from symgen.run.loops.event_loop import with_events
+from symgen.run.loops.frame_parts import store
+from symgen.run.loops.stopping import parameters_at, select_row, with_stops
+from symgen.run.loops.watch import iterations_in
+from symgen.run.rows.row_events import (
+    OF_EFFECTS,
+    forget_functions,
+    forget_past,
+    resumed_after_examination,
+    store_after_effects,
+    take_effects,
+    take_notes_of_events,
+    waits_for_examination,
+)
+from symgen.run.rows.row_modes import (
+    OF_MODES,
+    begin_modes,
+    begin_modes_between_stops,
+    choose_after_change,
+    forget_modes,
+    rest_stops,
+    strike_stops,
+    take_modes,
+    take_resets,
+)
+from symgen.run.single.agreement import choose_pressed
+from symgen.run.single.observe import observe_rates, observe_rows
+
+_F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
+
+_N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
+
+
+def take(array: Any, first: int, size: int, out: Any) -> None:
+    """Set `out` to elements of an array."""
+    for i in range(size):
+        out[i] = array[first + i]
+
+
+def begin_run(state: Any, limits: Any) -> None:
+    """Reset the state of a run, except for the stop flag."""
+    gauges = state.gauges
+    for i in range(gauges.shape[0]):
+        gauges[i] = 0.0
+    for i in range(state.clock.shape[0]):
+        state.clock[i] = 0.0
+    gauges[abi.LIMIT_PHI], gauges[abi.LIMIT_DRIFT], gauges[abi.LIMIT_ENERGY] = limits[0], limits[1], limits[2]
+    gauges[abi.WARN_PIVOT] = limits[3]
+    gauges[abi.SMALLEST_PIVOT] = gauges[abi.LAST_SINE] = gauges[abi.LAST_SHORT] = 1.0
+    for i in range(abi.N_CONTROL):
+        if i != abi.STOP:
+            state.control[i] = 0
+    for i in range(state.iw.shape[0]):
+        state.iw[i] = 0
+
+
+def forget(model: Any, state: Any) -> None:
+    """Do nothing: a run without switching functions has no data of them."""
+
+
+def begin_choice(model: Any, span: Any, state: Any) -> int:
+    """Return `DONE`: a run without friction has no modes to choose."""
+    return int(abi.DONE)
+
+
+def take_change(model: Any, span: Any, state: Any) -> int:
+    """Return the end code of a run whose parameters its loop cannot prepare."""
+    return int(abi.UNPREPARED)
+
+
+def take_notes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
+    """Return the end code of a run without events."""
+    return code
+
+
+def resumed(state: Any) -> int:
+    """Return the end code with which a run that was left for an examination goes on, `DONE` for a new run."""
+    return int(abi.DONE)
+
+
+def waits(code: int, model: Any, chunk: Any, state: Any) -> bool:
+    """Return whether a run has to be left for an examination: none without rows that may jump."""
+    return False
+
+
+def store_after(code: int, span: Any, state: Any, outputs: Any) -> None:
+    """Do nothing: outputs of a run without events hold its state."""
+
+
+def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
+    """Write the requested quantities at the outputs of a run, one after the other; nan at outputs not reached.
+
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    picks : Array of int64
+        (source, column) of each quantity.
+    series : Kept
+        Of the run.
+    count : int
+        Number of outputs reached.
+    start : float
+        Energy at the start [J].
+    values : Array
+        Written.
+    """
+    outputs, observed, status, work = series.outputs, series.observed, series.outputs.status, sizes.nq + sizes.nv
+    n_times = outputs.states.shape[0]
+    for c in range(picks.shape[0] // 2):
+        source, column, to = picks[2 * c], picks[2 * c + 1], c * n_times
+        for k in range(count):
+            if source == e.STATE:
+                value = outputs.states[k, column]
+            elif source == e.STATUS:
+                value = status[k, column]
+            elif source == e.ENERGY:
+                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL]
+            elif source == e.ENERGY_ERROR:
+                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL] - start - outputs.states[k, work]
+            elif source == e.ACCELERATION:
+                value = observed.accelerations[k, column]
+            elif source == e.MULTIPLIER:
+                value = observed.multipliers[k, column]
+            else:
+                value = observed.rows[k, sizes.m + column]
+            values[to + k] = value
+        for k in range(count, n_times):
+            values[to + k] = math.nan
+
+
+def summarise(code: int, state: Any, row: Any) -> None:
+    """Write the summary of a run, in the order of `symgen.run.layout.ensemble_abi.SUMMARY`."""
+    w, clock, gauges, control, passages = state.w, state.clock, state.gauges, state.control, state.passages
+    narrowest, where = math.nan, math.nan
+    for k in range(min(control[abi.PASSAGES], _MAX_PASSAGES)):
+        pivot = passages[k * _N_PASSAGE + abi.PASSAGE_PIVOT]
+        if not narrowest <= pivot:
+            narrowest, where = pivot, passages[k * _N_PASSAGE + abi.PASSAGE_IN]
+    at = e.CODE
+    for number in (
+        float(code),
+        clock[abi.TIME],
+        float(control[abi.OUTPUTS]),
+        float(control[abi.STEPS]),
+        float(control[abi.REJECTED]),
+        float(control[abi.EVALUATIONS]),
+        float(iterations_in(state)),
+        float(state.iw[abi.LIGHT]),
+        gauges[abi.MAX_PHI],
+        gauges[abi.MAX_DRIFT],
+        gauges[abi.MAX_ENERGY],
+        gauges[abi.ENERGY_START],
+        gauges[abi.ENERGY_SCALE],
+        gauges[abi.MAX_ENERGY_JUMP],
+        gauges[abi.SMALLEST_PIVOT],
+        float(control[abi.PASSAGES]),
+        where,
+        narrowest,
+        w[abi.PHI],
+        w[abi.DRIFT],
+        w[abi.LENGTH],
+        w[abi.SPEED],
+    ):
+        row[at] = number
+        at += 1
+
+
+@called
+def follow_rows(chunk: Any, state: Any, w: Any) -> int:
+    """Choose independent rows at the position of `w`; return 1 where they have changed."""
+    if chunk.dense.shape[0] == 0:
+        return 0
+    return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
+
+
+def take_row(system: Any, r: int) -> None:
+    """Do nothing: no row has stops."""
+
+
+def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Do nothing: the same parameters hold at all outputs of a run without stops."""
+
+
+def observe_outputs(
+    count: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any
+) -> None:
+    """Write the requested quantities of a run with so many outputs; parameters otherwise as for `end_run`."""
+    sizes, rates, confirm, accept, observe = model
+    law, nw = (sizes, rates, confirm, accept), state.w.shape[0]
+    if chunk.rates == 1:
+        for i in range(state.iw.shape[0]):
+            state.iw[i] = 0
+    scratch, outputs, observed = part(chunk.ws, r * nw, nw), series.outputs, series.observed
+    follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
+    for k in range(count if chunk.rates == 1 or chunk.joints == 1 else 0):
+        hold(system, span, chunk, r, state, outputs.times, k)
+        here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
+        single = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
+        if chunk.rates == 1:
+            observe_rates(law, here, 1, state.p, scratch, state.iw, single, state.room)
+            if follows and follow_rows(chunk, state, scratch) != 0:  # the independent rows depend on the position
+                observe_rates(law, here, 1, state.p, scratch, state.iw, single, state.room)
+        if chunk.joints == 1:
+            observe_rows(observe, sizes, here, 1, state.p, state.w, single, state.room)
+    length = (chunk.picks.shape[0] // 2) * series.outputs.times.shape[0]
+    values = part(chunk.values, r * length, length)
+    pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
+    if chunk.rates == 1 or chunk.joints == 1:
+        # loops take the padding behind a state for zeros; observed values may even be nan
+        for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
+            state.room[i] = 0.0
+
+
+def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
+    """Write the results of a run.
+
+    Parameters
+    ----------
+    code, r : int
+        End code of the loop, and the row.
+    system, span : tuple, Span
+        Arguments of the loop.
+    model : tuple
+        Its sizes, and the functions called at outputs.
+    chunk, state, series
+        As for `run_rows`; `state` is that of the run at its end.
+    """
+    sizes, nw, count = model[0], state.w.shape[0], state.control[abi.OUTPUTS]
+    summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
+    until = series.outputs.times[series.outputs.times.shape[0] - 1]
+    if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
+        series.outputs.times[0] = state.clock[abi.TIME]
+        store(sizes, state.w, series.outputs, 0, state.y)
+        count = 1
+    part(chunk.ws, r * nw, nw)[abi.STEP_STATUS] = state.w[abi.STEP_STATUS]  # for laws whose gains follow the step
+    observe_outputs(count, r, system, span, model, chunk, state, series)
+    series.outputs.times[series.outputs.times.shape[0] - 1] = until
+    state.control[e.RUNS_DONE] += 1
+
+
+def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series: Any) -> int:
+    """Run the selected rows from the starts of `symgen.run.starts.starting.close_runs`.
+
+    Parameters
+    ----------
+    model : tuple
+        First argument of the loop over one run; then, for observed values at outputs, sizes and functions
+        (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these,
+        where friction or stops have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
+    scheme, span
+        As for a single run.
+    chunk : Chunk
+        The rows.
+    state : State
+        Memory of one run; an additional element of `control` counts finished runs.
+    series : Kept
+        Outputs of one run, at the same times for every run.
+
+    Returns
+    -------
+    int
+        Number of selected rows that are done: all, unless the run was stopped, or the next one waits for an
+        examination.
+    """
+    chunk, state, series = bare(chunk), bare(state), bare(series)
+    system, observers = model[0], model[1]
+    ny, n_p, nw = observers[0].ny, state.p.shape[0], state.w.shape[0]
+    for s in range(chunk.selected.shape[0]):
+        if state.control[abi.STOP] != 0:
+            return int(s)
+        r = chunk.selected[s]
+        code = resumed(state)
+        if code == abi.DONE:
+            begin_run(state, chunk.limits)
+            take_row(system, r)
+            take(chunk.ys, r * ny, ny, state.y)
+            take(chunk.ps, r * n_p, n_p, state.p)
+            take(chunk.ws, r * nw, nw, state.w)
+            forget(model, state)
+            code = begin_choice(model, span, state)
+            if code == abi.DONE:
+                code = integrate(system, scheme, span, state, series.outputs)
+        while code == abi.CHOOSE or code == abi.NOTED or code == abi.MET or code == abi.CHANGED:
+            if code == abi.CHOOSE:
+                follow_rows(chunk, state, state.w)
+            elif code == abi.CHANGED:
+                code = take_change(model, span, state)
+                if code != abi.CHANGED:
+                    break
+            elif waits(code, model, chunk, state):
+                return int(s)
+            else:
+                ended = take_notes(code, r, model, chunk, state)
+                store_after(code, span, state, series.outputs)
+                if ended != code:
+                    code = abi.MET if ended == abi.DONE else ended
+                    break
+            code = integrate(system, scheme, span, state, series.outputs)
+        if code == abi.STOPPED:
+            return int(s)
+        if code == abi.DONE:  # a grid of steps meets the end up to rounding
+            state.clock[abi.TIME] = span.until
+        if code == abi.MET:
+            code = abi.DONE
+        else:
+            take_notes(code, r, model, chunk, state)
+        end_run(code, r, system, span, observers, chunk, state, series)
+    return int(chunk.selected.shape[0])
+
+
+# -- stops -------------------------------------------------------------------------------------------------------------
+
+
+def take_stops(system: Any, r: int) -> None:
+    """Select the stops of a row."""
+    select_row(system[1], r)
+
+
+def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Set the parameters to their values at output `k`, from the output before; at a stop, to the values before it."""
+    _, stops, _, prepare, prepare_law = system
+    control, n_p = state.control, state.p.shape[0]
+    if k == 0:
+        control[abi.PASSED] = 0
+        take(chunk.ps, r * n_p, n_p, state.p)
+    passed = parameters_at(stops, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
+    control[abi.PASSED] = passed
+
+
+# -- loops -------------------------------------------------------------------------------------------------------------
+
+
+def integrate(*arguments: Any) -> int:
+    """Mark the place of the loop over one run, which `instances` and `on_device` insert."""
+    raise NotImplementedError
+
+
+@jit(types.int64(_F8, _A, _A, _A, _A, _A))
+def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+    """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
+    return 0
+
+
+#: Sizes of a model, and the functions called at outputs.
+OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+_EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
+_EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
+_MODES = {
+    **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
+    **{"store_after": store_after_effects},
+}
+_STRIKING = {"meet_stops": strike_stops, "gather_stops": rest_stops, "take_others": take_resets}
+_MODES_BETWEEN_STOPS = {"begin_choice": begin_modes_between_stops, "take_change": choose_after_change}
+_PRESSED = {"choose_modes": choose_pressed}
+_EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
+STOPPING = {"take_row": take_stops, "hold": hold_between_stops}
+_loops: dict[Any, Any] = {}
+
+
+def over_rows(
+    loop: Any,
+    events: bool = False,
+    stops: bool = False,
+    effects: bool = False,
+    examined: bool = False,
+    modes: bool = False,
+    pressed: bool = False,
+) -> Any:
+    """Return the loop over many runs around that over a single run, made at the first use.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.run.loops.frame.loop`.
+    events, stops, effects, examined, modes, pressed : bool
+        Whether rows have switching functions, stops of parameters, events that change a run, constraints that may jump,
+        dry friction or stops of a motion, and bounds of friction that depend on reactions.
+    """
+    key = loop, events, stops, effects, examined, modes, pressed
+    if key not in _loops:
+        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
+        name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes + "_pressed" * pressed
+        inner = with_events(loop) if events else loop
+        inner = with_stops(inner) if stops else inner
+        args = signature_of(inner).arguments
+        further = [OF_MODES] if modes else [OF_EFFECTS] if effects else []
+        model = types.RecordType((*args[:1], OBSERVERS, *further))
+        signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
+        meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
+        meanings |= (_MODES if modes else {}) | (_PRESSED if pressed else {})
+        meanings |= _STRIKING if effects and modes else {}
+        meanings |= _MODES_BETWEEN_STOPS if modes and stops else {}
+        meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
+        compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
+        _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are
+    return _loops[key]

@@ -1,0 +1,372 @@
+"""Events of a run: their data for loops, their actions, and their accumulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compile.loopcode.exact import compiled_form
+from symgen.describe.bounds.friction import JAM, REVERSE, SLIP
+from symgen.describe.bounds.stops import HIT, LEAVE
+from symgen.describe.parts.events import RECORD, RESET, STOP
+from symgen.run.effects.accumulation import accumulation, add_resets, latest_events, new_past
+from symgen.run.effects.effects import Impact
+from symgen.run.layout import abi
+from symgen.run.layout.probe import rate_functions
+from symgen.run.layout.start_records import Instant
+from symgen.run.loops import event_loop
+from symgen.run.loops import search_records as searching
+from symgen.run.single.new_state import sizes_of
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel, ModelInfo
+    from symgen.run.layout.records import Sizes, State
+    from symgen.run.loops.run_spec import Watched
+    from symgen.run.single.outcome import Outcome
+
+Array = NDArray[np.float64]
+
+
+def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.EventState:
+    """Return the initial state of a run with the state of its events."""
+    events, n = len(watched.names), len(watched.names) + len(watched.switches)
+    points = [x for switch in watched.switches for x in switch.points]
+    first = event_loop.notes_at(n, sizes.width, len(state.w))
+    noted = events + sum(switch.holds for switch in watched.switches)
+    tables = first + ((searching.NOTES + 2 * noted) * (2 + sizes.width) if noted else 0)
+    beginning = tables + len(points)
+    hunt = np.zeros(beginning + (0 if watched.rows is None else 1 + 2 * sizes.width))
+    hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, watched.needs_rates
+    hunt[searching.TABLES], hunt[tables:beginning] = tables, points
+    hunt[searching.BEGINNING] = 0 if watched.rows is None else beginning
+    hunt[searching.REACH] = 0.0 if watched.adaptive else np.inf
+    columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
+    columns[searching.DIRECTION, :events] = watched.directions
+    columns[searching.ACTION, :events] = [action != RECORD for action in watched.actions]
+    columns[searching.ACTION, events:] = [(searching.ANEW, searching.EXAMINE)[x.holds] for x in watched.switches]
+    columns[searching.OF_FORCES, list(watched.of_forces)] = 1.0
+    columns[searching.MARGIN, :events], columns[searching.ROW, :events] = margins_of(watched)
+    columns[searching.MISSED, events:] = [switch.missed for switch in watched.switches]
+    columns[searching.PERIOD, events:] = [switch.period for switch in watched.switches]
+    sizes_of_tables = [len(switch.points) for switch in watched.switches]
+    columns[searching.POINTS, events:] = sizes_of_tables
+    columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
+    return event_loop.EventState(*state, hunt)
+
+
+#: Kinds of margins by the last words of their names.
+_MARGINS = {
+    **{SLIP: searching.FORCE, LEAVE: searching.FORCE},
+    **{HIT: searching.GAP, REVERSE: searching.RATE, JAM: searching.PART},
+}
+
+
+def margins_of(watched: Watched) -> tuple[list[int], list[int]]:
+    """Return of which kind of margin each event is, 0 for others, and the number of its bounded row."""
+    rows = () if watched.bounded is None else watched.bounded.names
+    found = {f"{name}.{word}": (kind, i) for i, name in enumerate(rows) for word, kind in _MARGINS.items()}
+    kinds = [found.get(name, (0, 0)) for name in watched.names]
+    return [kind for kind, _ in kinds], [row for _, row in kinds]
+
+
+def forget_steps(state: event_loop.EventState) -> None:
+    """Discard what schemes keep of past steps."""
+    state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
+    state.clock[abi.ALLOWED] = 0.0
+
+
+@dataclass(frozen=True)
+class Happening:
+    """An event that happened.
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    name, action : str
+        Name and action of the event.
+    state : Array, shape (nq + nv,)
+        Coordinates and velocities before a reset.
+    own : Array
+        States of the file's own before a reset.
+    impact : Impact or None
+        Effect of a reset; resets at the same time share it.
+    energy : float
+        Energy added by the reset [J]; for resets at the same time, the first has the total.
+    left : float or None
+        Time until impacts would have accumulated [s], where a stop is at rest by them.
+    """
+
+    t: float
+    name: str
+    action: str
+    state: Array
+    own: Array
+    impact: Impact | None = None
+    energy: float = 0.0
+    left: float | None = None
+
+
+class Events:
+    """The events of a run.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    watched : Watched
+        Switching functions of its events.
+    until : float
+        End of the run [s].
+
+    Attributes
+    ----------
+    happened : list of Happening
+        Past events in order of time.
+    accumulation : float or None
+        Time at which events accumulate [s].
+    """
+
+    def __init__(self, compiled: CompiledModel, watched: Watched, until: float) -> None:
+        self.compiled, self.watched, self.until = compiled, watched, until
+        self.happened: list[Happening] = []
+        self.accumulation: float | None = None
+        self._jump, self._changes = "", False
+
+    def forget_after(self, t: float) -> None:
+        """Remove later events, as a run continues from an earlier state."""
+        self.happened = [event for event in self.happened if event.t <= t]
+        self.accumulation = None
+        if "past" in vars(self):
+            numbers = {name: k for k, name in enumerate(self.watched.names)}
+            self.past.counts[:] = 0
+            for event in self.happened:
+                if event.action == RESET or event.impact is not None:
+                    compiled_form(add_resets)(self.past, self.watched.effects.chosen([numbers[event.name]]), event.t)
+
+    def take(self, state: event_loop.EventState) -> list[tuple[int, Happening]]:
+        """Store and return the passages noted by a loop since the last call, with numbers of events."""
+        names, actions, info = self.watched.names, self.watched.actions, self.compiled.info
+        notes = event_loop.taken_notes(state.hunt, len(state.y), len(state.w))
+        events = [
+            (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states]))
+            for t, number, y in notes
+            if number < len(names)
+        ]
+        self._changes = len(events) < len(notes)
+        self.happened += (event for _, event in events)
+        return events
+
+    def meet(self, state: event_loop.EventState, events: Sequence[tuple[int, Happening]]) -> int:
+        """Execute the actions of the events at which a loop ended; return `DONE` if it may be entered again.
+
+        Parameters
+        ----------
+        state : State
+            State at the events; changed by resets.
+        events : sequence of (int, Happening)
+            From `take`.
+
+        Raises
+        ------
+        InputError
+            If the constraints, or other resets at the same time, do not allow the velocities of a reset.
+        """
+        now = float(state.clock[abi.TIME])
+        if self._changes:  # of formulas of rows
+            if self._finds_jump(state):
+                return abi.JUMPED
+            if self.watched.adaptive:
+                self.begin_anew(state)
+        here = [(number, event) for number, event in events if event.t == now]
+        resets = [number for number, event in here if event.action == RESET]
+        if resets:
+            self._reset(state, resets)
+        if any(event.action == STOP for _, event in here):
+            return abi.MET
+        self.accumulation = self.end_of_resets(resets, state) if resets else None
+        return abi.DONE if self.accumulation is None else abi.GATHERED
+
+    def begin_anew(self, state: event_loop.EventState) -> None:
+        """Discard what schemes keep of past steps."""
+        state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
+        state.clock[abi.ALLOWED] = 0.0
+
+    def _finds_jump(self, state: event_loop.EventState) -> bool:
+        """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
+        rows = self.watched.rows
+        self._jump = "" if rows is None else rows.sentence(self.compiled, state)
+        return bool(self._jump)
+
+    # -- resets --------------------------------------------------------------------------------------------------------
+
+    def _reset(self, state: event_loop.EventState, numbers: Sequence[int]) -> None:
+        watched, now = self.watched, float(state.clock[abi.TIME])
+        impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
+        self.begin_anew(state)
+        names, energy = {watched.names[number] for number in numbers}, impact.energy
+        first = len(self.happened)
+        while first > 0 and self.happened[first - 1].t == now:
+            first -= 1
+        for i, event in enumerate(self.happened[first:], first):
+            if event.action == RESET and event.name in names:
+                self.happened[i] = replace(event, impact=impact, energy=energy)
+                energy = 0.0
+
+    # -- events that accumulate ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def past(self) -> Any:
+        """Past resets, for the search of accumulations."""
+        compiled, watched = self.compiled, self.watched
+        functions = len(watched.names) + len(watched.switches)
+        width, nw = sizes_of(compiled).width, len(compiled.scratch())
+        return new_past(len(watched.names), functions, width, nw, self.until)
+
+    def end_of_resets(self, numbers: Sequence[int], state: event_loop.EventState) -> float | None:
+        """Return the time at which resets by events accumulate [s]; None where they do not.
+
+        Parameters
+        ----------
+        numbers : sequence of int
+            Events that have just changed velocities.
+        state : State
+            State afterwards.
+        """
+        watched, now = self.watched, float(state.clock[abi.TIME])
+        chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
+        compiled_form(add_resets)(self.past, chosen, now)
+        functions = *rate_functions(self.compiled.law_module), watched.function
+        with np.errstate(all="ignore"):
+            end = compiled_form(accumulation)(
+                *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self.past)
+            )
+        if np.isnan(end):
+            return None
+        return float(end)
+
+    @property
+    def recent(self) -> tuple[str, ...]:
+        """Names of the events with the latest resets."""
+        latest = int(compiled_form(latest_events)(self.past))
+        return tuple(name for k, name in enumerate(self.watched.names) if latest >> k & 1)
+
+    def reason(self, code: int, state: Any, t: float) -> str:
+        """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
+        if code == abi.GATHERED:
+            return gathered(self.recent, self.accumulation or t)
+        return undefined(self.watched.names[event_loop.undefined_event(state)], t)
+
+    def jump(self, state: Any) -> str:
+        """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""
+        _ = self._jump or self._finds_jump(state)
+        return self._jump
+
+
+def gathered(names: Sequence[str], t: float) -> str:
+    """Return the reason for the end of a run whose events `names` accumulate at a time [s]."""
+    events = " and ".join(f"'{name}'" for name in names)
+    return f"events of {events} accumulate at t = {t:.13g} s: the model does not determine the motion after that"
+
+
+def undefined(name: str, t: float) -> str:
+    """Return the reason for the end of a run at an event with an undefined condition, at a time [s]."""
+    return f"the condition of the event '{name}' is undefined at t = {t:.6g} s"
+
+
+# -- events with names -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EventRecord:
+    """An event that happened during a run.
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    name, action : str
+        Name of the event, and its action: ``record``, ``stop`` or ``reset``.
+    q, v : mapping
+        Coordinates and velocities at the event, before a reset.
+    v_after : mapping or None
+        Velocities after a reset.
+    impulses : mapping
+        Impulses of a reset: of constraint rows, signed as the multipliers, and along the velocities with new values.
+    work : float
+        Energy added by a reset [J]; for resets at the same time, the first has the total.
+    """
+
+    t: float
+    name: str
+    action: str
+    q: Mapping[str, float]
+    v: Mapping[str, float]
+    v_after: Mapping[str, float] | None = None
+    impulses: Mapping[str, float] = field(default_factory=dict)
+    work: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the record as JSON data."""
+        after = None if self.v_after is None else dict(self.v_after)
+        state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
+        numbers = {"impulses": dict(self.impulses), "work": self.work}
+        return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
+
+
+def stopped(outcome: Outcome) -> list[str]:
+    """Return a note on the event at which a run ended, if any."""
+    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
+    if not names or outcome.code != abi.DONE:
+        return []
+    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
+
+
+def brought_to_rest(outcome: Outcome) -> list[str]:
+    """Return a note on each stop that ever faster impacts have brought to rest, with the time that was left.
+
+    A single impact without rebound accumulates nothing: its events say all.
+    """
+    return [
+        f"impacts of {event.name.rpartition('.')[0]} accumulate at t = {event.t + event.left:.13g} s: "
+        f"it rests from t = {event.t:.13g} s on, where {event.left:.3g} s were left"
+        for event in outcome.happened
+        if event.left
+    ]
+
+
+def struck_at_once(outcome: Outcome) -> list[str]:
+    """Return a note on the first impact of several stops at once, if any."""
+    hits = [event for event in outcome.happened if event.name.endswith(f".{HIT}") and event.impact is not None]
+    for first, second in pairwise(hits):
+        if first.impact is second.impact:
+            together = [event.name.rpartition(".")[0] for event in hits if event.impact is first.impact]
+            return [
+                f"{' and '.join(together)} strike at once at t = {first.t:.13g} s: by Newton's law each gap opens with "
+                "its restitution times the rate at which it closed, which is not what impacts one after the other do"
+            ]
+    return []
+
+
+def record_of(info: ModelInfo, event: Happening) -> EventRecord:
+    """Return an event of a run with names."""
+    q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
+    v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
+    impact = event.impact
+    if impact is None:
+        return EventRecord(event.t, event.name, event.action, q, v)
+    after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
+    signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
+    names = [*(row.name for row in info.rows), *impact.imposed]
+    closed = (info.rows[i].name for i in info.bounded)
+    stops, impulses = {f"{row.removesuffix('.stop')}.rate": row for row in closed}, dict[str, float]()
+    for name, s, x in zip(names, signs, impact.impulses, strict=True):  # of a closed stop and of one that strikes
+        row = stops.get(name, name)
+        impulses[row] = impulses.get(row, 0.0) + float(s * x)
+    return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

@@ -1,0 +1,119 @@
+"""Functions of the motion at outputs of a run: rates, multipliers, joint coordinates, formulas."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.compile.loopcode.bare import part
+from symgen.compile.native import types
+from symgen.compile.store.jit import jit
+from symgen.run.layout import abi
+from symgen.run.layout.records import OBSERVED, OUTPUTS, SIZES
+
+_A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
+_M = types.float64[:, ::1]
+
+
+@jit()
+def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
+    """Set `y` and the angles in `w` to their values at an output."""
+    for i in range(sizes.ny):
+        y[i] = outputs.states[k, i]
+    for i in range(outputs.status.shape[1] - abi.N_STATUS):
+        w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
+
+
+@jit(_I8(types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any) -> int:
+    """Evaluate v' and lambda at outputs.
+
+    Parameters
+    ----------
+    model : tuple
+        Its sizes, and ``rates`` or ``rhs``, ``confirm`` and ``accept`` (`symgen.run.layout.abi`).
+    outputs : Outputs
+        In the order of time.
+    count : int
+        Number of outputs.
+    p, w, iw : Array
+        Arguments of emitted functions, scratch and counters as at the start of the run.
+    observed : Observed
+        Receives accelerations and multipliers.
+    room : Array
+        Working memory for two states.
+    """
+    sizes, rates, confirm, accept = model
+    y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
+    for k in range(count):
+        output(sizes, outputs, k, y, w)
+        accept(outputs.times[k], y, p, w, iw)  # updates the memory of a method: a partition, a basis
+        if rates(outputs.times[k], y, p, w, iw, rate) != 0:
+            confirm(outputs.times[k], y, p, w, iw, rate)
+        for i in range(sizes.nv):
+            observed.accelerations[k, i] = rate[sizes.nq + i]
+        for i in range(sizes.m):
+            observed.multipliers[k, i] = w[sizes.multipliers + i]
+    return 0
+
+
+@jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
+def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
+    """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or other quantities.
+
+    Parameters
+    ----------
+    observe : emitted function
+        See `symgen.run.layout.abi`.
+    sizes : Sizes
+        Of the model.
+    outputs, count, p, w
+        As for `observe_rates`.
+    observed : Observed
+        Holds accelerations and multipliers; receives rows, in the order that ``observe`` writes.
+    room : Array
+        Working memory for two states and a row.
+    """
+    ny, length = sizes.ny, observed.rows.shape[1]
+    y, rate, row = part(room, 0, ny), part(room, ny, ny), part(room, 2 * ny, length)
+    for k in range(count):
+        output(sizes, outputs, k, y, w)
+        for i in range(sizes.nv):
+            rate[sizes.nq + i] = observed.accelerations[k, i]
+        if k < observed.multipliers.shape[0]:  # a device has room for them only where they are requested
+            for i in range(sizes.m):
+                w[sizes.multipliers + i] = observed.multipliers[k, i]
+        observe(outputs.times[k], y, p, w, rate, row)
+        for i in range(length):
+            observed.rows[k, i] = row[i]
+    return 0
+
+
+@jit(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
+def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any, w: Any, y: Any) -> int:
+    """Measure states, one after the other: the status and the angles that count turns.
+
+    Parameters
+    ----------
+    geometry, measure : emitted functions
+        See `symgen.run.layout.abi`.
+    sizes, p, w
+        As for `observe_rows`; the scratch holds the angles before the first state.
+    outputs : Outputs
+        Holds states, and angles that count turns, nan for unknown ones; receives the status.
+    y : Array, shape (ny,)
+        Working memory.
+    """
+    for k in range(outputs.times.shape[0]):
+        for i in range(sizes.ny):
+            y[i] = outputs.states[k, i]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            if math.isfinite(outputs.status[k, abi.N_STATUS + i]):
+                w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
+        geometry(outputs.times[k], y, p, w)
+        measure(outputs.times[k], y, p, w)
+        for i in range(abi.N_STATUS):
+            outputs.status[k, i] = w[i]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            outputs.status[k, abi.N_STATUS + i] = w[abi.WINDING + i]
+    return 0

@@ -1,0 +1,422 @@
+"""A run as its arrays: its state, how it is entered, left, saved and restored, and when other rows are chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError
+from symgen.base.ir.numerics import WARN
+from symgen.run.layout import abi
+from symgen.run.layout.probe import rate_functions
+from symgen.run.loops.frame_parts import store_behind
+from symgen.run.loops.watch import iterations_in
+from symgen.run.single.changes import Changes
+from symgen.run.single.events import event_state
+from symgen.run.single.new_state import (
+    SAVED_AS,
+    Snapshot,
+    memory_fields,
+    new_outputs,
+    new_state,
+    sizes_of,
+    span_of,
+    with_memory,
+)
+from symgen.run.starts.assembler import row_chooser
+
+if TYPE_CHECKING:
+    from symgen.compile.loopcode.entry import LoopEntry
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.layout.records import Outputs
+    from symgen.run.loops.integrator import Integrator
+    from symgen.run.loops.run_spec import RunSpec, Stop, Watched
+    from symgen.run.single.events import Events
+    from symgen.run.single.transitions import Transitions
+    from symgen.run.starts.assembly import Start
+
+Array = NDArray[np.float64]
+
+#: Saved arrays in addition to the state of a run: the output at its end, which may differ in the last bit from the
+#: state that a multistep scheme continues with.
+SHOWN = ("shown_state", "shown_status")
+
+
+class Simulation:
+    """A run that can be left after any accepted step, saved, restored, and continued.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    integrator : Integrator
+        The scheme and its loop.
+    start : Start
+        A consistent start, from `symgen.run.starts.assembly.assemble`; not changed.
+    spec : RunSpec
+        Steps, tolerances and limits.
+
+    Attributes
+    ----------
+    compiled, integrator, start, spec
+        As above.
+    state : State
+        The state of the run, as arrays. They are never moved: views of them stay valid.
+    span : Span
+        End, steps and tolerances of the run.
+    direct : bool
+        Whether `go` may take the shortest way, with the same results to the bit.
+    snapshot : Snapshot
+        The memory of `state`, and a copy of it from the last call of `go`.
+    before : Array of int
+        Counts at the point where the run was continued: zeros for a new run.
+    events : Events or None
+        Events of the run, where they are looked for.
+    changes : Changes
+        Changes of parameters during the run.
+    halt : InputError or None
+        What has ended the run where an event or a change asked for what cannot be (`HALTED`).
+
+    Notes
+    -----
+    Constant steps lie on a grid that begins at the start: pieces that end on it equal one run, bit for bit. An end
+    between two steps is reached by a shortened step, at which a new grid begins.
+    """
+
+    def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
+        self.compiled, self.integrator, self.start, self.spec = compiled, integrator, start, spec
+        self.setup = integrator.setup(compiled, spec, start.w)
+        self.sizes = sizes_of(compiled)
+        self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
+        self.direct = True
+        self.halt: InputError | None = None
+        state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room, start.datum)
+        self.events: Events | None = None
+        self.transitions: Transitions | None = None
+        if spec.events is not None:
+            state = event_state(spec.events, self.sizes, state)
+            self._watch(spec.events)
+        self.snapshot = Snapshot(state)
+        self.state = self.snapshot.state
+        self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
+        self._prepared: tuple[Outputs, LoopEntry] | None = None
+        self._whole = self._model, self.setup.loop
+        self._stops: tuple[Stop, ...] = ()
+        self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
+        self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
+        self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+        self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
+        self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
+        self.iterations_before = 0
+        self.changes = Changes(self)
+        self.set_limits()
+        if start.saved is not None:
+            self._take_up(start.saved, start.p)
+        else:
+            self.divide(spec)
+        if spec.events is not None and spec.events.bounded is not None:
+            from symgen.run.single.pressed import PressedTransitions
+            from symgen.run.single.transitions import Transitions
+
+            rows = spec.events.bounded
+            self.transitions = PressedTransitions(self, rows) if rows.pressed else Transitions(self, rows)
+        self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
+
+    def set_limits(self) -> None:
+        """Set the limits of this run, also after the state of another one was restored."""
+        gauges, spec = self.state.gauges, self.spec
+        gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
+        gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
+
+    def _watch(self, watched: Watched) -> None:
+        """Look for events."""
+        from symgen.run.loops.event_loop import with_events
+        from symgen.run.loops.searching import decide
+        from symgen.run.single.events import Events
+
+        rates, _ = rate_functions(self.compiled.law_module)
+        functions = *self.setup.functions, watched.function, decide, rates
+        self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
+        self.events = Events(self.compiled, watched, self.spec.until)
+
+    def outputs(self, times: Array) -> Outputs:
+        """Return room for outputs at `times`."""
+        return new_outputs(self.compiled.info, times)
+
+    def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
+        """Continue from the state of another run, with the limits, outputs and inputs of this one."""
+        info = self.compiled.info
+        state: Any = self.state  # an `EventState` where there are events
+        names = {
+            *(SAVED_AS.get(name, name) for name in state._fields),
+            *memory_fields(self.scheme),
+        }  # older files hold further, empty arrays
+        arrays = {name: array for name, array in saved.items() if name in names}
+        # other events, or data of another version: their sides are determined again
+        anew = self.events is not None and len(arrays.get("hunt", ())) != len(state.hunt)
+        if anew:
+            arrays.pop("hunt", None)
+        self.restore(arrays)
+        varying = {name for stop in self.spec.stops for name in stop.values}
+        numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
+        self.changes.give({name: x for name, x in numbers.items() if name not in varying})
+        if anew:
+            state.control[abi.BEGUN] = abi.AFRESH
+        self._shown = tuple(saved[name] for name in SHOWN)
+        self.set_limits()
+        state.control[[abi.STOP, abi.OUTPUTS]] = 0
+        self.before, self.iterations_before = state.control.copy(), iterations_in(state)
+
+    def store_first(self, outputs: Outputs) -> None:
+        """Write the outputs up to the time of a continued run: the loop writes those behind it."""
+        tiny = 0.0 if self.spec.adaptive else abi.SAME_TIME * self.setup.step
+        control, out = self.state.control, 0
+        while out < len(outputs.times) and outputs.times[out] <= self.state.clock[abi.TIME] + tiny:
+            outputs.states[out], outputs.status[out] = self._shown
+            out += 1
+        control[abi.OUTPUTS] = out
+
+    def enter(
+        self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
+    ) -> int:
+        """Continue; return the end code of the loop, see `symgen.run.layout.abi`.
+
+        Parameters
+        ----------
+        outputs : Outputs
+            From `outputs`; values already written are left unchanged.
+        until : float, optional
+            End [s]; by default the end of the run.
+        pause : float
+            Number of accepted steps of the run at which the loop is left (`PAUSED`).
+        most : float, optional
+            Limit of attempts at an adaptive step until then; by default the run's limit.
+
+        Raises
+        ------
+        InputError
+            If an event sets velocities that the constraints do not allow.
+        """
+        until, most = self.spec.until if until is None else until, self.span.most if most is None else most
+        if self.transitions is not None:
+            self.transitions.begin()
+        entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
+        while True:
+            if entry is None:
+                span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
+                arguments = self._model, self.scheme, span, self.state, outputs
+                code = int(self.setup.loop(*arguments))
+            else:
+                if not entry.has(self.scheme, self.span):
+                    entry.take(self.scheme, self.span)
+                code = entry(float(until), float(pause), float(most))
+            ended = self._ended(code, until)
+            if code == abi.MET:
+                self._store_behind(outputs)
+            if ended is not None:
+                return ended
+
+    def _store_behind(self, outputs: Outputs) -> None:
+        now, count = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
+        store_behind(outputs, count, now, self.same(now), self.state.y, self.state.w)
+
+    def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
+        """Run to the end as `enter` does; call `stop` after every `steps` steps, to end as `STOPPED`."""
+        while (code := self.enter(outputs, pause=self.state.control[abi.STEPS] + steps)) == abi.PAUSED:
+            if stop():
+                return abi.STOPPED
+        return code
+
+    def held(self, times: Array) -> tuple[tuple[float, Array], ...]:
+        """Return the parameters of earlier parts of the run, each with the last time at which it holds.
+
+        Parameters
+        ----------
+        times : Array
+            Of outputs; parts without outputs and events are left out.
+        """
+        happened = () if self.events is None else (event.t for event in self.events.happened)
+        marks, pieces, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
+        p, places = self._first_p.copy(), self.changes.inputs
+        for stop in self.spec.stops[self._first_stop : self.state.control[abi.PASSED]]:
+            near = abi.RESOLVED_TIME * stop.t if self.spec.adaptive else self.same(stop.t)
+            before, count = count, int(np.searchsorted(marks, stop.t + near, side="right"))
+            if stop.values and count > before:
+                pieces.append((stop.t + near, p.copy()))
+                self.compiled.prepare(pieces[-1][1])
+            elif not stop.values:
+                count = before
+            for name, value in stop.values.items():
+                p[places[name]] = value
+        return tuple(pieces)
+
+    def is_ahead(self, moment: float) -> bool:
+        """Whether a time is far enough from the present one for a step between them."""
+        return moment - self._clock[abi.TIME] > self.same(moment)
+
+    def same(self, moment: float) -> float:
+        """Return the difference up to which times near a time count as the same [s]."""
+        if self.spec.adaptive:
+            return abi.RESOLVED_TIME * max(abs(moment), abs(self._clock[abi.TIME]))
+        return abi.SAME_TIME * self.span.step
+
+    def divide(self, spec: RunSpec) -> None:
+        """Take the stops of `spec`, with the values of all stops passed."""
+        if spec.stops is not self._stops:
+            self._stop_at(spec.stops)
+        self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
+        behind = [stop for stop in spec.stops if not self.is_ahead(stop.t)]
+        control[abi.PASSED] = len(behind)
+        if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on behind it
+            self.state.clock[abi.TIME] = max(now, behind[-1].t)
+        self.changes.give({name: value for stop in behind for name, value in stop.values.items()})
+        # a kink changes no number, but the history of multistep schemes ends there as well
+        if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
+            control[abi.BEGUN] = abi.AFRESH
+
+    def _stop_at(self, stops: tuple[Stop, ...]) -> None:
+        """Select the loop from stop to stop if any stops exist."""
+        self._stops, (self._model, loop) = stops, self._whole
+        if stops:
+            from symgen.run.loops.stopping import with_stops, with_table
+
+            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (stops,))
+            loop = with_stops(loop)
+        self.setup, self._prepared = replace(self.setup, loop=loop), None
+        self.__dict__.pop("_entry", None)
+
+    def go(self, until: float, pause: float, most: float | None = None) -> int:
+        """Continue as `enter` does, without outputs and by the shortest way, so that a step from Python is cheap.
+
+        The state before is saved, see `go_back`.
+        """
+        if self.transitions is not None:
+            self.transitions.begin()
+        entry, snapshot = self._entry, self.snapshot
+        if entry is None or not self.direct:
+            snapshot.take(self.scheme)
+            return self.enter(self._nothing, until, pause, most)
+        if not self._copied or self._counts[abi.PASSAGES] > 0:
+            snapshot.take(self.scheme)
+        else:
+            snapshot.rows = 0
+        most = self.span.most if most is None else most
+        while True:
+            if not entry.has(self.scheme, self.span):
+                entry.take(self.scheme, self.span)
+            if (code := entry(until, pause, most)) >= 0 and self.events is None:
+                return code
+            if (ended := self._ended(code, until)) is not None:
+                return ended
+
+    def go_back(self) -> None:
+        """Restore the state saved when `go` was last called, or entered its loop after an event."""
+        self.scheme = self.snapshot.put_back(self.scheme)
+        if self.events is not None:
+            self.events.forget_after(self._clock[abi.TIME])
+
+    def _ended(self, code: int, until: float) -> int | None:
+        """Serve the request of a loop; return its end code, None where it has to be entered again."""
+        if self.events is not None:
+            state: Any = self.state  # an `EventState` where there are events
+            events = self.events.take(state)
+            if code == abi.MET:
+                now = [event for _, event in events if event.t == self._clock[abi.TIME]]
+                if self.transitions is not None:
+                    self.transitions.release(now)
+                code = self.events.meet(state, events)
+                if self.transitions is not None:
+                    self.transitions.meet(now)
+                return None if code == abi.DONE else code
+        if code == abi.NO_ROOM:
+            self.scheme = _with_room(self.scheme)
+        elif code == abi.CHOOSE:
+            self._choose_anew(self.state.w)  # the matrices of a scheme depend on the rows
+            self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
+        elif code == abi.CHANGED:
+            try:
+                self.changes.prepare()
+            except InputError:  # looped code names the formula; a run ends with one reason in both shapes
+                return abi.UNPREPARED
+            if not np.isfinite(self.state.p).all():
+                return abi.UNPREPARED
+            if self.transitions is not None:
+                if self.spec.stops[self.state.control[abi.PASSED] - 2].strikes:
+                    self.transitions.take_off()
+                self.transitions.begin()
+            return None if self.is_ahead(until) else abi.DONE
+        elif code != abi.NOTED:
+            return code
+        return None
+
+    @cached_property
+    def _nothing(self) -> Outputs:
+        return self.outputs(np.zeros(0))
+
+    @cached_property
+    def _entry(self) -> LoopEntry | None:
+        from symgen.compile.loopcode.entry import loop_entry
+
+        entry = loop_entry(self.setup.loop, (self._model, self.scheme, self.span, self.state, self._nothing))
+        if entry is not None and self._copied:
+            entry.copy_before(self.snapshot.copy, self.snapshot.front)
+        return entry
+
+    @cached_property
+    def _copied(self) -> bool:
+        """Whether all saved data but passages are in one block of memory."""
+        return not memory_fields(self.scheme)
+
+    def warm(self, outputs: Outputs) -> None:
+        """Compile everything, so that only loops are timed.
+
+        A loop that cannot be entered by its address is run with the stop flag set before its first step.
+        """
+        from symgen.compile.loopcode.entry import loop_entry
+
+        arguments = self._model, self.scheme, self.span, self.state, outputs
+        if (entry := loop_entry(self.setup.loop, arguments)) is not None:
+            self._prepared = outputs, entry
+            return
+        saved = self.save()
+        self.state.control[abi.STOP] = 1
+        self.enter(type(outputs)(*(array[:0] for array in outputs)))
+        self.restore(saved)
+
+    def save(self) -> dict[str, NDArray[Any]]:
+        """Return copies of all arrays of the run's state, by name."""
+        arrays = {name: array for name, array in self.state._asdict().items() if name != "room"}
+        arrays |= {name: getattr(self.scheme, name) for name in memory_fields(self.scheme)}
+        return {SAVED_AS.get(name, name): array.copy() for name, array in arrays.items()}
+
+    def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
+        """Restore the result of `save`, for the same model, method, integrator, limits and events, with other stops."""
+        own = {kept: name for name, kept in SAVED_AS.items()}
+        for name, array in saved.items():
+            if hasattr(self.state, own.get(name, name)):
+                getattr(self.state, own.get(name, name))[:] = array
+            else:
+                self.scheme = with_memory(self.scheme, name, array)
+        if self.events is not None:
+            self.events.forget_after(self._clock[abi.TIME])
+        self.divide(self.spec if spec is None else spec)
+
+    @cached_property
+    def _choose_anew(self) -> Callable[[Array], bool]:
+        return row_chooser(self.compiled)
+
+
+def _with_room(scheme: Any) -> Any:
+    """Return a scheme's record with more room for the factors of the matrix that did not fit."""
+    from symgen.run.loops.sparse import enlarged
+
+    for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
+        if hasattr(scheme, plan):
+            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
+            scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
+    return scheme

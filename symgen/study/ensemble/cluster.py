@@ -1,0 +1,158 @@
+"""Chunks run by the workers of a Dask cluster: modules travel as source, results stream back, a lost worker loses none.
+
+The scheduler hands a chunk whose worker was lost to another one. Rows are written here alone, once for every chunk.
+"""
+
+from __future__ import annotations
+
+import logging
+from asyncio import CancelledError
+from collections.abc import Callable
+from contextlib import suppress
+from secrets import token_hex
+from typing import TYPE_CHECKING, Any
+
+from symgen.base.errors import InputError, SimulationError
+from symgen.base.plugins import in_sentences, load_plugins
+from symgen.study.ensemble.chunks import Chunk, Rows
+from symgen.study.ensemble.kernel import kernel_of, new_control
+from symgen.study.ensemble.recipe import Recipe, run_code_identity
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from symgen.study.ensemble.sweep_plan import Ensemble
+    from symgen.study.ensemble.table import RowTable
+
+#: Chunks handed out for every thread of the cluster: enough to keep it busy, few enough for its memory.
+_AHEAD = 4
+#: A chunk is handed out again this often after workers died over it.
+_ATTEMPTS = 5
+
+
+def connect(address: str) -> Client:
+    """Return a client of a scheduler.
+
+    Raises
+    ------
+    InputError
+        If there is none, or the library is missing.
+    """
+    from symgen.base.files import need
+
+    need("scheduler", "distributed", extra="dask")
+    from distributed import Client
+
+    # a scheduler that goes while it computes is one sentence of ours, not a traceback of the library
+    for name in ("distributed.batched", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    try:
+        return Client(address, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        why = str(error).splitlines()[0] if str(error) else "nothing there"
+        raise InputError(
+            "scheduler", "the address of a running Dask scheduler, such as tcp://host:8786", f"'{address}' ({why})"
+        ) from None
+
+
+def carry(recipe: Recipe) -> Recipe:
+    """Return a recipe on a worker; were that one lost, the scheduler would do this again elsewhere."""
+    return recipe
+
+
+@in_sentences
+def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
+    """Run a chunk on a worker, which compiles once for a recipe.
+
+    Raises
+    ------
+    SimulationError
+        If the worker has another version of symgen.
+    """
+    load_plugins(recipe.plugins)
+    if recipe.code != run_code_identity():
+        raise SimulationError("a worker of the cluster has another version of symgen")
+    kernel = kernel_of(recipe)
+    kernel.warm()
+    return kernel.run(rows, new_control())
+
+
+def run_there(
+    ensemble: Ensemble, table: RowTable, client: Client, progress: Callable[[float], None] | None = None
+) -> bool:
+    """Run all chunks that the table does not hold yet on a cluster.
+
+    Parameters
+    ----------
+    ensemble, table : Ensemble, Table
+        As for `symgen.study.ensemble.sweep.run_here`.
+    client : Client
+        Of the cluster; stays open.
+    progress : callable, optional
+        Called after each chunk with the number of runs that are done.
+
+    Raises
+    ------
+    SimulationError
+        If the cluster has no workers, or lost one after the other over the same chunk.
+    """
+    from distributed import as_completed
+
+    waiting = iter(table.missing())
+    recipe = client.submit(carry, ensemble.recipe, pure=False)
+    attempts: dict[Any, tuple[int, int]] = {}
+
+    def hand_out(index: int, attempt: int) -> Any:
+        rows = ensemble.rows(*table.bounds(index))
+        try:
+            future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{token_hex(8)}")
+        except (Exception, CancelledError) as error:  # of a scheduler that has gone
+            raise _gave_up(client, index, error) from None
+        attempts[future.key] = (index, attempt)
+        return future
+
+    threads = sum(client.nthreads().values())
+    if not threads:
+        raise SimulationError("the cluster has no workers")
+    first = [hand_out(index, 1) for _, index in zip(range(_AHEAD * threads), waiting, strict=False)]
+    completed = as_completed(first, loop=client.loop)  # else of the default client, which this one need not be
+    try:
+        for future in completed:
+            index, attempt = attempts.pop(future.key)
+            result = _outcome(future)
+            if isinstance(result, Chunk):
+                table.put(index, result)
+                if progress is not None:
+                    progress(table.runs_done)
+                following, attempt = next(waiting, None), 0
+                if following is None:
+                    continue
+                index = following
+            elif isinstance(result, SimulationError | InputError):
+                raise result
+            elif attempt >= _ATTEMPTS or client.status != "running":
+                raise _gave_up(client, index, result)
+            completed.add(hand_out(index, attempt + 1))
+    except KeyboardInterrupt:
+        return True
+    finally:
+        with suppress(Exception):  # of a scheduler that has gone
+            client.cancel([*completed.futures, recipe])
+    return False
+
+
+def _gave_up(client: Client, index: int, error: BaseException) -> SimulationError:
+    """Return the sentence for a chunk that is not computed."""
+    why = (str(error) or type(error).__name__).splitlines()[0]
+    if client.status != "running":
+        why = "the connection to the scheduler was lost"
+    return SimulationError(f"the cluster could not compute chunk {index}: {why}")
+
+
+def _outcome(future: Any) -> Chunk | BaseException:
+    """Return a chunk, or why there is none: its task failed, or what it gave was lost on the way here."""
+    try:
+        chunk: Chunk = future.result(timeout=60)
+    except (Exception, CancelledError) as error:
+        return error
+    return chunk

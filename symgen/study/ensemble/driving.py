@@ -1,0 +1,148 @@
+"""Inputs of the runs of an ensemble: common stops, or stops of each run if jumps depend on what varies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import names_in
+from symgen.describe.formulas.evaluate import derived, parameter_values
+from symgen.run.breaks.motions import jump_of, names_of_motions
+from symgen.run.breaks.stops import merged, stops_of
+from symgen.run.loops.run_spec import Stop
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.breaks.stops import Foreseen
+    from symgen.run.planning.inputs import Inputs
+    from symgen.study.ensemble.chunks import Rows
+    from symgen.study.ensemble.sweep_plan import Ensemble
+
+
+@dataclass(frozen=True)
+class Driving:
+    """Inputs of the runs.
+
+    Attributes
+    ----------
+    inputs : Inputs
+        Inputs of the settings, put into the mechanism.
+    varied : tuple of str
+        Names of what varies.
+    until : float
+        End of the runs [s].
+    foreseen : Foreseen, optional
+        Times, known in advance, at which formulas jump, where runs stop at them.
+    moving : tuple of str
+        From `read_by_motions`.
+    """
+
+    inputs: Inputs
+    varied: tuple[str, ...]
+    until: float
+    foreseen: Foreseen | None = None
+    moving: tuple[str, ...] = ()
+    _jumps: dict[tuple[float, ...], InputError | None] = field(default_factory=dict, repr=False, compare=False)
+
+    @cached_property
+    def own(self) -> bool:
+        """Whether jumps and kinks are elsewhere in each run."""
+        driven = self.inputs.driven
+        depends = {*self.varied, *(name for name, _ in derived(self.inputs.mechanism.parameters))}
+        reads = [{*names_in(jump.argument), *names_in(jump.value)} for jump in (() if driven is None else driven.jumps)]
+        return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
+
+    @cached_property
+    def stops(self) -> tuple[Stop, ...]:
+        """The stops of all runs, where they are the same."""
+        if not self.foreseen:
+            return self.inputs.stops
+        values = parameter_values(self.inputs.mechanism, self.inputs.settings.parameters)
+        return merged(self.inputs.stops, self.foreseen.stops(values, self.until))
+
+    @property
+    def jumps(self) -> bool:
+        """Whether runs have stops."""
+        return self.own or bool(self.stops)
+
+    @property
+    def changes(self) -> bool:
+        """Whether numbers change at the stops of runs; at kinks none does."""
+        own = self.own and self.inputs.driven is not None and bool(self.inputs.driven.jumps)
+        return own or any(stop.values for stop in self.stops[1:])
+
+    @property
+    def described(self) -> list[Any]:
+        """Description of inputs that are not in the mechanism, as JSON can express it."""
+        driven = self.inputs.driven
+        if driven is None:
+            return []
+        samples = [(name, data.t, data.u) for name, data in sorted(driven.samples.items())]
+        return [repr(samples), repr(driven.jumps)]
+
+    def put(self, rows: Rows, parameters: Sequence[str]) -> Rows:
+        """Return rows with the stops of their runs.
+
+        Parameters
+        ----------
+        rows : Rows
+            Of the runs; parameters are changed.
+        parameters : sequence of str
+            Their names.
+        """
+        if not (self.own or self.moving):
+            return replace(rows, stops=(self.stops,)) if self.stops else rows
+        stops_of_rows = list[tuple[Stop, ...]]()
+        for row in rows.parameters:
+            stops: tuple[Stop, ...] = ()
+            if np.all(np.isfinite(row)):
+                try:
+                    stops = self._stops_of(dict(zip(parameters, row.tolist(), strict=True)))
+                except InputError:
+                    row[:] = np.nan  # what is not defined fails at its start
+            stops_of_rows.append(stops)
+            for name, value in (stops[0].values if stops else {}).items():
+                row[parameters.index(name)] = value
+        return replace(rows, stops=tuple(stops_of_rows))
+
+    def refusals(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
+        """Yield rows whose inputs jump too often, or in which the motion of a driver jumps, and why they cannot run.
+
+        Parameters
+        ----------
+        ensemble : Ensemble
+            The ensemble of the runs.
+        failed : Array of bool, shape (n,)
+            Rows without a start.
+        """
+        for r in np.flatnonzero(failed).tolist() if self.own or self.moving else ():
+            row = ensemble.settled(r, r + 1).parameters[0].tolist()
+            if all(map(math.isfinite, row)):
+                try:
+                    self._stops_of(dict(zip(ensemble.parameters, row, strict=True)))
+                except InputError as error:
+                    yield r, str(error)
+
+    def _stops_of(self, values: dict[str, float]) -> tuple[Stop, ...]:
+        driven, read = self.inputs.driven, tuple(values[name] for name in self.moving)
+        if self.moving and read not in self._jumps:
+            self._jumps[read] = jump_of(self.inputs.mechanism, values, self.until)
+        if (jump := self._jumps.get(read)) is not None:
+            raise jump
+        stops = () if driven is None else stops_of(driven, values, self.until)
+        return merged(stops, self.foreseen.stops(values, self.until)) if self.foreseen else stops
+
+
+def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:
+    """Return the parameters that motions which may jump read, if some of them differ from row to row; else none."""
+    read, formulas = names_of_motions(mechanism), {name for name, _ in derived(mechanism.parameters)}
+    parameters = tuple(p.name for p in mechanism.parameters if p.name in read)
+    return parameters if any(name in varied or name in formulas for name in parameters) else ()

@@ -1,0 +1,402 @@
+"""From a question to an ensemble: names resolved, settings checked, what does not fit refused, before anything runs."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from msgspec import structs
+from numpy.typing import ArrayLike
+
+from symgen.base.errors import InputError, counted, nearest
+from symgen.base.ir.program import LANES
+from symgen.base.plugins import loaded_files
+from symgen.base.settings import Settings
+from symgen.base.vocabulary.expressions import names_in
+from symgen.describe.facts.digest import identity
+from symgen.describe.facts.kinks import discontinuities_of
+from symgen.describe.facts.lengths import datum_of
+from symgen.describe.facts.sides import sides_of
+from symgen.describe.facts.typed_units import units_of_number
+from symgen.describe.formulas.evaluate import derived, parameter_values, scalars
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.parts.events import RECORD
+from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.breaks.stops import Foreseen, foreseen_in_run, times_between
+from symgen.run.compiling.choices import LARGEST_STRAIGHT, on_tree
+from symgen.run.compiling.pipeline import compile_model
+from symgen.run.compiling.side import can_integrate, with_integrals
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.automatic import AUTO, CONSTANT, EXPLICIT
+from symgen.run.planning.plan import Plan, Purpose, refuse_events
+from symgen.run.planning.prepare import make_plan
+from symgen.run.planning.tree import tree_code
+from symgen.study.ensemble.axes import Grid, make_grid
+from symgen.study.ensemble.chunks import Rows, make_rows
+from symgen.study.ensemble.driving import Driving, read_by_motions
+from symgen.study.ensemble.kernel import kernel_of
+from symgen.study.ensemble.measures import first_integral, make_measures
+from symgen.study.ensemble.names import METHOD, Names, Targets, targets_of
+from symgen.study.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
+from symgen.study.ensemble.row_quantities import choose_quantities
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.derive.methods._base import Method
+    from symgen.describe.mechanism import Event, Mechanism
+    from symgen.result.signals import Signal
+    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.layout.compiled import CompiledModel
+
+#: A chunk should take about so many seconds, and its arrays no more than so many bytes.
+CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
+#: The same bound where a CUDA device runs them.
+CHUNK_BYTES_CUDA = 128e6
+#: Seconds an operation of a right-hand side takes, and evaluations in a simulated second of an adaptive run: guesses
+#: that shape nothing but the size of chunks.
+_OPERATION, _EVALUATIONS = 4e-10, 1e4
+
+
+@dataclass(frozen=True, repr=False)
+class Ensemble:
+    """Many runs of one model, fully resolved.
+
+    Attributes
+    ----------
+    model : Model
+        The model.
+    plan : Plan
+        How, resolved.
+    compiled : CompiledModel
+        Its law; compiled when it is first run.
+    grid : Grid
+        Axes of the varied quantities.
+    targets : Targets
+        Quantities that the starts of all runs hold.
+    recipe : Recipe
+        Specification of a run apart from its row.
+    driving : Driving
+        Inputs of the runs.
+    warnings : tuple of str
+        Warnings that concern all runs.
+    notes : tuple of str
+        Automatic choices with their reasons.
+    """
+
+    model: Model
+    plan: Plan
+    compiled: CompiledModel
+    grid: Grid
+    targets: Targets
+    recipe: Recipe
+    driving: Driving
+    warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<Ensemble of {self.model.name}: {counted(len(self), 'run')} with {self.plan.choice.method.name}>"
+
+    def __len__(self) -> int:
+        return len(self.grid)
+
+    @property
+    def target(self) -> str:
+        """Name of the target: ``cpu``, ``lanes`` or ``cuda``."""
+        return self.recipe.target
+
+    @property
+    def events(self) -> tuple[str, ...]:
+        """Names of the events that are looked for."""
+        return () if self.recipe.watch is None else tuple(x.name for x in self.recipe.watch.events)
+
+    @property
+    def sizes(self) -> tuple[int, int, int, int, int]:
+        """Runs, quantities, output times, runs in a chunk, and numbers that each run leaves of events."""
+        recipe = self.recipe
+        return len(self), len(recipe.quantities), len(recipe.spec.times), self.chunk, recipe.further
+
+    @cached_property
+    def parameters(self) -> dict[str, float]:
+        """Values of all parameters, before any varies."""
+        return self.model.parameters(self.plan.settings.parameters)
+
+    @cached_property
+    def chunk(self) -> int:
+        """Runs in a chunk; it depends on nothing but the ensemble, so that another process can continue it."""
+        spec, info, law = self.recipe.spec, self.compiled.info, self.compiled.law
+        stages = self.plan.integrator.stages
+        evaluations = spec.until * _EVALUATIONS
+        if not spec.adaptive and spec.step is not None:
+            evaluations = stages * spec.until / spec.step
+        seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
+        numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
+        if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
+            return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
+        most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
+        size = int(max(1.0, min(65536.0, math.ceil(most))))
+        return size if self.target == "cpu" else LANES * math.ceil(size / LANES)
+
+    def rows(self, first: int, last: int) -> Rows:
+        """Return the values that distinguish the runs from `first` to `last` (exclusive)."""
+        return self.driving.put(self.settled(first, last), tuple(self.parameters))
+
+    def settled(self, first: int, last: int) -> Rows:
+        """Return the same without the stops of runs."""
+        varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
+        held = targets.names, targets.velocities, settled, targets.constant
+        rows = make_rows(self.model.mechanism, self.parameters, varied, *held)
+        options = {name.removeprefix(METHOD): x for name, x in varied.items() if name.startswith(METHOD)}
+        return replace(rows, method=options) if options else rows
+
+    @cached_property
+    def description(self) -> dict[str, Any]:
+        """Description of the computation: two ensembles with the same description give the same rows."""
+        varied = hashlib.sha256()
+        for axis in self.grid.axes:
+            for name, values in axis.values.items():
+                varied.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
+        formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
+        settled = sorted(formulas & set(self.plan.settings.parameters))  # these have numbers in place of their formulas
+        return {
+            **({"settled": settled} if settled else {}),
+            "mechanism": identity(self.model.mechanism),
+            "varied": varied.hexdigest(),
+            "parameters": self.parameters,
+            "start": {name: repr(value) for name, value in self.targets.constant.items()},
+            **({"inputs": driven} if (driven := self.driving.described) else {}),
+            "recipe": self.recipe.digest,
+            "code": self.recipe.code,
+            "runs": len(self),
+            "chunk": self.chunk,
+        }
+
+
+def make_ensemble(
+    model: Model,
+    settings: Settings,
+    vary: Mapping[str, ArrayLike | str],
+    runs: Mapping[str, ArrayLike | str],
+    quantities: Sequence[str] | None,
+    target: str = "cpu",
+) -> Ensemble:
+    """Resolve and check everything.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    settings : Settings
+        How; without output times, only the end is kept.
+    vary, runs : mapping
+        See `symgen.study.ensemble.sweep.sweep`.
+    quantities : sequence of str or None
+        Names of the selected quantities.
+    target : {"cpu", "lanes", "cuda"}
+        Target of the runs.
+
+    Raises
+    ------
+    InputError
+        If a name, number or combination is wrong.
+    """
+    _check_settings(settings, target)
+    taken = (*settings.inputs, *settings.parameters, *settings.start)
+    size = model.mechanism.body_coordinates
+    if size > LARGEST_STRAIGHT:
+        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
+    settings = replace(settings, shape="straight")  # loops over rows are those of one mechanism
+    ends = settings.times is None and settings.output_step is None
+    if ends:
+        end = model.mechanism.defaults.until if settings.until is None else settings.until
+        settings = replace(settings, times=(end,))
+    if target != "cpu":
+        named = settings.integrator or model.mechanism.defaults.integrator
+        explicit = EXPLICIT if named == AUTO else named or CONSTANT  # others have no loop there
+        settings = replace(settings, coordinates="absolute", integrator=explicit)
+        refuse_events(f"target '{target}'", model.mechanism, settings)
+    plan = make_plan(model.mechanism, settings, Purpose.ROWS)
+    mechanism, spec = plan.mechanism, plan.spec
+    options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
+    names = replace(Names.of(mechanism), options=options)
+    names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
+    grid = make_grid(vary, runs, names.starts, lambda name: units_of_number(mechanism, name))
+    _check_method(plan.choice.method, grid)
+    moving = read_by_motions(mechanism, grid.names)
+    if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
+        refuse_jumps(mechanism, plan.parameters, spec.until)
+    kept_names, events = _events(mechanism, plan, quantities)
+    acting = mechanism if target == "cpu" else structs.replace(mechanism, outputs=())  # others integrate no outputs
+    passed_times = foreseen_in_run(acting, events, spec.adaptive, plan.integrator.order, (0.0, spec.step))
+    if target != "cpu" and not spec.adaptive:
+        _check_jumps(target, passed_times, parameter_values(mechanism, plan.parameters), grid.names, spec.until)
+    passed_places = discontinuities_of(acting)
+    examined = any(x.holds for x in passed_places)  # rows that may jump, also by constant steps
+    looks = (spec.adaptive and bool(passed_places)) or examined
+    ends_steps = spec.adaptive or target == "cpu"
+    driving = Driving(plan.inputs, grid.names, spec.until, passed_times if ends_steps else None, moving)
+    joint = plan.coordinates == "joint"
+    compiled = compile_model(mechanism, plan.choice)
+    targets = targets_of(names, grid.names, plan.holds, compiled.info)
+    if target != "cpu":
+        inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
+        _check_target(target, inputs, examined, passed, bool(events))
+    name = plan.integrator.name
+    if target not in plan.integrator.row_targets:
+        others = ", ".join(other for other, kind in INTEGRATORS.items() if target in kind.row_targets)
+        expected = "one with a loop over many runs" + f" on target '{target}'" * (target != "cpu")
+        raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
+    if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
+        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
+        raise InputError("target 'lanes'", "a constant step", got, hint)
+    kept = choose_quantities(mechanism, compiled.info, kept_names)
+    integral = first_integral(mechanism, kept)
+    if integral is not None and target != "cpu":
+        expected = "quantities without integral(...), which are added up by cpu alone"
+        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
+    watch = EventPlan(mechanism, events, ends) if joint or events or looks or mechanism.bounded else None
+    # single runs add up all that outputs ask for, which their steps follow, too
+    adds = integral is not None or (
+        (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
+    )
+
+    def with_sums(law: CompiledModel) -> CompiledModel:
+        return with_integrals(mechanism, law) if adds else law
+
+    compiled, spare = with_sums(compiled), None
+    pressed = any(friction.pressed for friction in mechanism.frictions)  # for which there is one solver
+    if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
+        choice = plan.choice.with_options(solver="augmented")
+        other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
+        spare = _code(mechanism, choice, other, where, joint, kept)
+    recipe = Recipe(
+        first=_code(mechanism, plan.choice, compiled, target, joint, kept),
+        spare=spare,
+        integrator=plan.integrator.name,
+        spec=spec,
+        method_parameters=dict(plan.method_parameters),
+        quantities=kept,
+        held=targets.held,
+        strict=plan.settings.strict,
+        code=run_code_identity(),
+        target=target,
+        tree=on_tree(mechanism) if joint else None,
+        watch=watch,
+        sides=tuple(side for side in sides_of(mechanism) if side.held),
+        stops=driving.jumps,
+        plugins=loaded_files(),
+        datum=tuple(datum_of(mechanism, scalars(parameter_values(mechanism, plan.parameters)))),
+    )
+    if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
+        _ = kernel_of(recipe).first
+    model = replace(model, mechanism=mechanism)
+    warnings = *plan.warnings, *_missed(plan, passed_times, grid)
+    return Ensemble(
+        model,
+        plan,
+        compiled,
+        grid,
+        targets,
+        recipe,
+        driving,
+        warnings,
+        (*plan.notes, *plan.bound),
+    )
+
+
+def _code(
+    mechanism: Mechanism,
+    choice: MethodChoice,
+    compiled: CompiledModel,
+    target: str,
+    joint: bool,
+    kept: Sequence[Signal],
+) -> Code:
+    """Return the code that runs use for one solver, with how quantities behind the loops are worked out."""
+    return Code(
+        Module.of(compiled),
+        Module.of(compile_model(mechanism, choice, target=target)) if target != "cpu" else None,
+        Module.of(tree_code(mechanism, choice, compiled)[1]) if joint else None,
+        make_measures(mechanism, compiled, kept),
+    )
+
+
+def _missed(plan: Plan, passed_times: Foreseen, grid: Grid) -> tuple[str, ...]:
+    """Return warnings of changes that steps of all runs may miss; none where these depend on what varies."""
+    if passed_times.reads & {*grid.names, *(name for name, _ in derived(plan.mechanism.parameters))}:
+        return ()
+    return plan.missed if passed_times else ()
+
+
+def _check_settings(settings: Settings, target: str) -> None:
+    """Refuse settings that mean something for single runs alone."""
+    if not isinstance(settings.start, Mapping):
+        raise InputError("start", "values by the names of coordinates and velocities", "the last state of another run")
+    if settings.verify:
+        raise InputError("verify", "single runs", "an ensemble", "run doubtful ones again by themselves")
+    if settings.repeat != 1:
+        raise InputError("repeat", "single runs", "an ensemble")
+    if settings.shape == "looped":
+        raise InputError("shape", "straight code for an ensemble", "looped")
+    if settings.coordinates == "joint" and target != "cpu":
+        raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave `target` out")
+
+
+def _check_method(method: Method, grid: Grid) -> None:
+    """Refuse values of the method's parameters that single runs refuse."""
+    values = {name: x for axis in grid.axes for name, x in axis.values.items()}
+    for parameter in method.parameters:
+        least = values[name].min() if (name := METHOD + parameter.name) in values else parameter.minimum
+        if least < parameter.minimum:
+            raise InputError(f"vary '{name}'", f"at least {parameter.minimum:g}", f"{least:g}")
+
+
+def _check_target(target: str, jumps: bool, examined: bool, passed: bool, events: bool) -> None:
+    """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
+    constant = "leave `target` out, or take constant steps: integrator.adaptive=false with `step`"
+    for what, there, hint in (
+        ("inputs that jump", jumps, "leave `target` out"),
+        ("rows with jumps or kinks", examined, "leave `target` out"),
+        ("jumps and kinks of formulas, at which adaptive steps end", passed, constant),
+        ("events", events, "leave `target` out"),
+    ):
+        if there:
+            raise InputError(f"target '{target}'", f"no {what}", "some", hint)
+
+
+def _check_jumps(
+    target: str, times: Foreseen, values: Mapping[str, float], varied: Iterable[str], until: float
+) -> None:
+    """Refuse formulas that jump at known times of a run, where no loop ends constant steps there."""
+    for jump in times.sides:
+        inside, whole = times_between((jump,), times.mechanism, values, until, True)
+        if inside or not whole or {*names_in(jump.argument)} & {*varied}:
+            text = to_text(jump.argument)
+            expected = "no formulas that jump at times known beforehand"
+            raise InputError(f"target '{target}'", expected, f"one where {text} passes 0", "leave `target` out")
+
+
+def _events(
+    mechanism: Mechanism, plan: Plan, quantities: Sequence[str] | None
+) -> tuple[Sequence[str] | None, tuple[Event, ...]]:
+    """Return the quantities that are no events, and the events that runs look for: none where nothing comes of them.
+
+    Raises
+    ------
+    InputError
+        If a requested event does not exist.
+    """
+    words = [] if "event" in {body.name for body in mechanism.bodies} else quantities or ()
+    chosen = [name for name in words if name.partition(".")[0] == "event"]
+    names = [event.name for event in plan.events]
+    for name in chosen:
+        if name.partition(".")[2] not in ("", *names):
+            options = [f"event.{x}" for x in names]
+            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, options))
+    further = len(plan.events) > len(mechanism.events)
+    if chosen or further or any(event.action != RECORD for event in plan.events):
+        return [name for name in quantities if name not in chosen] if chosen and quantities else quantities, plan.events
+    return quantities, ()

@@ -1,0 +1,148 @@
+"""Status of each run of an ensemble by the rules of single runs, and the reasons of failures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.ir.numerics import WARN
+from symgen.result.judge import JUMP_DOUBT, judge_alone
+from symgen.result.result import FAILED, OK
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.single.events import gathered, undefined
+from symgen.run.single.outcome import Ended, RankEvent
+from symgen.run.single.run import end_reason
+from symgen.run.starts.start_words import refusal
+
+if TYPE_CHECKING:
+    from symgen.base.vocabulary.infos import LawInfo
+    from symgen.run.layout.compiled import ModelInfo
+    from symgen.run.loops.run_spec import RunSpec
+
+Array = NDArray[np.float64]
+
+#: Status of a run that has not been done.
+NOT_RUN = "not run"
+#: What is said of velocities that could not be what they were given as.
+_PROJECTED = "given velocities contradicted the constraints and were projected; `strict` lets such runs fail"
+
+
+def summary_column(summary: Array, name: str) -> Array:
+    """Return one number of every run, shape (n,)."""
+    return np.asarray(summary[..., e.SUMMARY.index(name)])
+
+
+def judge_all(
+    summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec, events: Sequence[str] = ()
+) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
+    """Return status and reason of every run.
+
+    Parameters
+    ----------
+    summary : Array, shape (n, N_SUMMARY + width)
+        See `symgen.run.layout.ensemble_abi`.
+    done : Array of bool, shape (n,)
+        Which runs have been done.
+    info, law : ModelInfo, LawInfo
+        The model and its law.
+    spec : RunSpec
+        How.
+    events : sequence of str
+        Names of those that were looked for.
+
+    Returns
+    -------
+    status : Array of str
+        ``ok``, ``unverified``, ``failed`` or ``not run``.
+    reason : Array of object
+        Sentences; empty where the status is ok.
+    """
+    status = np.full(len(summary), OK, dtype="<U10")
+    reason = np.full(len(summary), "", dtype=object)
+    status[~done] = NOT_RUN
+    passed = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
+    doubtful = (summary_column(summary, "start") != e.ASSEMBLED) | (summary_column(summary, "code") != abi.DONE)
+    doubtful |= law.energy_correction | _jumped(summary) | (passed & (not law.position_correction))
+    for i in np.flatnonzero(done & doubtful):
+        row = summary[i]
+        if summary_column(row, "start") != e.ASSEMBLED:
+            status[i], reason[i] = FAILED, str(refusal(row, info))
+            continue
+        if (why := _of_events(row, events)) is not None:
+            status[i], reason[i] = FAILED, why
+            continue
+        verdict = judge_alone(_ended(row, spec), law)
+        status[i], reason[i] = verdict.status, verdict.reason or ""
+    return status, reason
+
+
+def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: RunSpec) -> dict[int, tuple[str, ...]]:
+    """Return the verdicts on runs by what their loops saw, by run.
+
+    Parameters
+    ----------
+    summary, done, law, spec
+        As for `judge_all`.
+    """
+    odd = (summary_column(summary, "rank_event_count") > 0.0) | (summary_column(summary, "smallest_pivot") < WARN)
+    odd |= summary_column(summary, "light_evaluations") > 0.0
+    ready, projected = (
+        done & (summary_column(summary, "start") == e.ASSEMBLED),
+        summary_column(summary, "start_velocities") == 1.0,
+    )
+    warnings: dict[int, tuple[str, ...]] = {int(i): (_PROJECTED,) for i in np.flatnonzero(ready & projected)}
+    for i in np.flatnonzero(ready & odd).tolist():
+        warnings[i] = (*warnings.get(i, ()), *judge_alone(_ended(summary[i], spec), law).warnings)
+    return warnings
+
+
+def _of_events(row: Array, events: Sequence[str]) -> str | None:
+    """Return why an event, or an input, ended a run as failed, None where none did."""
+    code, time, further = int(summary_column(row, "code")), float(summary_column(row, "end")), row[e.N_SUMMARY :]
+    if code == abi.GATHERED:
+        names = [name for i, name in enumerate(events) if int(further[e.GATHERING]) >> i & 1]
+        return gathered(names, float(further[e.ACCUMULATION]))
+    if code == abi.UNDEFINED:
+        return undefined(events[int(further[e.IMPOSSIBLE_EVENT])], time)
+    if code == e.NO_MODES:
+        got = f"none at t = {time:.6g} s, which a run of this row explains"
+        return f"friction and stops: expected modes that are determined, got {got}"
+    if code != e.IMPOSSIBLE:
+        return None
+    if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):
+        return f"inputs: expected values for which every formula is finite, got others at t = {time:.6g} s"
+    name = events[int(further[e.IMPOSSIBLE_EVENT])]
+    return (
+        f"event '{name}': reset: expected velocities that the joints and each other allow, "
+        f"got others at t = {time:.6g} s"
+    )
+
+
+def _jumped(summary: Array) -> NDArray[np.bool_]:
+    return np.asarray(
+        summary_column(summary, "energy_jump") > 0.5 * JUMP_DOUBT * summary_column(summary, "energy_scale")
+    )
+
+
+def _ended(row: Array, spec: RunSpec) -> Ended:
+    numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
+    code, scale = int(numbers["code"]), numbers["energy_scale"]
+    names = ("position_violation", "velocity_violation", "length_scale", "speed_scale")
+    attempts = int(numbers["steps"] + numbers["rejected"])
+    events: tuple[RankEvent, ...] = ()
+    if numbers["rank_event_count"] > 0.0:
+        events = (RankEvent(numbers["narrowest_time"], np.nan, 0, numbers["narrowest_pivot"]),)
+    return Ended(
+        code=code,
+        reason=end_reason(code, numbers["end"], tuple(numbers[name] for name in names), scale, attempts, spec),
+        smallest_pivot=numbers["smallest_pivot"],
+        rank_events=events,
+        rank_event_count=int(numbers["rank_event_count"]),
+        energy_jump=numbers["energy_jump"],
+        energy_scale=scale,
+        counters={"light": int(numbers["light_evaluations"])},
+    )

@@ -1,0 +1,137 @@
+"""Cost limits of the cells of a stress study, by a mechanism's size and never by a clock.
+
+Budgets hold for small mechanisms, and fall as mechanisms grow: with the coordinates for explicit schemes, with the
+third power of a stage's unknowns for implicit ones. That exceeds the cost of sparse Newton matrices, and keeps studies
+of large mechanisms short.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from symgen.derive.lower.looped.law import is_loopable
+from symgen.derive.methods._base import EXPLICIT_FORMS
+from symgen.run.compiling.choices import straight_seconds
+from symgen.run.compiling.pipeline import choose_method
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.planning.automatic import AUTO, constant_integrator
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.planning.plan import Plan
+
+#: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
+#: residuals of implicit stages, which come with Newton's matrices.
+BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
+#: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
+FURTHER, LEAST_FURTHER = 100, 100_000
+#: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
+SMALL, SMALL_STAGE = 15, 30
+#: No budget of implicit stages is below this: some hundred steps.
+LEAST_IMPLICIT = 1_500
+#: Mechanisms of more coordinates get no implicit reference: SciPy's Newton matrices are dense.
+LARGEST_IMPLICIT_REFERENCE = 40
+#: An explicit adaptive run is not begun where the decay at the start asks for so many times its budget.
+HOPELESS = 1.5
+
+
+def explicit_budget(mechanism: Mechanism, most: int = BUDGET) -> int:
+    """Return the evaluation limit of a sparse right-hand side, `most` for a small mechanism."""
+    return int(most * min(1.0, SMALL / mechanism.body_coordinates))
+
+
+def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
+    """Return the limit of residuals of implicit stages, `most` for a small mechanism."""
+    speeds = sum(len(body.speeds) for body in mechanism.bodies)
+    unknowns = 2 * speeds + sum(len(joint.rows) for joint in mechanism.joints)
+    return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
+
+
+def budget_of(plan: Plan, mechanism: Mechanism) -> int:
+    """Return the evaluation limit of a run."""
+    if is_implicit(plan):
+        return implicit_budget(mechanism)
+    return explicit_budget(mechanism, ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET)
+
+
+def further_budget(budget: int, used: int) -> int:
+    """Return the evaluation limit, without its watch, of a run that stopped itself after `used`.
+
+    Off the constraints steps may become tiny, and iterated methods need many iterations.
+    """
+    return min(budget, max(LEAST_FURTHER, FURTHER * used))
+
+
+def is_implicit(plan: Plan) -> bool:
+    """Whether a run solves for implicit stages."""
+    return plan.choice.implicit and "index-1" in plan.integrator.forms
+
+
+def predicted(plan: Plan, decay: float) -> float:
+    """Return a lower bound of a run's evaluations.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    decay : float
+        Fastest decay at the start [1/s].
+
+    Returns
+    -------
+    float
+        With constant steps one evaluation a stage; for an explicit adaptive run the number that stability requires at
+        the start, over `HOPELESS`, as the decay may fall later; else 0.
+    """
+    stages, spec = float(plan.integrator.stages), plan.spec
+    if not spec.adaptive:
+        return 0.0 if spec.step is None else spec.until / spec.step * stages
+    if is_implicit(plan):
+        return 0.0
+    return decay * spec.until / plan.integrator.real_boundary * stages / HOPELESS
+
+
+# -- compilation -------------------------------------------------------------------------------------------------------
+
+
+def needs_straight(method: str, integrator: str) -> bool:
+    """Whether a pair has no looped shape, so that it is compiled for each mechanism anew."""
+    if method == AUTO:
+        return False  # its choice depends on the case
+    choice = choose_method(method, {}, not EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))
+    return not is_loopable(choice.method, choice.options, choice.implicit)
+
+
+def left_out(
+    mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float, straight: bool = False
+) -> list[tuple[str, str, str, str]]:
+    """Return mechanism, method, integrator and reason of the pairs that do not fit into a time of compilation.
+
+    Parameters
+    ----------
+    mechanisms : sequence of Mechanism
+        Mechanisms made of a base model with equations of their own, the base first.
+    pairs : sequence of (str, str)
+        Methods with their integrators.
+    seconds : float
+        Expected seconds of compilation that pairs without a looped shape may take together [s]. They are taken in the
+        order of `mechanisms` and `pairs`, those with a method's own integrator first.
+    straight : bool
+        Whether all pairs have straight code, but the one that chooses for itself.
+    """
+    runs = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
+    runs.sort(key=lambda pair: constant_integrator(pair[0]) != pair[1])
+    pairs_out, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
+    for mechanism in mechanisms:
+        each = straight_seconds(mechanism)
+        for method, integrator in runs:
+            # explicit integrators share the code of a method
+            code = mechanism.name, method, bool(EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))
+            if code not in compiled and spent + each <= seconds:
+                spent += each
+                compiled.add(code)
+            if code not in compiled:
+                why = f"its code does not fit into the {seconds:g} s of compilation"
+                pairs_out.append((mechanism.name, method, integrator, why))
+    return pairs_out

@@ -1,0 +1,284 @@
+"""The pictures of one comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.study.comparison.comparison_rows import Row
+from symgen.study.comparison.comparison_study import Study
+from symgen.study.report import words
+from symgen.study.report.comparison_findings import line_number, methods, representatives, settings_text
+from symgen.study.report.document import Picture, anchor
+from symgen.study.report.picture import COLOURS, DASHES, GREY, below, drawn, line_style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from symgen.study.comparison.equal_error import TimeAtError
+
+#: Smaller values are drawn here: a logarithm has no zero.
+FLOOR = 1e-17
+#: An integrator with fewer methods shares a picture with other such ones.
+FEW = 3
+#: Markers along a curve over time.
+MARKS = 8
+
+
+def pictures(study: Study) -> tuple[Picture, ...]:
+    """Return all pictures of a study, without those that have no data."""
+    shared = settings_text(study)
+    levels = (
+        ("position", "|Φ| [m, rad]"),
+        ("velocity", "|D v − ν| [m/s, rad/s]"),
+        ("acceleration", "|D v' − γ| [m/s², rad/s²]"),
+    )
+    distance = f"Distance to the reference over time ({shared}); grey: the error of the reference itself."
+    work = "W being the work of forces without potential and of drivers"
+    balance = f"Energy error |T + V − E₀ − W| over time, {work} ({shared})."
+    every = [
+        _front(study),
+        _ratios(study),
+        *_errors_against_time(study),
+        _over_time(study, "error", "error", "error [m]", distance),
+        *(_over_time(study, x, f"{x}-violation", y, f"{x.title()} violation over time ({shared}).") for x, y in levels),
+        _over_time(study, "energy_error", "energy-error", "|energy error| [J]", balance),
+        _energies(study),
+    ]
+    return tuple(picture for picture in every if picture is not None)
+
+
+# -- at a glance -------------------------------------------------------------------------------------------------------
+
+
+def _front(study: Study) -> Picture | None:
+    """Return all rows as points of error and run time, with those that none surpasses."""
+    if len(study.front) < FEW:
+        return None
+    rows = [(row, i in study.front) for i, row in enumerate(study.rows) if _drawable(row)]
+    best = sorted((row for row, on_front in rows if on_front), key=lambda row: row.run_seconds)
+    lines = list(dict.fromkeys((row.label, row.integrator) for row in best))
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        ax.plot(*_points([row for row, _ in rows]), ".", color="#b8bec7", markersize=4.0, label="all rows")
+        ax.plot(*_points(best), color=GREY, linewidth=0.8, drawstyle="steps-post")
+        for method, integrator in lines:
+            look = line_style(line_number(method))
+            own = _points([row for row in best if (row.label, row.integrator) == (method, integrator)])
+            ax.plot(*own, look["marker"], color=look["color"], label=f"{method}, {integrator}")
+        ax.set(xscale="log", yscale="log", xlabel="run time", ylabel="error [m]")
+        _floor(ax, study.estimated_error, ax.get_ylim())
+        _durations(ax, ax.get_xlim())
+        ax.set_title("Error against run time: the front")
+        below(figure, len(lines) + 1)
+
+    caption = "Error against run time of all rows; named marks lie on the front: none is both faster and more accurate."
+    return drawn(f"{anchor(study.mechanism)}-front", caption, f"The front of {study.mechanism}.", draw)
+
+
+def _points(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
+    return [row.run_seconds for row in rows], [max(row.error or 0.0, FLOOR) for row in rows]
+
+
+def _ratios(study: Study) -> Picture | None:
+    """Return the ratios of run time at equal error."""
+    first = study.rows[0].label if study.rows else ""
+    lines: dict[tuple[str, str], list[TimeAtError]] = {}
+    for time in study.at:
+        if time.ratio is not None and time.method != first:
+            lines.setdefault((time.method, time.integrator), []).append(time)
+    if not lines:
+        return None
+    integrators = list(dict.fromkeys(integrator for _, integrator in lines))
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        for k, ((method, integrator), times) in enumerate(lines.items()):
+            look = line_style(line_number(method)) | {"linestyle": DASHES[integrators.index(integrator) % len(DASHES)]}
+            middle = np.array([time.ratio for time in times], dtype=float)
+            spread = [middle - [t.ratio_low for t in times], [t.ratio_high for t in times] - middle]
+            beside = [time.error * (1.0 + 0.03 * (k - 0.5 * len(lines))) for time in times]  # bars stay apart
+            ax.errorbar(beside, middle, spread, **look, capsize=2.0, label=f"{method}, {integrator}")
+        ax.axhline(1.0, color=GREY, linewidth=0.8)
+        ax.set(xscale="log", yscale="log", xlabel="error [m]", ylabel=f"run time / that of {first}")
+        ax.set_title("Ratio of run time at equal error")
+        below(figure, len(lines))
+
+    caption = (
+        f"Run time over that of {first} with the same integrator at the same error, interpolated between settings: "
+        "median and quartiles of rounds in which all runs are timed in turn."
+    )
+    alternative = f"Ratios of run time at equal error on {study.mechanism}."
+    return drawn(f"{anchor(study.mechanism)}-ratio", caption, alternative, draw)
+
+
+# -- error against run time --------------------------------------------------------------------------------------------
+
+
+def _groups(study: Study) -> list[tuple[str, list[tuple[str, str]]]]:
+    """Return (title, lines), lines being pairs of method and integrator: one picture an integrator, rare ones together.
+
+    The usual method-integrator pairs of one integrator are told apart by the method; in the picture of the rest the
+    label says both.
+    """
+    pairs = list(dict.fromkeys((row.label, row.integrator) for row in study.rows))
+    integrators = list(dict.fromkeys(integrator for _, integrator in pairs))
+    own = {name: [pair for pair in pairs if pair[1] == name] for name in integrators}
+    several = len(methods(study)) >= FEW
+    rare = [name for name in integrators if several and len(own[name]) < FEW]
+    groups = [(name, own[name]) for name in integrators if name not in rare]
+    if rare:
+        rest = [pair for name in rare for pair in own[name]]
+        groups.append((rest[0][1] if len(rare) == 1 else "other integrators", rest))
+    return groups
+
+
+def _drawable(row: Row) -> bool:
+    return row.ended and row.error is not None and row.run_seconds > 0.0
+
+
+def _errors_against_time(study: Study) -> list[Picture]:
+    shown = [row for row in study.rows if _drawable(row)]
+    if not shown:
+        return []
+    groups = _groups(study)
+    usual = {pair for _, lines in groups for pair in lines if not _mixed(lines)}
+    pictures = []
+    for title, lines in groups:
+        # pictures of one integrator share their axes, so that they can be compared; the rest would stretch them
+        together = set(lines) if _mixed(lines) else usual
+        rows = [r for r in shown if (r.label, r.integrator) in together]
+        if rows:
+            limits = _limits([r.run_seconds for r in rows]), _limits([max(r.error or 0.0, FLOOR) for r in rows])
+            pictures.append(_error_against_time(study, title, lines, limits))
+    return pictures
+
+
+def _mixed(lines: list[tuple[str, str]]) -> bool:
+    return len({integrator for _, integrator in lines}) > 1
+
+
+def _limits(values: Sequence[float]) -> tuple[float, float]:
+    """Return limits of a logarithmic axis, the same for all pictures of a study."""
+    low, high = float(np.log10(min(values))), float(np.log10(max(values)))
+    margin = 0.06 * max(high - low, 1.0)
+    return 10.0 ** (low - margin), 10.0 ** (high + margin)
+
+
+def _error_against_time(
+    study: Study, title: str, lines: list[tuple[str, str]], limits: tuple[tuple[float, float], tuple[float, float]]
+) -> Picture:
+    mixed = _mixed(lines)
+    rows = [row for row in study.rows if (row.label, row.integrator) in lines]
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        for method, integrator in lines:
+            own = [r for r in rows if (r.label, r.integrator) == (method, integrator) and _drawable(r)]
+            look = line_style(line_number(method))
+            label = f"{method}, {integrator}" if mixed else method
+            errors = [max(r.error or 0.0, FLOOR) for r in own]
+            ax.plot([r.run_seconds for r in own], errors, **look, markerfacecolor="none", label=label)
+            sure = [(r.run_seconds, e) for r, e in zip(own, errors, strict=True) if not r.below_reference]
+            if sure:
+                ax.plot(*zip(*sure, strict=True), look["marker"], color=look["color"])
+        _floor(ax, study.estimated_error, limits[1])
+        ax.set(xscale="log", yscale="log", xlim=limits[0], ylim=limits[1], xlabel="run time", ylabel="error [m]")
+        _durations(ax, limits[0])
+        ax.set_title(f"Error against run time: {title}")
+        below(figure, len(lines))
+
+    count = sum(not row.ended for row in rows)
+    missing = f" {words.sentence(words.counted(count, 'run') + ' failed and cannot be shown')}" if count else ""
+    rare = title if not mixed else "integrators that fit few methods"
+    caption = (
+        f"Error against run time with {rare}, one line a method over steps or tolerances; lower left is better. "
+        f"Open marks lie below the error of the reference itself (grey).{missing}"
+    )
+    alternative = f"Error against run time on {study.mechanism} with {title}, one line a method."
+    return drawn(f"{anchor(study.mechanism)}-error-{anchor(title)}", caption, alternative, draw)
+
+
+def _durations(ax: Any, limits: tuple[float, float]) -> None:
+    """Label a logarithmic axis with durations: decades, and parts of them where there are few."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    few = np.log10(limits[1] / limits[0]) < 2.0
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=12))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: words.seconds(float(x))))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _floor(ax: Any, estimated: float, limits: tuple[float, float] | None = None) -> None:
+    """Shade what is below the error of the reference itself."""
+    if not (np.isfinite(estimated) and estimated > 0.0):
+        return
+    if limits is None or estimated > limits[0]:
+        ax.axhspan(FLOOR * 1e-3, estimated, color="#e8ebef", zorder=0, linewidth=0.0)
+
+
+# -- over time ---------------------------------------------------------------------------------------------------------
+
+
+def _over_time(study: Study, field: str, name: str, label: str, caption: str) -> Picture | None:
+    """Return the curves of a field of traces, one a method."""
+    curves = [(row.label, trace, np.abs(getattr(trace, field))) for row, trace in representatives(study)]
+    curves = [curve for curve in curves if len(curve[2]) > 1]
+    if not curves:
+        return None
+    title = f"{name[:1].upper()}{name[1:].replace('-', ' ')} over time"
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        for k, (method, trace, values) in enumerate(curves):
+            look = line_style(line_number(method))
+            values = np.where(np.isfinite(values), np.maximum(values, FLOOR), np.nan)
+            # marks of the curves stand at different times, so that none hides another's
+            every = max(1, len(values) // MARKS)
+            marks = (k * every // max(1, len(curves)), every)
+            ax.plot(trace.t, values, **look, markevery=marks, markerfacecolor="white", markersize=4.5, label=method)
+        if name == "error":
+            _floor(ax, study.estimated_error)
+            above = (float(np.nanmin(np.where(v > 0.0, v, np.nan))) for _, _, v in curves if np.any(v > 0.0))
+            ax.set_ylim(bottom=max(FLOOR, 0.3 * min((study.estimated_error, *above))))
+        ax.set(yscale="log", xlabel="t [s]", ylabel=label, xlim=(0.0, study.until))
+        _decades(ax)
+        ax.set_title(title)
+        below(figure, len(curves))
+
+    alternative = f"{title} on {study.mechanism}, one line a method."
+    return drawn(f"{anchor(study.mechanism)}-{name}", caption, alternative, draw)
+
+
+def _decades(ax: Any) -> None:
+    """Widen a logarithmic axis so that rounding noise does not fill the picture."""
+    low, high = ax.get_ylim()
+    if high / low < 1e3:
+        middle = float(np.sqrt(low * high))
+        ax.set_ylim(middle / 31.7, middle * 31.7)
+
+
+def _energies(study: Study) -> Picture | None:
+    pairs = [(row, t) for row, t in zip(study.rows, study.traces, strict=True) if row.ended and len(t.t) > 1]
+    if not pairs:
+        return None
+    row, trace = min(pairs, key=lambda pair: np.inf if pair[0].error is None else pair[0].error)
+    kinetic, potential = np.array(trace.kinetic), np.array(trace.potential)
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        ax.plot(trace.t, kinetic, color=COLOURS[0], label="kinetic T")
+        ax.plot(trace.t, potential, color=COLOURS[1], linestyle=(0, (5, 1.5)), label="potential V")
+        ax.plot(trace.t, kinetic + potential, color="black", linestyle=(0, (1.2, 1.2)), label="T + V")
+        ax.axhline(0.0, color=GREY, linewidth=0.6)
+        ax.set(xlabel="t [s]", ylabel="energy [J]", xlim=(0.0, study.until))
+        ax.set_title("Energy over time")
+        below(figure, 3, columns=3)
+
+    which = "the most accurate run" if row.error is not None else "a run that ended"
+    caption = f"Energies of the motion in {which} ({row.label}, {row.integrator}, {words.setting(row.step, row.rtol)})."
+    alternative = f"Kinetic, potential and total energy of {study.mechanism} over time."
+    return drawn(f"{anchor(study.mechanism)}-energy", caption, alternative, draw)

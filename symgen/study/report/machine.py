@@ -1,0 +1,164 @@
+"""The report of one machine: drawing, motion, largest loads, curves, frequencies at rest, and how far to trust it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.analyses.kinds import AnalysisTable
+from symgen.analyses.kinds.modes import shown as shown_modes
+from symgen.base.errors import SymgenError, counted, fitting
+from symgen.describe.drawing.drawing import Drawing
+from symgen.result.labelled import Labelled, columns_at
+from symgen.result.plots import drawing
+from symgen.result.summary import lines
+from symgen.study.machine_class import machine_class, version_list
+from symgen.study.report.document import Document, DocumentTable, Picture, Section
+from symgen.study.report.picture import MOST_BODIES, of_figure
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.result.result import Result
+
+#: Positions of the motion that have pictures; six parts of a run of whole turns are not all alike.
+POSITIONS = 7
+#: Rows of a table at most.
+MOST_ROWS = 60
+#: Units of loads, in the order of the tables.
+LOADS = {"N m": "Torques and moments", "N": "Forces", "W": "Powers"}
+#: What a rate of change of a joint is called by.
+_RATE = ".rate"
+
+
+def machine(model: Model, result: Result, command: str = "", over: str = "t") -> Document:
+    """Return the report of a machine.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    result : Result
+        Its run, which has outputs.
+    command : str, optional
+        The command that makes the report again.
+    over : str
+        Column along the horizontal axis of curves, such as ``crank.theta``.
+
+    Raises
+    ------
+    InputError
+        If there is no such column, or matplotlib is missing.
+    """
+    along = result.along(over)
+    facts = [
+        *lines(result),
+        *((f"parameter {name}", _amount(model, name, value)) for name, value in result.parameters.items()),
+        ("versions", version_list()),
+        ("machine", machine_class()),
+    ]
+    sections = [
+        *_motion(model, result),
+        Section("Largest loads", _trust(result), tables=(*_loads(result, along),)),
+        Section("Curves", pictures=(*_curves(result, along),)),
+        _at_rest(model, result),
+    ]
+    title = model.mechanism.title or model.name
+    return Document(title, (_lead(result),), tuple(facts), command, tuple(sections))
+
+
+def _amount(model: Model, name: str, value: float) -> str:
+    """Return a parameter's value with its unit, as in the file."""
+    parameter = next((p for p in model.mechanism.parameters if p.name == name), None)
+    number, unit = (value, "") if parameter is None else parameter.as_written(value)
+    return f"{number:g} {unit}".removesuffix(" 1").strip()
+
+
+def _lead(result: Result) -> str:
+    span = f"from {result.t[0]:g} to {result.t[-1]:g} s" if len(result.t) else "without outputs"
+    return f"{result.mechanism}, simulated {span} with {result.method} and {result.integrator}: {result.status}."
+
+
+def _trust(result: Result) -> tuple[str, ...]:
+    """Return the outputs behind the largest loads, and reasons for which these may be off."""
+    text = f"Largest absolute values over {counted(len(result.t), 'output')}; a peak between two outputs can be higher."
+    estimate = result.error_estimate
+    error = "" if estimate is None else f" A second run puts the error of the motion at about {estimate:.1e} m."
+    doubt = "" if result.status == "ok" else f" The run is {result.status}: {result.reason}."
+    return (text + error + doubt,)
+
+
+def _motion(model: Model, result: Result) -> Iterator[Section]:
+    """Yield the section of pictures of the mechanism."""
+    if len(model.mechanism.bodies) > MOST_BODIES or not len(result.t):
+        return
+    q, values = result.q.values, dict(result.parameters)
+    pictures = [
+        _sketch("start", f"{model.name} at its start", Drawing.of(model.mechanism, q[0], values)),
+        _sketch("motion", "The start, later positions and paths", Drawing.of_motion(model.mechanism, q, values)),
+    ]
+    for k in np.unique(np.linspace(0, len(q) - 1, POSITIONS).round().astype(int))[1:].tolist():
+        still = Drawing.of(model.mechanism, q[k], values, ghosts=[q[0].tolist()], labels=False)
+        pictures.append(_sketch(f"at-{k}", f"t = {result.t[k]:.4g} s", still))
+    yield Section("Motion", pictures=tuple(pictures))
+
+
+def _sketch(name: str, caption: str, still: Drawing) -> Picture:
+    return Picture(name, caption, caption, still.svg.encode(), "svg", pixels=still.png)
+
+
+def _loads(result: Result, along: Labelled) -> Iterator[DocumentTable]:
+    """Yield a table for each unit of loads: the largest value of each, when and where."""
+    every = result.whole(("elements", "magnitudes"))
+    where = along.names[0] != "t"
+    headings = ("quantity", "largest", "at t [s]", *([f"at {along.names[0]} [{along.units[0]}]"] if where else []))
+    for unit, title in LOADS.items():
+        rows = []
+        for i, name in enumerate(every.names):
+            values = every.values[:, i]
+            if every.units[i] != unit or not np.nan_to_num(values).any():
+                continue
+            k = int(np.nanargmax(np.abs(values)))
+            place = (f"{along.values[k, 0]:.4g}",) if where else ()
+            rows.append((abs(values[k]), (name, f"{values[k]:.4g}", f"{result.t[k]:.4g}", *place)))
+        rows.sort(key=lambda row: -row[0])
+        if rows:
+            first = fitting(len(rows), MOST_ROWS)
+            notes = (f"{len(rows) - first} smaller ones are left out.",) if len(rows) > first else ()
+            yield DocumentTable(f"{title} [{unit}]", headings, tuple(row for _, row in rows[:first]), notes=notes)
+
+
+def _curves(result: Result, along: Labelled) -> Iterator[Picture]:
+    """Yield pictures of loads, of joints and of energies, over time or over a column."""
+    loads, joints = result.whole(("elements", "magnitudes")), result.whole(("joint_coordinates", "outputs"))
+    loads = columns_at(loads, [i for i, unit in enumerate(loads.units) if unit in LOADS])
+    joints = columns_at(joints, [i for i, name in enumerate(joints.names) if not name.endswith(_RATE)])
+    errors = result.overview()
+    errors = columns_at(errors, [i for i, name in enumerate(errors.names) if name not in result.q.names])
+    parts = [
+        ("loads", "Efforts, forces and powers", loads),
+        ("joints", "Coordinates of joints, and outputs", joints),
+        ("energy", "Energies, and errors beyond rounding", errors),
+    ]
+    for name, caption, table in parts:
+        if table.names and len(result.t) > 1:
+            title = f"{caption} over {along.names[0]}"
+            yield of_figure(name, caption, title, partial(drawing, along, table, title))
+
+
+def _at_rest(model: Model, result: Result) -> Section:
+    """Return the section of frequencies about the equilibrium that the start of the file leads to."""
+    title, text, tables = "Frequencies at rest", list[str](), list[DocumentTable]()
+    try:
+        modes: Any = model.modes(parameters=dict(result.parameters), at="equilibrium")
+    except SymgenError as error:
+        return Section(title, (f"There are none: {error}.",))
+    for item in shown_modes(modes):
+        if isinstance(item, AnalysisTable):
+            rows = tuple(tuple(map(str, row)) for row in item.rows)
+            tables.append(DocumentTable("Modes", tuple(item.headings), rows))
+        else:
+            text.append(f"{str(item)[:1].upper()}{str(item)[1:]}.")
+    return Section(title, tuple(text), tables=tuple(tables))

@@ -1,0 +1,181 @@
+"""PDF of a document where no browser prints it: text, tables and pictures on pages that matplotlib draws."""
+
+from __future__ import annotations
+
+import io
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from symgen.base.files import need
+from symgen.study.report.document import Document, DocumentTable, Picture, Section, TableCell
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: An A4 page, its margins and the width between them [inch].
+PAGE, MARGIN = (8.27, 11.69), 0.75
+WIDTH, HEIGHT = PAGE[0] - 2 * MARGIN, PAGE[1] - 2 * MARGIN
+#: Points of an inch, and widths of letters over their size: of text on average, of a typewriter's all alike.
+_POINTS, _LETTER, _TYPED = 72.0, 0.53, 0.603
+#: Type of headings by level, of text, and the largest and the smallest type of tables [points].
+_HEADINGS, _TEXT, _LARGE, _TINY = (16.0, 12.5, 10.5), 9.0, 8.0, 3.5
+#: Distance of lines over their type, and of pictures beside each other [inch].
+_LINE, _GAP = 1.35, 0.2
+
+
+def plain_pdf(document: Document) -> bytes:
+    """Return a document as a PDF file."""
+    need("report", "matplotlib", extra="plot")
+    paper = _Paper()
+    paper.text(document.title, _HEADINGS[0], bold=True)
+    for text in document.lead:
+        paper.text(text)
+    paper.table(DocumentTable("", ("made with", ""), document.facts, words=2))
+    if document.command:
+        paper.text("Reproduce with")
+        paper.typed([document.command])
+    for section in document.sections:
+        _section(paper, section, 1)
+    paper.text("Drawn by matplotlib, as there was no browser that prints.")
+    return paper.pdf()
+
+
+def _section(paper: _Paper, section: Section, level: int) -> None:
+    paper.space(0.15)
+    paper.text(section.title, _HEADINGS[min(level, len(_HEADINGS) - 1)], bold=True, together=1.0)
+    for text in section.text:
+        paper.text(text)
+    for text in section.findings:
+        paper.text(f"\N{EN DASH} {text}")
+    for table in section.tables:
+        paper.table(table)
+    paper.pictures(section.pictures)
+    for part in section.parts:
+        _section(paper, part, level + 1)
+
+
+class _Paper:
+    """Pages that are filled from the top; places are inches below it."""
+
+    def __init__(self) -> None:
+        self._pages: list[Figure] = []
+        self._below = HEIGHT  # the first line begins a page
+
+    def pdf(self) -> bytes:
+        """Return the file."""
+        from matplotlib.backends.backend_pdf import PdfPages
+
+        stream = io.BytesIO()
+        with PdfPages(stream, metadata={"CreationDate": None}) as file:
+            for page in self._pages:
+                file.savefig(page)
+        return stream.getvalue()
+
+    def space(self, height: float) -> None:
+        """Leave room, but not at the head of a page."""
+        self._below = min(HEIGHT, self._below + height)
+
+    def text(self, text: str, size: float = _TEXT, bold: bool = False, together: float = 0.0) -> None:
+        """Write a paragraph; `together`: what has to follow it on its page [inch]."""
+        lines = textwrap.wrap(text, int(WIDTH * _POINTS / (_LETTER * size))) or [""]
+        self._lines(lines, size, {"fontweight": "bold" if bold else "normal"}, together)
+        self.space(0.06)
+
+    def typed(self, lines: Sequence[str]) -> None:
+        """Write lines in letters of one width, as large as they fit."""
+        longest = max(map(len, lines), default=1)
+        size = min(_LARGE, WIDTH * _POINTS / (_TYPED * max(1, longest)))
+        if size < _TINY:
+            size = _TINY
+            lines = [part for line in lines for part in textwrap.wrap(line, int(WIDTH * _POINTS / (_TYPED * size)))]
+        self._lines(lines, size, {"family": "DejaVu Sans Mono"})
+        self.space(0.1)
+
+    def table(self, table: DocumentTable) -> None:
+        """Write a table."""
+        if table.caption:
+            self.text(table.caption, together=0.5)
+        cells = [table.headings, *(tuple(c.text if isinstance(c, TableCell) else c for c in r) for r in table.rows)]
+        wide = [max(map(len, column)) for column in zip(*cells, strict=True)]
+        lines = [
+            "  ".join(
+                cell.ljust(w) if i < table.words else cell.rjust(w)
+                for i, (cell, w) in enumerate(zip(row, wide, strict=True))
+            ).rstrip()
+            for row in cells
+        ]
+        self.typed([lines[0], "-" * max(map(len, lines)), *lines[1:]])
+        for note in table.notes:
+            self.text(note, _LARGE)
+
+    def pictures(self, pictures: Sequence[Picture]) -> None:
+        """Draw pictures, two beside each other where they are narrow."""
+        waiting: list[Picture] = []
+        for picture in pictures:
+            if picture.wide:
+                self._beside(waiting)
+                self._beside([picture])
+                waiting = []
+            else:
+                waiting.append(picture)
+                if len(waiting) == 2:
+                    self._beside(waiting)
+                    waiting = []
+        self._beside(waiting)
+
+    def _beside(self, pictures: Sequence[Picture]) -> None:
+        from matplotlib.image import imread
+
+        if not pictures:
+            return
+        width = WIDTH if pictures[0].wide else (WIDTH - _GAP) / 2
+        caption, images = _LARGE * _LINE / _POINTS, [_pixels(picture) for picture in pictures]
+        arrays: list[Any] = [None if data is None else imread(io.BytesIO(data), format="png") for data in images]
+        tallest = HEIGHT - 3 * caption
+        sizes = []
+        for array in arrays:
+            height = 0.0 if array is None else width * array.shape[0] / array.shape[1]
+            sizes.append((width if height <= tallest else width * tallest / height, min(height, tallest)))
+        whole = max(height for _, height in sizes)
+        self._room(whole + 3 * caption)
+        page = self._pages[-1]
+        for i, (picture, array, (wide, high)) in enumerate(zip(pictures, arrays, sizes, strict=True)):
+            left = MARGIN + i * (width + _GAP)
+            if array is not None:
+                bottom = PAGE[1] - MARGIN - self._below - high
+                ax = page.add_axes((left / PAGE[0], bottom / PAGE[1], wide / PAGE[0], high / PAGE[1]))
+                ax.imshow(array, aspect="auto", interpolation="none")
+                ax.set_axis_off()
+            words = picture.caption if array is not None else f"{picture.caption}: as a picture in .html"
+            lines = textwrap.wrap(words, int(width * _POINTS / (_LETTER * _LARGE)))[:2]
+            for k, line in enumerate(lines):
+                self._write(line, left, self._below + whole + (k + 1) * caption, _LARGE, {})
+        self._below += whole + 3 * caption
+
+    def _lines(self, lines: Sequence[str], size: float, look: dict[str, Any], together: float = 0.0) -> None:
+        high = size * _LINE / _POINTS
+        self._room(min(HEIGHT, high * len(lines) + together) if together else high)
+        for line in lines:
+            self._room(high)
+            self._below += high
+            self._write(line, MARGIN, self._below, size, look)
+
+    def _room(self, height: float) -> None:
+        """Begin a page unless this one has so much room."""
+        from matplotlib.figure import Figure
+
+        if not self._pages or self._below + height > HEIGHT:
+            self._pages.append(Figure(figsize=PAGE))
+            self._below = 0.0
+
+    def _write(self, line: str, left: float, below: float, size: float, look: dict[str, Any]) -> None:
+        place = left / PAGE[0], 1.0 - (MARGIN + below) / PAGE[1]
+        self._pages[-1].text(*place, line, fontsize=size, parse_math=False, **look)
+
+
+def _pixels(picture: Picture) -> bytes | None:
+    """Return a picture as PNG; None where it exists as SVG only."""
+    if picture.kind == "png":
+        return picture.data
+    return None if picture.pixels is None else picture.pixels()

@@ -1,0 +1,180 @@
+"""Files of a document: self-contained HTML, or Markdown with separate pictures."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from symgen.base.arguments import path as argument_path
+from symgen.base.arguments import shown
+from symgen.base.errors import InputError
+from symgen.base.escapes import markdown_text
+from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
+from symgen.study.comparison.comparison_study import Study
+from symgen.study.report.document import Document, DocumentTable, Picture, Section, TableCell
+from symgen.study.report.paper import browser, print_pdf
+from symgen.study.report.plain_pdf import plain_pdf
+from symgen.study.saving import REPORTS
+
+if TYPE_CHECKING:
+    import jinja2
+
+    from symgen.study.stress.stress_rows import Stress
+
+#: Endings of reports -> the libraries needed.
+WRITTEN: Mapping[str, tuple[str, ...]] = dict.fromkeys(REPORTS, ("matplotlib",))
+
+
+def check_report(where: str, path: Path) -> None:
+    """Refuse a report that cannot be written, before it is created.
+
+    Raises
+    ------
+    InputError
+        If the ending is not known, matplotlib is missing, or the file cannot be written.
+    """
+    check_path(where, path, WRITTEN, "plot")
+    if path.suffix.lower() == ".md" and _folder(path).exists() and not _folder(path).is_dir():
+        raise InputError(where, f"'{_folder(path)}' to be a folder, for the pictures", "a file of that name")
+
+
+def write(document: Document, path: Path) -> Path:
+    """Write a document; the page appears whole or not at all.
+
+    Parameters
+    ----------
+    document : Document
+        The report.
+    path : Path
+        ``.html``: one file that opens without a network; ``.pdf``: the same, printed by a browser, or drawn by
+        matplotlib where there is none; ``.md``: pictures go into the folder ``NAME-files`` beside it.
+    """
+    check_report("report", path)
+    if path.suffix.lower() == ".html":
+        return write_whole(path, html(document))
+    if path.suffix.lower() == ".pdf":
+        program = browser()
+        return write_whole(path, plain_pdf(document)) if program is None else print_pdf(program, html(document), path)
+    folder, is_new = _folder(path), False
+    files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
+    try:
+        if files and not folder.exists():
+            folder.mkdir()
+            is_new = True
+        write_all(files | {path: markdown(document, folder.name)})
+    except OSError as error:
+        raise InputError(str(folder), "a folder that can be made", why(error)) from error
+    finally:
+        if is_new and not any(folder.iterdir()):  # something could not be written
+            folder.rmdir()
+    return path
+
+
+def write_report(study: Study | Stress | Sequence[Study], path: str | PathLike[str]) -> Path:
+    """Write the report of a comparison, of several beside each other, or of a stress study.
+
+    Parameters
+    ----------
+    study : Study, Stress or sequence of Study
+        What `symgen.compare` or the stress study returns.
+    path : path
+        A ``.html`` file, which opens without a network, its ``.pdf``, or ``.md`` with pictures in a folder beside it.
+
+    Raises
+    ------
+    InputError
+        If the ending is another one, matplotlib is missing, or the file cannot be written.
+    """
+    from symgen.study.report.comparison import comparison
+    from symgen.study.report.stress import stress_report
+    from symgen.study.stress.stress_rows import Stress
+
+    file = argument_path("report", path)
+    check_report("report", file)
+    if isinstance(study, Stress):
+        return write(stress_report(study), file)
+    studies = [study] if isinstance(study, Study) else study
+    if not (isinstance(studies, Sequence) and studies and all(isinstance(s, Study) for s in studies)):
+        raise InputError("report", "a comparison or a stress study", shown(study))
+    return write(comparison(studies), file)
+
+
+def _folder(path: Path) -> Path:
+    return path.with_name(f"{path.stem}-files")
+
+
+# -- HTML --------------------------------------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=1)
+def _templates() -> jinja2.Environment:
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_folder() / "report"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        autoescape=True,
+    )
+    environment.filters["embedded"] = _embedded
+    environment.tests["cell"] = lambda value: isinstance(value, TableCell)
+    return environment
+
+
+def _embedded(picture: Picture) -> str:
+    kind = {"svg": "image/svg+xml", "png": "image/png"}[picture.kind]
+    return f"data:{kind};base64,{base64.b64encode(picture.data).decode()}"
+
+
+def html(document: Document) -> str:
+    """Return a document as one HTML page: style and pictures inside, no scripts, no other files."""
+    return _templates().get_template("page.html.j2").render(document=document)
+
+
+# -- Markdown ----------------------------------------------------------------------------------------------------------
+
+
+def markdown(document: Document, folder: str) -> str:
+    """Return a document as Markdown with tables, pictures being files in `folder`."""
+    lines = [f"# {markdown_text(document.title)}", ""]
+    lines += [x for text in document.lead for x in (markdown_text(text), "")]
+    lines += _table(DocumentTable("", ("made with", ""), document.facts, words=2))
+    if document.command:
+        fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
+        lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
+    for section in document.sections:
+        lines += _section(section, 2, folder)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _section(section: Section, level: int, folder: str) -> list[str]:
+    lines = [f"{'#' * level} {markdown_text(section.title)}", ""]
+    lines += [x for text in section.text for x in (markdown_text(text), "")]
+    lines += [f"- {markdown_text(text)}" for text in section.findings]
+    lines += [""] if section.findings else []
+    for table in section.tables:
+        lines += _table(table)
+    for picture in section.pictures:
+        address = quote(f"{folder}/{picture.name}.{picture.kind}")
+        lines += [f"![{markdown_text(picture.alternative)}]({address})", "", markdown_text(picture.caption), ""]
+    for part in section.parts:
+        lines += _section(part, level + 1, folder)
+    return lines
+
+
+def _table(table: DocumentTable) -> list[str]:
+    def row(cells: tuple[str | TableCell, ...]) -> str:
+        texts = [cell.text if isinstance(cell, TableCell) else cell for cell in cells]
+        return f"| {' | '.join(map(markdown_text, texts))} |"
+
+    marks = ["---" if i < table.words else "---:" for i in range(len(table.headings))]
+    lines = [markdown_text(table.caption), ""] if table.caption else []
+    lines += [row(table.headings), f"| {' | '.join(marks)} |", *(row(cells) for cells in table.rows), ""]
+    return [*lines, *(x for note in table.notes for x in (markdown_text(note), ""))]

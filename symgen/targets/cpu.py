@@ -1,7 +1,0 @@
-"""Modules that people read and a script that runs one: NumPy and Numba."""
-
-from __future__ import annotations
-
-from symgen.targets._modules import modules_for
-
-KIND = modules_for("cpu")

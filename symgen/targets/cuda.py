@@ -1,7 +1,0 @@
-"""Device functions for kernels of your own: Numba and a CUDA device."""
-
-from __future__ import annotations
-
-from symgen.targets._modules import modules_for
-
-KIND = modules_for("cuda")

@@ -1,7 +1,0 @@
-"""Modules that advance eight motions at once, for loops of your own: NumPy and Numba."""
-
-from __future__ import annotations
-
-from symgen.targets._modules import modules_for
-
-KIND = modules_for("lanes")

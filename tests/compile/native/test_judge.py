@@ -1,0 +1,42 @@
+"""Emitted functions compiled here against the same functions compiled by Numba: equal to rounding.
+
+They are compared on a processor without fused multiply-add. With it the compiler is free to choose the product that a
+sum takes in, and chooses by what stands around it: two right translations of one function may differ in a last bit,
+and behind a cancellation in any.
+"""
+
+import pytest
+
+from symgen.derive.methods import METHODS
+
+from .twofold import apart
+
+#: Seconds, nearly all of them Numba's.
+FIRST = ("pendulum", ("lagrange",))
+#: Small models with methods of every kind of law and correction.
+SMALL = (
+    FIRST,
+    ("pendulum", ("augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl")),
+    ("four-bar", ("direct-correction", "index1-augmented-lagrangian")),
+    ("rough", ("lagrange",)),
+)
+
+
+#: The same, larger ones, and every other method once: minutes.
+CASES = (
+    *SMALL,
+    *(("slider-crank", (name,)) for name in METHODS if not any(name in methods for _, methods in SMALL)),
+    ("everything", ("lagrange",)),
+    ("rolling-disc", ("direct-correction",)),
+)
+
+
+@pytest.mark.parametrize(
+    ("model", "methods"),
+    [
+        pytest.param(*case, id=f"{case[0]}-{case[1][0]}", marks=() if case is FIRST else pytest.mark.slow)
+        for case in CASES
+    ],
+)
+def test_functions_are_numbas(model, methods):
+    assert apart(model, *methods) == ""

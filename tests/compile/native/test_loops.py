@@ -1,0 +1,133 @@
+"""Loops compiled from their source: all of them are in the language, and they do what Numba's do."""
+
+from __future__ import annotations
+
+import importlib
+import json
+
+import numpy as np
+import pytest
+
+from symgen.base.errors import InputError
+from symgen.compile.native.loops import read_loop
+from symgen.compile.native.types import float64
+from symgen.compile.store import jit as store
+from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
+from symgen.run.loops.event_loop import with_events
+from symgen.run.loops.stopping import with_stops
+from symgen.run.rows.rows import over_rows
+
+from .twofold import process
+
+SCHEMES = {
+    "picard": ("constant", "adaptive"),
+    **dict.fromkeys(("explicit", "adams", "implicit", "partitioned"), ("constant", "adaptive")),
+    **dict.fromkeys(("alpha", "lie", "projected", "half_explicit", "rattle", "symplectic", "screw"), ("constant",)),
+    **dict.fromkeys(("discrete_gradient", "symmetric"), ("constant",)),
+}
+LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
+
+
+@pytest.mark.parametrize(("scheme", "name"), LOOPS)
+@pytest.mark.parametrize("events", [False, True])
+def test_every_loop_is_in_the_language(scheme, name, events):
+    loop = getattr(importlib.import_module(f"symgen.run.loops.schemes.{scheme}"), name)
+    loop = with_events(loop) if events else loop
+    read(loop)
+    read(with_stops(loop))
+
+
+@pytest.mark.parametrize("events", [False, True])
+@pytest.mark.parametrize("stops", [False, True])
+@pytest.mark.parametrize("steps", ["constant", "adaptive"])
+@pytest.mark.parametrize("scheme", ["explicit", "picard"])
+def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, stops):
+    loop = getattr(importlib.import_module(f"symgen.run.loops.schemes.{scheme}"), steps)
+    read(over_rows(loop, events, stops))
+    if events:
+        read(over_rows(loop, events, stops, effects=True))
+
+
+def read(loop):
+    """Raise where a part of a loop is outside."""
+    read_loop(loop, loop.signature.arguments)
+
+
+@store.jit(float64(float64))
+def doubled(x):
+    """Make a list, as a user's loop might."""
+    numbers = [x, 2.0 * x]
+    return numbers[1]
+
+
+def test_a_loop_outside_the_language_is_refused():
+    refusal = (
+        f"the function '{__name__}.doubled': expected the language of compiled functions, "
+        "got an expression 'List' (line 4)"
+    )
+    for _ in range(2):
+        with pytest.raises(InputError) as error:
+            doubled(2.0)
+        assert str(error.value) == refusal
+
+
+def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_refused(tmp_path, monkeypatch):
+    """The definition at its place in the file is another one by then; nothing is in the cache."""
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(tmp_path / "cache"))
+    file = tmp_path / "edited_later.py"
+    head = "from symgen.compile.native.types import float64\nfrom symgen.compile.store.jit import jit\n\n\n"
+    file.write_text(f"{head}@jit(float64(float64))\ndef area(x):\n    return 2.0 * x\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    area = importlib.import_module("edited_later").area
+    text = file.read_text()
+    assert area.tree() is not None
+    file.write_text(text.replace("2.0", "3.0"))
+    store._lines.cache_clear()
+    with pytest.raises(InputError, match=r"'edited_later\.area': .* got 'area', whose definition is not at"):
+        area(1.0)
+    file.write_text(text)
+    store._lines.cache_clear()
+    assert area(1.0) == 2.0
+
+
+#: Every loop, by a model, a method and an integrator that enter it.
+CASES = {
+    "explicit-constant": ("pendulum", "lagrange", "rk4"),
+    "explicit-adaptive": ("four-bar", "direct-correction", "dop853"),
+    "adams": ("four-bar", "lagrange", "abm4", "four-bar", "lagrange", "abm"),
+    "implicit": ("four-bar", "ggl", "radau5", "four-bar", "lagrange", "trapezoidal"),
+    "alpha": ("spherical-double-pendulum", "generalized-alpha", "generalized-alpha"),
+    "projected": ("four-bar", "index3-augmented-lagrangian", "trapezoidal"),
+    "lie": ("heavy-top", "lagrange", "rkmk4", "free-rigid-body", "lagrange", "symplectic-euler"),
+    "screw": ("heavy-top", "lagrange", "rkmk4-screws"),
+    "constrained": ("four-bar", "half-explicit", "half-explicit", "heavy-top", "rattle", "rattle"),
+    "mean": ("four-bar", "discrete-gradient", "discrete-gradient"),
+    "partitioned": ("spatial-slider-crank", "half-explicit", "phem56"),
+}
+#: Integrators whose steps depend on rounding, as errors are estimated.
+ADAPTIVE = {"dop853", "picard", "abm", "radau5", "phem56"}
+
+
+def compared(shape, *words):
+    """Assert that short runs by both compilers are the same to what rounding grows to."""
+    found = []
+    for module in ("loops", "by_numba"):
+        done = json.loads(process(f"compile.native.{module}", shape, *words).stdout)
+        assert done["numba"] == (module == "by_numba")
+        found.append(done["runs"])
+    for integrator, one, other in zip(words[2::3], *found, strict=True):
+        assert integrator in ADAPTIVE or one["steps"] == other["steps"]
+        for name, numbers in one["states"].items():
+            size = np.abs(other["states"][name]).max()
+            np.testing.assert_allclose(numbers, other["states"][name], rtol=0, atol=1e-9 * size, err_msg=name)
+
+
+@pytest.mark.slow  # Numba compiles the loops once more
+@pytest.mark.parametrize("case", CASES)
+def test_runs_are_numbas(case):
+    compared("straight", *CASES[case])
+
+
+def test_a_run_imports_no_numba():
+    for shape, *case in (("straight", "four-bar", "lagrange", "rk4"), ("looped", "pendulum", "lagrange", "rk4")):
+        assert not json.loads(process("compile.native.loops", shape, *case).stdout)["numba"]

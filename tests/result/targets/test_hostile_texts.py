@@ -1,0 +1,351 @@
+"""Texts of a file in everything that symgen writes: each target is parsed, compiled and loaded, and is as with others.
+
+The two mechanisms differ in their texts alone. Code of both is the same without comments, so nothing of a text runs
+or is declared; pages, pictures and descriptions have the same elements.
+"""
+
+import ast
+import csv
+import ctypes
+import json
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections import Counter
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree
+
+import fmpy
+import pytest
+import xarray as xr
+from support.emitted import mechanism_of
+
+from symgen.base.errors import InputError
+from symgen.base.escapes import comment_text
+from symgen.cli import main
+from symgen.study.report.comparison import comparison
+from symgen.study.report.write import html, markdown
+from tests.study.report.made import row, study, trace
+
+#: A way out of each kind of place.
+WAYS = (
+    *("*/};__attribute__((constructor))enum{/*", "*/}static id(){system(__func__);}enum{/*", "*\\};int planted;/*"),
+    *("*??/", "// planted() ??/", "\\", '"""', "'''", '"', "'", "${planted()}", "{{ 7*7 }}{% for %}", "`planted()`"),
+    *("]]>", "--><planted/>", "<!--DATA-->", "</script><script>planted()</script>", "</title><planted>", "&lt;"),
+    *("<img src=x onerror=planted()>", '" onload="planted()', "%\\end{document}", "\\input{planted}", "$x^2$", "~^_#&"),
+    *("=cmd()", "+1", "@planted", "%s%n", "[x](javascript:planted())", "[x [y] ](planted:)", "|a|b|", "m" * 40),
+)
+#: Line ends, control characters, those that turn text around, and what terminals act on.
+LINES = (
+    "a\nplanted()",
+    "a\r\nplanted()",
+    "a\u2028planted()\u2029",
+    "a\x00b\x07",
+    "\x1b]0;planted\x07\x1b[31m",
+    "a\u202eb",
+)
+TEXTS = (*WAYS, *LINES)
+#: Entries of sections, and the mechanism.
+OWN_NAMES = ("rod", "pin", "height", "push", "low", "swing")
+#: As titles and sources: each alone is short, and comments have at most 200 characters.
+TITLES = ["", *(" ".join(TEXTS[i : i + 5]) for i in range(0, len(TEXTS), 5)), *LINES]
+#: Chosen for the fast run: comments of C, pages, LaTeX.
+FEW = (TITLES[1], TITLES[4], TITLES[5])
+FILE = """
+[mechanism]
+name = "swing"
+gravity = [0.0, "-g"]
+title = {title}
+source = {title}
+[run]
+until = 0.02
+step = 1e-3
+[parameters]
+g = 9.81
+{parameters}
+[inputs]
+{inputs}
+[bodies.rod]
+mass = {mass}
+inertia = 0.5
+points = {{ top = [-0.5, 0.0] }}
+[joints.pin]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0], "top"]
+[forces.push]
+type = "torque"
+body = "rod"
+torque = {torque}
+[outputs.height]
+value = "p0*rod.y"
+[events.low]
+when = "rod.y < -0.4"
+action = "stop"
+"""
+
+
+def described(folder: Path, title: str, notes: tuple[str, ...]) -> Path:
+    """Write a file with parameters and inputs that have these notes."""
+    folder.mkdir()
+    quoted = [json.dumps(note) for note in notes]
+    parameters = [f'p{i} = {{ value = 1.0, unit = "m", note = {note} }}' for i, note in enumerate(quoted)]
+    inputs = [f'u{i} = {{ default = 0.0, unit = "m", note = {note} }}' for i, note in enumerate(quoted)]
+    names = {letter: "+".join(f"{letter}{i}" for i in range(len(quoted))) for letter in "pu"}
+    texts = {"mass": json.dumps(names["p"]), "torque": json.dumps(names["u"]), "title": json.dumps(title)}
+    path = folder / "swing.toml"
+    path.write_text(FILE.format(parameters="\n".join(parameters), inputs="\n".join(inputs), **texts), encoding="utf-8")
+    return path
+
+
+def pair(folder: Path, title: str) -> tuple[Path, Path]:
+    """Write two files that differ in their texts alone: an honest one and a hostile one."""
+    return described(folder / "a", "A swing", ("",) * len(WAYS)), described(folder / "b", title, WAYS)
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_no_such_text_is_a_unit(text, tmp_path, capsys):
+    path = described(tmp_path / "c", "A swing", ("",))
+    path.write_text(path.read_text(encoding="utf-8").replace('"m"', json.dumps(text)), encoding="utf-8")
+    assert main(["check", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "unit: expected" in said and said.rstrip("\n").replace("\n", "").isprintable()
+
+
+def written(path: Path, *words: str) -> Path:
+    """Write what a command writes beside the file of a mechanism."""
+    output = path.parent / words[-1]
+    assert main([words[0], str(path), *words[1:-1], "-o", str(output)]) in (0, 3)
+    return output
+
+
+def python_code(source: str) -> str:
+    """Everything that runs, without docstrings and digests of files."""
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.FunctionDef) and ast.get_docstring(node) is not None:
+            node.body = node.body[1:] or [ast.Pass()]
+    return re.sub(r"_[0-9a-f]{16}", "", ast.unparse(tree))
+
+
+def c_code(path: Path) -> str:
+    """Everything that a compiler sees; the identity of an FMU is made of its texts."""
+    done = subprocess.run(["cc", "-E", "-P", str(path)], capture_output=True, text=True, check=True)
+    return re.sub(r"[0-9a-f-]{36}", "", done.stdout)
+
+
+class Elements(HTMLParser):
+    """Elements of a page with the names of their attributes, and its scripts."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.elements, self.scripts, self.kind = Counter[tuple[str, ...]](), list[tuple[str, str]](), ""
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.elements[(tag, *(name for name, _ in attrs))] += 1
+        self.kind = (dict(attrs).get("type") or "code") if tag == "script" else ""
+
+    def handle_endtag(self, tag):
+        self.kind = ""
+
+    def handle_data(self, data):
+        if self.kind:
+            self.scripts.append((self.kind, data))
+
+
+def same_elements(one: Path, other: Path) -> None:
+    """Compare two pages; scripts are the same but for data, which are JSON."""
+    honest, hostile = (Elements(path.read_text(encoding="utf-8")) for path in (one, other))
+    assert hostile.elements == honest.elements
+    assert [kind for kind, _ in hostile.scripts] == [kind for kind, _ in honest.scripts]
+    for (kind, text), (_, mine) in zip(honest.scripts, hostile.scripts, strict=True):
+        if kind == "application/json":
+            assert json.loads(mine).keys() == json.loads(text).keys()
+        else:
+            assert re.sub(r'"unit":"(?:[^"\\]|\\.)*"', "", mine) == re.sub(r'"unit":"(?:[^"\\]|\\.)*"', "", text)
+
+
+def same_xml(one: str, other: str) -> ElementTree.Element:
+    """Compare the elements of two documents with the names of their attributes; return the hostile one."""
+    honest, hostile = ElementTree.fromstring(one), ElementTree.fromstring(other)
+
+    def elements(root):
+        return [(e.tag, *sorted(e.attrib)) for e in root.iter() if e.tag not in ("Unit", "BaseUnit")]
+
+    assert elements(hostile) == elements(honest)
+    return hostile
+
+
+def titles(*few: str):
+    """Parameters of a test: some titles, and the others in the slow run."""
+    return [
+        *(pytest.param(title, id=f"title{TITLES.index(title)}") for title in few),
+        *(pytest.param(t, id=f"title{i}", marks=pytest.mark.slow) for i, t in enumerate(TITLES) if t not in few),
+    ]
+
+
+@pytest.mark.parametrize("title", titles(FEW[0]))
+@pytest.mark.parametrize("options", [(), ("--target", "cuda"), ("--target", "lanes"), ("--shape", "looped")])
+def test_packages(options, title, tmp_path):
+    folders = [written(path, "generate", *options, "code") for path in pair(tmp_path, title)]
+    honest, hostile = ({p.name: p.read_text(encoding="utf-8") for p in folder.iterdir()} for folder in folders)
+    assert hostile.keys() == honest.keys()
+    for name, text in hostile.items():
+        if name.endswith(".py"):
+            assert python_code(text) == python_code(honest[name])
+        elif name.endswith(".json"):
+            assert json.loads(text).keys() == json.loads(honest[name]).keys()
+        else:
+            assert not re.search(r"(?<!\\)<|(?<!\\)\](?=[(\[:])", text) and text.count("\n") == honest[name].count("\n")
+    if not options:
+        words = [sys.executable, "simulate.py", "direct_correction", "0.002"]
+        environment = {"NUMBA_DISABLE_JIT": "1", "PATH": ""}
+        runs = [subprocess.run(words, cwd=f, env=environment, capture_output=True, text=True) for f in folders]
+        assert runs[0].stdout == runs[1].stdout != "" and runs[1].returncode == 0, runs[1].stderr
+
+
+@pytest.mark.parametrize("title", titles(*FEW))
+def test_c(title, tmp_path):
+    folders, programs = [written(path, "generate", "--target", "c", "code") for path in pair(tmp_path, title)], []
+    for folder in folders:
+        texts = [str(path) for path in sorted(folder.glob("*.c"))]
+        options = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-trigraphs"]
+        subprocess.run(["cc", *options, *texts, "-lm", "-o", str(folder / "sim")], check=True)
+        programs.append(subprocess.run([str(folder / "sim")], capture_output=True, check=True).stdout)
+    assert programs[0] == programs[1] != b""
+    for name in ("swing.c", "main.c", "swing.h"):
+        assert c_code(folders[0] / name) == c_code(folders[1] / name)
+    page = (folders[1] / "README.md").read_text(encoding="utf-8")
+    assert not re.search(r"(?<!\\)<|(?<!\\)\](?=[(\[:])", page)
+
+
+@pytest.mark.parametrize("title", titles(FEW[0]))
+@pytest.mark.parametrize("fmi", ["2", "3"])
+def test_fmu(fmi, title, tmp_path):
+    files, folders = [], []
+    for path in pair(tmp_path, title):
+        files.append(written(path, "generate", "--target", "fmu", "--fmi", fmi, "swing.fmu"))
+        folders.append(path.parent / "unpacked")
+        with zipfile.ZipFile(files[-1]) as archive:
+            archive.extractall(folders[-1])
+    root = same_xml(*((f / "modelDescription.xml").read_text(encoding="utf-8") for f in folders))
+    assert sorted(unit.get("name") for unit in root.iter("Unit")) == ["m", "m/s", "rad", "rad/s"]
+    for name in ("swing.c", "fmu.c", "swing.h"):
+        assert c_code(folders[0] / "sources" / name) == c_code(folders[1] / "sources" / name)
+    library = next((folders[1] / "binaries").rglob("*.so"))
+    assert not hasattr(ctypes.CDLL(str(library)), "planted")
+    assert fmpy.read_model_description(str(files[1]), validate=True).modelName == "swing"
+    assert len(fmpy.simulate_fmu(str(files[1]), stop_time=0.01)) > 1
+
+
+@pytest.mark.parametrize("title", titles(FEW[1]))
+def test_javascript(title, tmp_path):
+    honest, hostile = (written(path, "generate", "--target", "javascript", "code") for path in pair(tmp_path, title))
+    node = shutil.which("node")
+    lines = [(folder / "swing.mjs").read_text(encoding="utf-8").splitlines() for folder in (honest, hostile)]
+    changed = [mine for text, mine in zip(*lines, strict=True) if mine != text]
+    assert all(line.startswith("export const model = makeLive({") for line in changed)
+    if node is None:
+        return
+    script = "import {model} from './swing.mjs'; const y = model.start(); console.log(JSON.stringify([...y])); "
+    script += "console.log(Object.keys(globalThis).length, typeof planted)"
+    said = [
+        subprocess.run([node, "--input-type=module", "-e", script], cwd=f, capture_output=True, text=True, check=True)
+        for f in (honest, hostile)
+    ]
+    assert said[0].stdout == said[1].stdout and said[1].stdout.endswith("undefined\n")
+
+
+@pytest.mark.parametrize("title", titles(FEW[1]))
+def test_pages_and_pictures(title, tmp_path):
+    files = pair(tmp_path, title)
+    same_elements(*(written(path, "view", "page.html") for path in files))
+    same_elements(*(written(path, "inspect", "equations.html") for path in files))
+    root = same_xml(*(written(path, "draw", "drawing.svg").read_text(encoding="utf-8") for path in files))
+    assert root.tag.endswith("svg")
+
+
+@pytest.mark.parametrize("title", titles(FEW[2]))
+def test_latex(title, tmp_path, capsys):
+    documents = []
+    for path in pair(tmp_path, title):
+        capsys.readouterr()
+        assert main(["inspect", str(path), "--format", "latex", "--document"]) == 0
+        documents.append(capsys.readouterr().out)
+    honest, hostile = (Counter(re.findall(r"\\[A-Za-z]+", text)) for text in documents)
+    own = {r"\textbackslash", r"\textasciitilde", r"\textasciicircum", r"\allowbreak"}
+    assert not {name for name in hostile - honest if name not in own}
+    bare = [re.sub(r"\\[%$&#_{}\\]", "", text) for text in documents]
+    for sign in "%$#":
+        assert bare[1].count(sign) == bare[0].count(sign)
+    assert bare[1].count("{") == bare[1].count("}") and bare[1].isascii()
+
+
+@pytest.mark.parametrize("title", titles(FEW[2]))
+def test_saved_runs_and_terminals(title, tmp_path, capsys):
+    path = pair(tmp_path, title)[1]
+    for words in (["check"], ["inspect"], ["run", "--save", "run.nc"], ["run", "--save", "run.csv"], ["run", "--json"]):
+        saved = [str(tmp_path / word) if word.startswith("run.") else word for word in words[1:]]
+        assert main([words[0], str(path), *saved]) in (0, 3)
+        said = "".join(capsys.readouterr())
+        assert all(c.isprintable() or c == "\n" for c in said), words
+    with (tmp_path / "run.csv").open(encoding="utf-8", newline="") as file:
+        heading, *rows = csv.reader(file)
+    assert {len(row) for row in rows} == {len(heading)}
+    assert all(re.match(r"[A-Za-z]", cell) for cell in heading)
+    assert all(float(cell or "nan") is not None for row in rows for cell in row)
+    with xr.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as data:
+        assert data.attrs["mechanism"] == "swing" and json.loads(data.attrs["run"])["status"]
+
+
+@pytest.mark.parametrize("title", titles(FEW[1]))
+def test_reports(title):
+    """Titles, reasons and notes: a journal may be of somebody else."""
+    texts = [" ".join(TEXTS), title, *LINES]
+    made = [
+        comparison(
+            [
+                study(
+                    [row("lagrange", 1e-3, None, 0.1, status="failed", reason=text or "plain")],
+                    traces=(trace(),),
+                    title=text,
+                )
+            ]
+        )
+        for text in ("plain", *texts)
+    ]
+    honest, *hostile = (Elements(html(document)) for document in made)
+    for page in hostile:
+        assert set(page.elements) == set(honest.elements) and not page.scripts
+    for document in made:
+        lines = markdown(document, "files")
+        assert not re.search(r"(?<!\\)<(?!!--)|(?<![\\!])\[[^\]\n]*[^\\\]]\]\(javascript", lines)
+        assert all(c.isprintable() or c == "\n" for c in lines)
+
+
+@pytest.mark.parametrize("text", [text for text in TEXTS if not text.isidentifier()])
+def test_names_are_refused(text):
+    for old in OWN_NAMES:
+        names = {name: name for name in OWN_NAMES} | {old: text}
+        description = {
+            "mechanism": {"name": names["swing"]},
+            "bodies": {names["rod"]: {"mass": 1.0, "inertia": 1.0}},
+            "joints": {names["pin"]: {"type": "revolute", "between": ["ground", names["rod"]], "at": [[0, 0], [0, 0]]}},
+            "forces": {names["push"]: {"type": "torque", "body": names["rod"], "torque": 1.0}},
+            "outputs": {names["height"]: {"value": 1.0}},
+            "events": {names["low"]: {"when": f"{names['rod']}.y < 0"}},
+        }
+        with pytest.raises(InputError, match="name"):
+            mechanism_of(description)
+
+
+def test_texts_of_comments():
+    for text in TEXTS:
+        words = comment_text(text)
+        assert words.isprintable() and not re.search(r'\*/|/\*|"|\\', words)
+    assert comment_text("N m/rad, kg*m^2") == "N m/rad, kg*m^2"

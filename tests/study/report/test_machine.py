@@ -1,0 +1,107 @@
+"""The report of one machine: its largest loads are those of the run, and every format says the same."""
+
+import re
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.base.errors import InputError
+from symgen.study.report import paper
+from symgen.study.report.document import Document, DocumentTable, Section
+from symgen.study.report.machine import machine
+from symgen.study.report.plain_pdf import plain_pdf
+from symgen.study.report.write import html, markdown, write
+
+
+@pytest.fixture(scope="module")
+def driven():
+    model = symgen.load("driven-four-bar")
+    return model, model.simulate(until=1.0, output_step=0.01)
+
+
+def test_the_largest_loads_are_those_of_the_run(driven):
+    model, result = driven
+    document = machine(model, result, "symgen report driven-four-bar", "crank.theta")
+    (loads,) = (s for s in document.sections if s.title == "Largest loads")
+    rows = {row[0]: row for table in loads.tables for row in table.rows}
+    assert {*rows} == {"motor.effort", "motor.power", "A.F", "B.F", "C.F", "D.F"}
+    for name, (_, largest, at, place) in rows.items():
+        k = int(np.argmax(np.abs(result[name])))
+        assert float(largest) == pytest.approx(result[name][k], rel=1e-3)
+        assert float(at) == pytest.approx(result.t[k], rel=1e-3, abs=1e-12)
+        assert float(place) == pytest.approx(result["crank.theta"][k], rel=1e-3)
+    # the motor's power is its torque times the speed of the crank, which is constant
+    assert float(rows["motor.power"][1]) == pytest.approx(2 * np.pi * float(rows["motor.effort"][1]), rel=1e-3)
+
+
+def test_the_report_has_pictures_and_what_repeats_it(driven):
+    model, result = driven
+    document = machine(model, result, "symgen report driven-four-bar")
+    assert [s.title for s in document.sections] == ["Motion", "Largest loads", "Curves", "Frequencies at rest"]
+    assert len([*document.pictures()]) == 2 + 6 + 3
+    page = html(document)
+    assert "symgen report driven-four-bar" in page and "prefers-color-scheme: dark" in page
+    assert "no degree of freedom is left" in page.lower()
+    assert "# Planar four-bar" in markdown(document, "files")
+
+
+def test_frequencies_at_rest_are_those_of_modes():
+    model = symgen.load("pendulum")
+    document = machine(model, model.simulate(until=0.2))
+    (rest,) = (s for s in document.sections if s.title == "Frequencies at rest")
+    (table,) = rest.tables
+    frequency = float(table.rows[0][table.headings.index("frequency [Hz]")])
+    assert frequency == pytest.approx(float(model.modes().frequencies[0]), rel=1e-5)
+
+
+@pytest.fixture
+def no_browser(monkeypatch):
+    monkeypatch.delenv("SYMGEN_BROWSER", raising=False)
+    monkeypatch.setattr(paper.shutil, "which", lambda name: None)
+
+
+@pytest.mark.usefixtures("no_browser")
+def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
+    """Every picture of the report is in it as pixels, on pages of A4."""
+    document = machine(*driven)
+    data = write(document, tmp_path / "a.pdf").read_bytes()
+    assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) >= 4
+    assert re.search(rb"/MediaBox \[ 0 0 595\.4\d* 841\.6\d* \]", data)
+    drawn = len(re.findall(rb"/Subtype /Image\b", data)) - len(re.findall(rb"/SMask ", data))
+    assert drawn == len(document.pictures())
+
+
+@pytest.mark.usefixtures("no_browser")
+def test_long_words_and_wide_tables_stay_on_the_paper(tmp_path):
+    wide = DocumentTable("a table", tuple(f"column {i}" for i in range(40)), (("x" * 30,) * 40,) * 200)
+    hostile = Section("$\\frac{$ & <b>", ("word " * 3000, "y" * 900), ("finding",), (wide,), parts=(Section("part"),))
+    pages = len(re.findall(rb"/Type /Page\b", plain_pdf(Document("t", (), (), "c" * 700, (hostile,)))))
+    assert pages > 3
+
+
+@pytest.mark.usefixtures("no_browser")
+def test_the_command_names_what_made_a_pdf(cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = cli("report", "pendulum", "--until", "0.2", "-o", "a.pdf")
+    assert code == 0 and out.startswith("written: a.pdf, drawn by matplotlib, as there is no Chromium")
+
+
+def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
+    silent = tmp_path / "browser"
+    silent.write_text("#!/bin/sh\nexit 3\n")
+    silent.chmod(0o755)
+    monkeypatch.setenv("SYMGEN_BROWSER", str(silent))
+    with pytest.raises(InputError, match=r"which ended with 3"):
+        write(machine(*driven), tmp_path / "a.pdf")
+    assert not (tmp_path / "a.pdf").exists()
+
+
+def test_the_command_writes_its_file(cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = cli("report", "driven-four-bar", "--until", "0.2", "--over", "crank.theta")
+    assert code == 0 and err == "" and out.strip() == "written: driven-four-bar.html"
+    page = (tmp_path / "driven-four-bar.html").read_text(encoding="utf-8")
+    assert re.search(r"symgen report driven-four-bar --until 0.2 --over crank.theta", page)
+    code, _, err = cli("report", "driven-four-bar", "-o", "a.doc")
+    assert code == 2 and "--output: expected a file ending in .html, .md, .pdf, got 'a.doc'" in err
