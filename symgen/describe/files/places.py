@@ -68,6 +68,68 @@ def places(text: str) -> dict[Path, Place]:
     return _Scanner(text).places
 
 
+class Header(NamedTuple):
+    """The header of a table, or of an item of an array of tables.
+
+    Attributes
+    ----------
+    path : Path
+        The table.
+    start, end : int
+        First character of its line, and the one behind its last bracket, counted from 0.
+    """
+
+    path: Path
+    start: int
+    end: int
+
+
+class Mention(NamedTuple):
+    """A key that is written: of a table once in each header and dotted key that leads through it.
+
+    Attributes
+    ----------
+    path : Path
+        What it is the key of.
+    start, end : int
+        Its characters, counted from 0.
+    """
+
+    path: Path
+    start: int
+    end: int
+
+
+class Outline(NamedTuple):
+    """The parts of a document by characters, for changes of its text.
+
+    Attributes
+    ----------
+    values : dict
+        First character of each written value, and the one behind it, by its path.
+    headers : tuple of Header
+        In the order of the text.
+    mentions : tuple of Mention
+        In the order of the text.
+    """
+
+    values: dict[Path, tuple[int, int]]
+    headers: tuple[Header, ...]
+    mentions: tuple[Mention, ...]
+
+
+def outline(text: str) -> Outline:
+    """Return the parts of a document by characters.
+
+    Parameters
+    ----------
+    text : str
+        A document that `tomllib` reads without an error.
+    """
+    scanned = _Scanner(text)
+    return Outline(scanned.values, tuple(scanned.headers), tuple(scanned.mentions))
+
+
 class _Scanner:
     """A document being scanned, from its first character to the last one."""
 
@@ -76,6 +138,9 @@ class _Scanner:
         self.places: dict[Path, Place] = {}
         self._starts = [0, *(end.end() for end in re.finditer("\n", text))]
         self._items: dict[Path, int] = {}  # items so far of arrays whose items have headers
+        self.values: dict[Path, tuple[int, int]] = {}
+        self.headers: list[Header] = []
+        self.mentions: list[Mention] = []
         table: Path = ()
         self.blank()
         while self.at < len(text):
@@ -104,8 +169,8 @@ class _Scanner:
         self.at += passed
         return passed
 
-    def key(self) -> list[tuple[str, Span]]:
-        """Pass a key; return its parts."""
+    def key(self, table: Path = ()) -> list[tuple[str, Span]]:
+        """Pass a key of `table`; return its parts."""
         parts = list[tuple[str, Span]]()
         while not parts or self.passed("."):
             match = self.after(_PART)
@@ -114,11 +179,12 @@ class _Scanner:
             if part[0] in "\"'":
                 part = tomllib.loads(f"key = {part}")["key"]
             parts.append((part, self.span(*match.span(1))))
+            self.mentions.append(Mention((*table, *(name for name, _ in parts)), *match.span(1)))
         return parts
 
     def header(self) -> Path:
         """Pass the header of a table or of an item; return its path."""
-        item = self.text.startswith("[[", self.at)
+        item, start = self.text.startswith("[[", self.at), self.text.rfind("\n", 0, self.at) + 1
         self.at += 2 if item else 1
         parts = self.key()
         self.at += 2 if item else 1
@@ -131,12 +197,13 @@ class _Scanner:
             if path in self._items:
                 path = (*path, self._items[path] - 1)
                 self.places.setdefault(path, Place(span, None))
+        self.headers.append(Header(path, start, self.at))
         return path
 
     def pair(self, table: Path) -> None:
         """Pass a key and its value in `table`."""
         path = table
-        for part, span in (parts := self.key()):
+        for part, span in (parts := self.key(table)):
             path = (*path, part)
             self.places.setdefault(path, Place(span, None))
         self.at += 1  # the equals sign
@@ -154,6 +221,7 @@ class _Scanner:
         else:
             self.at = self.after(_SCALAR).end()
         self.places[path] = Place(key, self.span(start, self.at))
+        self.values[path] = (start, self.at)
 
     def items(self, path: Path) -> None:
         """Pass the items of an array, and its bracket."""

@@ -1,0 +1,277 @@
+"""Points of a planar mechanism that a hand can move, each with the numbers of the file that follow it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from symgen.base.errors import InputError
+from symgen.base.units import Unit, read_amount, read_unit
+from symgen.base.vocabulary.expressions import Expr, names_in
+from symgen.base.vocabulary.measures import GROUND
+from symgen.describe.files.changes import is_number
+from symgen.describe.files.places import Path
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.parts.scope import CENTRE, Context, Scope
+
+#: Joints whose two points are one point.
+PINS = ("revolute", "rigid")
+#: The number at the beginning of a text with a unit, behind its quotes.
+_IN_TEXT = re.compile(r"[\"']+\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)")
+_STEP = 1e-6
+
+Spans = Mapping[Path, tuple[int, int]]
+
+
+class Follower(NamedTuple):
+    """A number of the text that changes while a point is moved.
+
+    Attributes
+    ----------
+    start, end : int
+        Its characters, counted from 0.
+    value : float
+        The number.
+    right, up : float
+        By how much it grows with each metre that the point goes to the right, and upwards.
+    """
+
+    start: int
+    end: int
+    value: float
+    right: float
+    up: float
+
+
+class Handle(NamedTuple):
+    """A point that can be moved.
+
+    Attributes
+    ----------
+    kind : {"pivot", "pin", "point", "end"}
+        A pin at the ground, a pin, another point of a body, the end of a force or joint that has no name.
+    name : str
+        Path of the joint, point or end in the file.
+    x, y : float
+        Where it is [m].
+    body, point : str, str
+        A body that has it, and its name there; empty for a point without a name.
+    at : tuple of float
+        The point in the frame of that body [m].
+    followers : tuple of Follower
+        Numbers that follow it; none where all are formulas of several parameters.
+    """
+
+    kind: str
+    name: str
+    x: float
+    y: float
+    body: str
+    point: str
+    at: tuple[float, float]
+    followers: tuple[Follower, ...]
+
+
+class _Spot(NamedTuple):
+    """A point of one body that the file writes down."""
+
+    body: str
+    path: Path
+    point: str
+    raw: Sequence[Any]
+
+
+def handles(
+    mechanism: Mechanism, raw: Mapping[str, Any], spans: Spans, text: str, q: Sequence[float]
+) -> tuple[Handle, ...]:
+    """Return the points of a planar mechanism that can be moved; none in space.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The validated description.
+    raw : mapping
+        The tables of the file.
+    spans : mapping
+        Characters of each value, from `symgen.describe.files.places.outline`.
+    text : str
+        The text of the file.
+    q : sequence of float
+        Coordinates of all bodies at the start [m, rad].
+    """
+    return () if mechanism.space != "planar" else tuple(_Handles(mechanism, raw, spans, text, q).all())
+
+
+def numbers_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> dict[str, tuple[int, int]]:
+    """Return the characters of the number of each parameter and input that is written as a number."""
+    found = dict[str, tuple[int, int]]()
+    for section in ("parameters", "inputs"):
+        for name, entry in raw.get(section, {}).items():
+            path: Path = (section, name)
+            if isinstance(entry, Mapping):
+                path = (*path, "value" if "value" in entry else "default")
+            if path in spans and (span := _digits(text, spans[path])) is not None:
+                found[name] = span
+    return found
+
+
+def _digits(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
+    """Return the characters of the number that a value begins with; None for a formula."""
+    written = text[span[0] : span[1]]
+    if is_number(written):
+        return span
+    match = _IN_TEXT.match(written)
+    if match is None or read_amount(written.strip("\"'")) is None:
+        return None
+    return span[0] + match.start(1), span[0] + match.end(1)
+
+
+class _Handles:
+    """The points of one mechanism."""
+
+    def __init__(
+        self, mechanism: Mechanism, raw: Mapping[str, Any], spans: Spans, text: str, q: Sequence[float]
+    ) -> None:
+        self.mechanism, self.raw, self.spans, self.text = mechanism, raw, spans, text
+        self.context = Context.of(mechanism)
+        self.values = {p.name: p.value for p in mechanism.parameters}
+        self.units = {p.name: float(p.own_unit.factor) for p in mechanism.parameters}
+        self.of_parameters = numbers_of_parameters(raw, spans, text)
+        self.centres = {body.name: body.centre_of_mass for body in mechanism.bodies}
+        self.poses: dict[str, tuple[float, float, float]] = {GROUND: (0.0, 0.0, 0.0)}
+        at = 0
+        for body in mechanism.bodies:
+            own = [*q[at : at + len(body.coordinates)], 0.0]
+            self.poses[body.name] = (own[0], own[1], own[2])
+            at += len(body.coordinates)
+
+    def all(self) -> Iterator[Handle]:
+        taken = set[Path]()
+        for joint, spots in self.pinned():
+            if handle := self.handle(f"joints.{joint}", "pin", spots):
+                yield handle
+            taken |= {spot.path for spot in spots}
+        for spot in self.spots():
+            if spot.path not in taken and (handle := self.handle(_words(spot.path), "end", [spot])):
+                yield handle
+            taken.add(spot.path)
+
+    def pinned(self) -> Iterator[tuple[str, list[_Spot]]]:
+        """Yield the pins: the first joint of each, and the points that it holds together with those of others."""
+        groups: list[tuple[str, dict[Path, _Spot]]] = []
+        for name, entry in self.raw.get("joints", {}).items():
+            joint = next((j for j in self.mechanism.joints if j.name == name), None)
+            if joint is None or joint.kind not in PINS:
+                continue
+            own = {spot.path: spot for spot in self.ends("joints", name, entry)}
+            for group in [g for g in groups if not own.keys().isdisjoint(g[1])]:
+                groups.remove(group)
+                name, own = group[0], {**group[1], **own}
+            groups.append((name, own))
+        for name, spots in groups:
+            yield name, [*spots.values()]
+
+    def spots(self) -> Iterator[_Spot]:
+        """Yield the points of bodies, and those that joints and forces have without a name."""
+        for name, entry in self.raw.get("bodies", {}).items():
+            for point, vector in (entry.get("points") or {}).items():
+                yield _Spot(name, ("bodies", name, "points", point), point, vector)
+        for section in ("joints", "forces"):
+            for name, entry in self.raw.get(section, {}).items():
+                yield from (spot for spot in self.ends(section, name, entry) if not spot.point)
+
+    def ends(self, section: str, name: str, entry: Mapping[str, Any]) -> Iterator[_Spot]:
+        """Yield the points of an entry that are a point of a body by name or by coordinates."""
+        between, at = entry.get("between"), entry.get("at")
+        pairs: list[tuple[Any, Any, Path]] = []
+        if isinstance(between, list) and isinstance(at, list):
+            pairs = [(b, a, (section, name, "at", i)) for i, (b, a) in enumerate(zip(between, at, strict=False))]
+        elif isinstance(entry.get("body"), str) and isinstance(at, list):
+            pairs = [(entry["body"], at, (section, name, "at"))]
+        for body, point, path in pairs:
+            if isinstance(point, list):
+                yield _Spot(body, path, "", point)
+            elif point != CENTRE and point in self.raw.get("bodies", {}).get(body, {}).get("points", {}):
+                yield _Spot(body, ("bodies", body, "points", point), point, self.raw["bodies"][body]["points"][point])
+
+    def handle(self, name: str, kind: str, spots: Sequence[_Spot]) -> Handle | None:
+        """Return the handle of points that lie in one place; None where they have no value."""
+        try:
+            vectors = [self.vector(spot) for spot in spots]
+        except InputError:
+            return None
+        grounded = any(spot.body == GROUND for spot in spots)
+        if kind == "pin" and grounded:
+            kind = "pivot"
+        elif kind == "end" and spots[0].point:
+            kind = "point"
+        first = max(range(len(spots)), key=lambda i: spots[i].body != GROUND)
+        local = tuple(evaluate(e, self.values) for e in vectors[first])
+        x, y = self.place(spots[first].body, local)
+        followers = self.followers(spots, vectors)
+        if kind == "pivot":  # bodies keep their sizes, and the loop closes around the pivot's new place
+            on_ground = [(s, v) for s, v in zip(spots, vectors, strict=True) if s.body == GROUND]
+            followers = self.followers(*zip(*on_ground, strict=True)) or followers
+        return Handle(kind, name, x, y, spots[first].body, spots[first].point, (local[0], local[1]), followers)
+
+    def vector(self, spot: _Spot) -> tuple[Expr, ...]:
+        return self.scope(spot).vector("at" if spot.path[0] != "bodies" else f"points.{spot.point}", tuple(spot.raw))
+
+    def scope(self, spot: _Spot) -> Scope:
+        section, name = str(spot.path[0]), str(spot.path[1])
+        return Scope(self.context, f"{section}.{name}", name)
+
+    def place(self, body: str, local: Sequence[float]) -> tuple[float, float]:
+        """Return a point of a body in the ground frame."""
+        x, y, angle = self.poses[body]
+        centre = [evaluate(e, self.values) for e in self.centres[body]] if body != GROUND else [0.0, 0.0]
+        c, s = math.cos(angle), math.sin(angle)
+        dx, dy = local[0] - centre[0], local[1] - centre[1]
+        return x + c * dx - s * dy, y + s * dx + c * dy
+
+    def followers(self, spots: Sequence[_Spot], vectors: Sequence[Sequence[Expr]]) -> tuple[Follower, ...]:
+        """Return the numbers that follow a point: of several coordinates one moves as fits all of them best."""
+        slopes: dict[tuple[int, int], list[tuple[float, float, float]]] = {}
+        for spot, vector in zip(spots, vectors, strict=True):
+            angle = self.poses[spot.body][2]
+            for k, expression in enumerate(vector):
+                found = self.number(spot, k, expression)
+                if found is not None and found[1] != 0.0:
+                    way = (math.cos(angle), math.sin(angle)) if k == 0 else (-math.sin(angle), math.cos(angle))
+                    slopes.setdefault(found[0], []).append((found[1], *way))
+        result = []
+        for (start, end), parts in sorted(slopes.items()):
+            size = sum(slope * slope for slope, _, _ in parts)
+            right, up = (sum(part[0] * part[i] for part in parts) / size for i in (1, 2))
+            result.append(Follower(start, end, float(self.text[start:end].replace("_", "")), right, up))
+        return tuple(result)
+
+    def number(self, spot: _Spot, k: int, expression: Expr) -> tuple[tuple[int, int], float] | None:
+        """Return the characters of the number that decides a coordinate, and metres for a unit of the number."""
+        names = sorted(set(names_in(expression)))
+        if not names:
+            span = self.spans.get((*spot.path, k))
+            digits = None if span is None else _digits(self.text, span)
+            return None if digits is None else (digits, self.factor(spot.raw[k]))
+        if len(names) > 1 or names[0] not in self.of_parameters:
+            return None
+        name = names[0]
+        step = _STEP * max(1.0, abs(self.values[name]))
+        try:
+            sides = [evaluate(expression, {**self.values, name: self.values[name] + d}) for d in (step, -step)]
+        except InputError:
+            return None
+        return self.of_parameters[name], (sides[0] - sides[1]) / (2.0 * step) * self.units[name]
+
+    def factor(self, value: object) -> float:
+        """Return the metres in a unit of a number as written."""
+        amount = read_amount(value) if isinstance(value, str) else None
+        unit = read_unit(amount.unit) if amount is not None else None
+        return float(unit.factor) if isinstance(unit, Unit) else 1.0
+
+
+def _words(path: Path) -> str:
+    return ".".join(map(str, path))

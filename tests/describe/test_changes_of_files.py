@@ -1,0 +1,291 @@
+"""Parts of mechanism files added, renamed and taken out: the rest of the text stays byte for byte."""
+
+import difflib
+import math
+
+import numpy as np
+import pytest
+
+from symgen.api import load
+from symgen.base.errors import InputError
+from symgen.describe import catalogue
+from symgen.describe.files.changes import Change, changed, wide_units, with_line_ends
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.places import outline
+from symgen.describe.files.renaming import removed, renamed
+from symgen.describe.files.snippets import Spot, snippet
+from symgen.describe.files.validate import errors_of, validate
+from symgen.describe.files.words import words
+
+
+def text_of(name: str) -> str:
+    file = catalogue.file_of(name)
+    assert file is not None
+    return file.read_text(encoding="utf-8")
+
+
+FOUR_BAR = text_of("four-bar")
+EMPTY = '# mine\n[mechanism]\nname = "new"\n'
+
+
+def added(text: str, kind: str, *spots: Spot, angle: float = 0.0) -> tuple[str, str]:
+    change, path = snippet(kind, spots, parse_toml(text, "x"), outline(text), text, angle)
+    return changed(text, [change]), path
+
+
+def is_inserted(before: str, after: str) -> bool:
+    """Whether a text is another one with one piece put in."""
+    ops = [op for op in difflib.SequenceMatcher(None, before, after, autojunk=False).get_opcodes() if op[0] != "equal"]
+    return len(ops) == 1 and ops[0][0] == "insert"
+
+
+def test_changes_that_overlap_are_refused() -> None:
+    assert changed("abc", [Change(2, 3, "z"), Change(0, 1, "")]) == "bz"
+    with pytest.raises(InputError):
+        changed("abc", [Change(0, 2, ""), Change(1, 3, "")])
+
+
+def test_characters_beyond_the_first_plane_are_two_for_pages() -> None:
+    assert wide_units("abc") is None
+    assert wide_units("a\U0001f600b") == [0, 1, 3, 4]
+
+
+def test_line_ends() -> None:
+    assert with_line_ends("a\nb\n", "a\nc\n") == "a\nb\n"
+    assert with_line_ends("a\nb\n", "a\r\nc\r\n") == "a\r\nb\r\n"
+    assert with_line_ends("a\nb\nc\n", "a\r\nb\n") == "a\r\nb\nc\r\n"
+
+
+def test_an_outline_has_all_headers_and_mentions() -> None:
+    text = 'a.b = 1\n[x."y z"]\n  [x.w]  # c\nk = { m = [1, "t"] }\n[[n]]\n'
+    parts = outline(text)
+    assert {path: text[slice(*span)] for path, span in parts.values.items()}["x", "w", "k", "m"] == '[1, "t"]'
+    assert [(h.path, text[h.start : h.end]) for h in parts.headers] == [
+        (("x", "y z"), '[x."y z"]'),
+        (("x", "w"), "  [x.w]"),
+        (("n", 0), "[[n]]"),
+    ]
+    assert [text[m.start : m.end] for m in parts.mentions if m.path == ("x",)] == ["x", "x"]
+
+
+# -- adding ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_bar_from_a_pin_to_a_free_place() -> None:
+    after, path = added(FOUR_BAR, "body", Spot(8.0, 4.5, "rocker", "C", (2.5, 0.0), "C"), Spot(11.0, 8.5))
+    assert path == "bodies.bar1" and is_inserted(FOUR_BAR, after)
+    mechanism = validate(parse_toml(after, "x"), "x")
+    assert mechanism.joint_named("pin1").bodies == ("rocker", "bar1")
+    raw = parse_toml(after, "x")["bodies"]["bar1"]
+    assert raw["angle"] == pytest.approx(math.atan2(4.0, 3.0), rel=1e-5)
+    assert raw["inertia"] == pytest.approx(25.0 / 12.0, rel=1e-5)
+    assert raw["points"] == {"A": [-2.5, 0.0], "B": [2.5, 0.0]}
+
+
+def test_a_plate_has_the_inertia_of_its_triangle() -> None:
+    corners = np.array([[0.0, 0.0], [3.0, 0.0], [1.0, 2.0]])
+    after, _ = added(EMPTY, "body", *(Spot(*corner) for corner in corners))
+    raw = parse_toml(after, "x")["bodies"]["plate1"]
+    # by quadrature over the triangle: three points in the middles of its sides are exact for squares
+    middles = 0.5 * (corners + np.roll(corners, 1, axis=0)) - corners.mean(axis=0)
+    assert raw["inertia"] == pytest.approx((middles**2).sum() / 3.0, rel=1e-5)
+    assert after.startswith(EMPTY.rstrip("\n"))
+
+
+def test_a_four_bar_from_nothing() -> None:
+    text = EMPTY
+    text, _ = added(text, "body", Spot(0.0, 0.0), Spot(1.0, 2.0))
+    text, _ = added(text, "body", Spot(1.0, 2.0, "bar1", "B"), Spot(5.0, 3.0))
+    text, _ = added(text, "body", Spot(5.0, 3.0, "bar2", "B"), Spot(6.0, 0.0))
+    text, _ = added(text, "pin", Spot(0.0, 0.0, "bar1", "A"), Spot(0.0, 0.0))
+    text, foot = added(text, "pin", Spot(6.0, 0.0), Spot(6.0, 0.0, "bar3", "B"))
+    model = load(validate(parse_toml(text, "x"), "x"))
+    compiled = model.compile(shape="looped")
+    start = model.assemble(compiled)
+    assert compiled.info.nv - start.rank == 1
+    assert start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-4)  # it was drawn closed
+    text, motor = added(text, "motor", Spot(0.0, 0.0, "bar1", "A", joint="pin3"), angle=1.107149)
+    assert motor == "joints.motor1" and foot == "joints.pin4"
+    driven = load(validate(parse_toml(text, "x"), "x"))
+    compiled = driven.compile(shape="looped")
+    start = driven.assemble(compiled)
+    assert compiled.info.nv == start.rank and start.y[:9] == pytest.approx(model.initial_state({})[0], abs=1e-4)
+
+
+def test_a_spring_a_slide_and_a_load() -> None:
+    end, other = Spot(8.4, 4.7, "rocker", "C"), Spot(12.0, 4.7)
+    for kind, spots in (("spring", (end, other)), ("slide", (end,)), ("load", (end,))):
+        after, path = added(FOUR_BAR, kind, *spots, angle=0.3)
+        assert is_inserted(FOUR_BAR, after), kind
+        validate(parse_toml(after, "x"), "x")
+        assert path.endswith(f"{kind}1")
+    assert parse_toml(added(FOUR_BAR, "spring", end, other)[0], "x")["forces"]["spring1"]["free_length"] == 3.6
+
+
+@pytest.mark.parametrize(
+    ("kind", "spots", "sentence"),
+    [
+        ("body", (Spot(0, 0),), "expected 2 to 3 points, got 1"),
+        ("body", (Spot(0, 0), Spot(0, 0)), "points in different places"),
+        ("pin", (Spot(0, 0), Spot(1, 0)), "'ground' twice"),
+        ("spring", (Spot(0, 0, "crank", "A"), Spot(1, 0, "crank", "B")), "'crank' twice"),
+        ("load", (Spot(0, 0),), "a point of a body"),
+        ("motor", (Spot(0, 0, "crank", "A"),), "a pin, which it turns"),
+        ("wheel", (Spot(0, 0),), "a part that can be added"),
+    ],
+)
+def test_what_cannot_be_added(kind: str, spots: tuple[Spot, ...], sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        added(FOUR_BAR, kind, *spots)
+
+
+def test_in_space_nothing_is_added_by_points() -> None:
+    with pytest.raises(InputError, match="in the plane"):
+        added(text_of("heavy-top"), "load", Spot(0, 0, "top", "tip"))
+
+
+# -- names -------------------------------------------------------------------------------------------------------------
+
+NAMED = """\
+# crank drives; crank is a word here
+[mechanism]
+name = "crank"
+title = "the crank"
+
+[parameters]
+arm = 1.0            # arm
+arms = "2*arm"
+
+[bodies.crank]
+mass = "arm"
+inertia = 0.1
+points = { arm = ["arm", 0.0] }
+
+[bodies."rod"]
+mass = 1.0
+inertia = 0.1
+angular_velocity = "arm/2"
+
+[joints.arm]
+type = "revolute"
+between = ["ground", "crank"]
+at = [[0.0, 0.0], "centre"]
+
+[joints.knee]
+type = "revolute"
+between = ["crank", "rod"]
+at = ["arm", ["-arm", 0.0]]
+
+[forces.push]
+type = "torque"
+body = "crank"
+torque = "-crank.omega*arm + rod.omega - arm.angle"
+
+[events.turn]
+when = "crank.arm.y < -0.5"
+action = "reset"
+reset = { "crank.omega" = "-0.5*crank.omega" }
+"""
+
+
+def lines_that_differ(before: str, after: str) -> list[str]:
+    old, new = before.split("\n"), after.split("\n")
+    assert len(old) == len(new)
+    return [b for a, b in zip(old, new, strict=True) if a != b]
+
+
+def test_a_body_is_renamed_wherever_it_is_named_and_nowhere_else() -> None:
+    assert lines_that_differ(NAMED, renamed(NAMED, "bodies.crank", "wheel", "x")) == [
+        "[bodies.wheel]",
+        'between = ["ground", "wheel"]',
+        'between = ["wheel", "rod"]',
+        'body = "wheel"',
+        'torque = "-wheel.omega*arm + rod.omega - arm.angle"',
+        'when = "wheel.arm.y < -0.5"',
+        'reset = { "wheel.omega" = "-0.5*wheel.omega" }',
+    ]
+
+
+def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
+    assert lines_that_differ(NAMED, renamed(NAMED, "parameters.arm", "r", "x")) == [
+        "r = 1.0            # arm",
+        'arms = "2*r"',
+        'mass = "r"',
+        'points = { arm = ["r", 0.0] }',
+        'angular_velocity = "r/2"',
+        'at = ["arm", ["-r", 0.0]]',
+        'torque = "-crank.omega*r + rod.omega - arm.angle"',
+    ]
+    assert lines_that_differ(NAMED, renamed(NAMED, "bodies.crank.points.arm", "tip", "x")) == [
+        'points = { tip = ["arm", 0.0] }',
+        'at = ["tip", ["-arm", 0.0]]',
+        'when = "crank.tip.y < -0.5"',
+    ]
+    assert lines_that_differ(NAMED, renamed(NAMED, "joints.arm", "shaft", "x")) == [
+        "[joints.shaft]",
+        'torque = "-crank.omega*arm + rod.omega - shaft.angle"',
+    ]
+
+
+@pytest.mark.parametrize(
+    ("path", "name", "sentence"),
+    [
+        ("bodies.crank", "rod", "a name that is free"),
+        ("bodies.crank", "a b", "expected"),
+        ("bodies.crank", "<b>", "expected"),
+        ("bodies.wheel", "rim", "something that the file has, got 'wheel'"),
+        ("mechanism.name", "x", "an entry of a section"),
+        ("bodies.crank.mass", "x", "something|an entry"),
+    ],
+)
+def test_names_that_are_refused(path: str, name: str, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        renamed(NAMED, path, name, "x")
+
+
+def test_a_body_goes_with_its_joints_and_comments_stay_with_their_tables() -> None:
+    text = FOUR_BAR.replace("[bodies.rocker]", "# the rocker\n# of steel\n[bodies.rocker]").replace(
+        "[joints.A]", "# all pins\n\n# first\n[joints.A]"
+    )
+    after = removed(text, "bodies.rocker", "x")
+    raw = parse_toml(after, "x")
+    assert set(raw["bodies"]) == {"crank", "coupler"} and set(raw["joints"]) == {"A", "B"}
+    assert "rocker" not in after.replace("rocker_mass", "") and "of steel" not in after
+    assert "# all pins\n\n# first\n[joints.A]" in after
+    assert set(after.split("\n")) <= set(text.split("\n"))
+
+
+def test_a_parameter_goes_with_its_line_unless_it_is_needed() -> None:
+    text = FOUR_BAR.replace("[parameters]\n", "[parameters]\nspare = 3.0  # of no use\n")
+    assert removed(text, "parameters.spare", "x") == FOUR_BAR
+    with pytest.raises(InputError, match="crank_mass"):
+        removed(FOUR_BAR, "parameters.crank_mass", "x")
+
+
+@pytest.mark.parametrize("name", [*catalogue.names(catalogue.MACHINES), "four-bar", "andrews", "flyball-governor"])
+def test_every_body_and_joint_of_the_catalogue_can_be_renamed(name: str) -> None:
+    text = text_of(name)
+    raw = parse_toml(text, name)
+    for section in ("bodies", "joints"):
+        for old in [*raw.get(section, {})][:3]:
+            after = renamed(text, f"{section}.{old}", "other_name", name)
+            assert errors_of(parse_toml(after, name), name) == ()
+            assert renamed(after, f"{section}.other_name", old, name) == text
+
+
+# -- words -------------------------------------------------------------------------------------------------------------
+
+
+def test_words_have_sentences() -> None:
+    found = words()
+    sections = found["sections"]
+    assert sections["bodies"]["keys"]["mass"] == "scalar. [kg], above 0."
+    revolute = sections["joints"]["types"]["revolute"]
+    assert revolute["text"].startswith("A pin that holds") and revolute["keys"]["at"].startswith(
+        "pair of points. The pin"
+    )
+    assert set(sections["joints"]["types"]) >= {"revolute", "prismatic", "driver"}
+    assert "N" in found["units"]
+    for section in sections.values():
+        tables = [section["keys"], *(kind["keys"] for kind in section.get("types", {}).values())]
+        assert all(text for table in tables for key, text in table.items() if key != "type")
