@@ -39,7 +39,7 @@ FIRST = 100_000
 
 #: Commands in the order of the help; others come last.
 ORDER = (
-    *("list", "new", "import", "check", "draw", "view", "inspect", "generate", "run"),
+    *("list", "new", "edit", "import", "check", "draw", "view", "inspect", "generate", "run"),
     *("equilibrium", "modes", "linearise", "kinematics", "inverse", "identify"),
     *("report", "compare", "stress", "sweep", "schema", "cache", "completion"),
 )

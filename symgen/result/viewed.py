@@ -22,7 +22,7 @@ from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
 from symgen.result.live_columns import live_columns
 from symgen.result.player.live import NONE, Live, live_part
-from symgen.result.player.motion_page import Page, page
+from symgen.result.player.motion_page import Page, live_script, page, page_data
 from symgen.result.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
 from symgen.result.plots import panels
 from symgen.result.saved import check_names, checked_file, dataset_of
@@ -68,6 +68,26 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool | 
         expected = f"a method that '{LIVE_INTEGRATOR}' solves, as pages run no other scheme"
         raise InputError("live", expected, f"'{live}'")
     return page(first, *(_live(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
+
+
+def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], str]:
+    """Return what a page draws of a motion, for JSON, and the body of a function with its live part, empty for none.
+
+    Parameters
+    ----------
+    result : MotionTables
+        Of this process.
+    live : bool
+        Whether the page shall be able to work out other motions.
+
+    Raises
+    ------
+    InputError
+        If the motion has no outputs.
+    """
+    shown = playable_motion(result)
+    part, note = _live(shown.mechanism, result.run_facts()) if live else (None, "")
+    return page_data(shown, part, note), "" if part is None else live_script(part)
 
 
 def is_live(method: str) -> bool:

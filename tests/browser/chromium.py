@@ -26,7 +26,11 @@ SWITCHES = (
         "--hide-scrollbars",
     ),
     *("--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"),
-    *("--remote-debugging-pipe", "--allow-file-access-from-files=false", "--host-resolver-rules=MAP * ~NOTFOUND"),
+    *(
+        "--remote-debugging-pipe",
+        "--allow-file-access-from-files=false",
+        "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
+    ),
 )
 #: A page that does not answer within that has failed [s].
 PATIENCE = 60.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from functools import lru_cache
@@ -67,7 +68,39 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
         Another motion of the same mechanism, drawn faintly behind.
     """
     spatial = recording.mechanism.space == "spatial"
-    scene = build_scene(recording.mechanism, recording.q, recording.values)
+    data = page_data(recording, live, note, second)
+    text = _web("page.html")
+    script = _script(live, spatial)
+    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": script_json(data), "SCRIPT": script}
+    for name, part in parts.items():
+        text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
+    return Page(text, recording.mechanism.name, live is not None)
+
+
+def page_data(
+    recording: Recording,
+    live: Live | None = None,
+    note: str = "",
+    second: Recording | None = None,
+    open_joints: Sequence[str] = (),
+) -> dict[str, Any]:
+    """Return what the script of a page draws, for JSON; arguments as of `page`.
+
+    Parameters
+    ----------
+    recording : Recording
+        What moves.
+    live : Live, optional
+        Simulation of other motions in the page.
+    note : str
+        Reason why `live` is missing.
+    second : Recording, optional
+        Another motion of the same mechanism, drawn faintly behind.
+    open_joints : sequence of str
+        Joints that are marked as open.
+    """
+    spatial = recording.mechanism.space == "spatial"
+    scene = build_scene(recording.mechanism, recording.q, recording.values, open_joints)
     data: dict[str, Any] = {
         "title": recording.mechanism.title or recording.mechanism.name,
         "name": recording.mechanism.name,
@@ -77,7 +110,6 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
         "live": None if live is None else live.spec,
         "note": note,
     }
-    script = _script(live, spatial)
     motions = [recording] if second is None else [recording, second]
     share = MOST_DATA[spatial] // len(motions)
     pins = scene.pins
@@ -91,11 +123,7 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
             words = f"no plots of {', '.join(dict.fromkeys(missing))}: the page would be too large"
             data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), words]))
         data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, each.q[keep]))
-    text = _web("page.html")
-    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": script_json(data), "SCRIPT": script}
-    for name, part in parts.items():
-        text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
-    return Page(text, recording.mechanism.name, live is not None)
+    return data
 
 
 def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
@@ -104,6 +132,42 @@ def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
         return {}
     gaps = np.array([scene.gaps(row) for row in q])
     return {"gaps": {"names": [item.name for item in scene.pins], **shorts(np.log10(np.maximum(gaps, 1e-17)))}}
+
+
+#: The policy in the file of pages, which load nothing.
+_POLICY = re.compile(r"<meta http-equiv=\"Content-Security-Policy\"[^>]*>\n")
+
+
+def editing_page(data: str, pane: str, style: str, script: str, nonce: str) -> str:
+    """Return a page of the player that shows one motion after the other, beside a pane that decides which.
+
+    Parameters
+    ----------
+    data : str
+        What it begins with, as JSON for scripts.
+    pane, style, script : str
+        The pane, and what it adds to the player's style and script, which it can call.
+    nonce : str
+        The word by which the policy of its server knows styles and scripts of the page.
+    """
+    text, own = _POLICY.sub("", _web("page.html")), "".join(_web(name) for name in SCRIPTS[True])
+    nothing = "const emitted = null, makeLive = null, observed = null;"
+    text = text.replace("<style>", f'<style nonce="{nonce}">').replace("<script>", f'<script nonce="{nonce}">')
+    text = text.replace("<body>\n", f'<body class="editing">\n{pane}')
+    parts = {
+        "STYLE": _web("style.css") + style,
+        "DATA": data,
+        "SCRIPT": f"(() => {{\n'use strict';\n{nothing}\n{own}{script}}})();",
+    }
+    for name, part in parts.items():
+        text = text.replace(f"<!--{name}-->", part, 1)
+    return text
+
+
+def live_script(live: Live) -> str:
+    """Return a function's body that returns what a page works out other motions with."""
+    columns = f"const observed = {live.columns};\n{_web('columns.js')}"
+    return f"'use strict';\n{model_script(live)}{columns}return {{ emitted, makeLive, observed, makeColumns }};"
 
 
 def _script(live: Live | None, spatial: bool) -> str:

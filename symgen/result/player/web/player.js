@@ -1,10 +1,13 @@
 // The page: time, controls, what is drawn beside the mechanism, and the live part.
 
-const data = JSON.parse(document.getElementById("data").textContent);
+let data = opened(JSON.parse(document.getElementById("data").textContent));
 // Bodies that look alike share their lists of points.
-for (const item of data.scene.items) for (const mark of item.marks) {
-  if (mark[0] === "L") mark[4] = data.scene.lists[mark[4]];
-  else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
+function opened(data) {
+  for (const item of data.scene.items) for (const mark of item.marks) {
+    if (mark[0] === "L") mark[4] = data.scene.lists[mark[4]];
+    else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
+  }
+  return data;
 }
 const $ = (id) => document.getElementById(id);
 const preferred = matchMedia("(prefers-color-scheme: dark)");
@@ -14,9 +17,13 @@ function paintPage() {
   readPalette();
 }
 paintPage();
-let solid = data.scene.spatial ? makeSolid($("solid"), data.scene) : null;
-$("solid").hidden = !solid;
-let view = makeScene($("view"), data.scene, solid);
+let solid = null, view = null;
+function stage() {
+  solid = data.scene.spatial ? makeSolid($("solid"), data.scene) : null;
+  $("solid").hidden = !solid;
+  view = makeScene($("view"), data.scene, solid);
+}
+stage();
 $("solid").addEventListener("webglcontextlost", () => {
   // the canvas above draws what it can
   $("solid").hidden = true;
@@ -47,10 +54,11 @@ function filled(g, n) {
   }));
 }
 
-const motions = data.motions.map(recorded);
+let motions = data.motions.map(recorded);
 let motion = motions[0]; // what is played: the recording, or what the live part works out
 let time = motion.t[0] || 0, playing = false, speed = 1, last = 0, group = null, wanted = true;
 let traced = [];
+const drawn = []; // called after each picture
 
 // -- positions between frames ---------------------------------------------------------------------------------------------
 
@@ -104,6 +112,7 @@ function render() {
   const bare = $("forces").checked && motion !== motions[0] && !motion.reactions && !motion.pulls ? ["forces are those of the recorded motion"] : [];
   $("hint").textContent = [...doubt.map((m) => m[3]), ...bare].join("; ");
   wanted = false;
+  for (const each of drawn) each(q);
 }
 
 function arrows(q) {
@@ -281,8 +290,10 @@ function show(next) {
 // -- live -----------------------------------------------------------------------------------------------------------------
 
 let live = null, state = null, clock = 0, follow = null, columns = null;
-if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, bodies: null, find_lock: null }, emitted));
-if (observed) columns = makeColumns(live, emitted, data.live.columns, observed);
+function enliven({ emitted, makeLive, observed, makeColumns }) {
+  live = data.live ? makeLive(data.live, Object.assign({ confirm: null, bodies: null, find_lock: null }, emitted)) : null;
+  columns = live && observed ? makeColumns(live, emitted, data.live.columns, observed) : null;
+}
 
 // A frame of the motion that is worked out: positions, and what else pages plot.
 function record(t, begin = false) {
@@ -442,6 +453,7 @@ function workOutRanges(budget) {
 // Many parameters of one unit, and those that follow from others by formulas, are folded away below the rest.
 const MANY = 8, ALIKE = 3;
 function sliders() {
+  $("live").textContent = "";
   const box = $("live"), list = element("div", "", "list"), head = element("div", "", "head"), back = element("button", "As recorded");
   const closes = element("p");
   closes.id = "closes";
@@ -479,6 +491,7 @@ function sliders() {
 // -- controls -------------------------------------------------------------------------------------------------------------
 
 function facts() {
+  $("facts").textContent = "";
   motion.facts.forEach(([label, text], i) => {
     const part = document.createElement("span");
     part.textContent = `${i ? " · " : ""}${label ? `${label} ` : ""}${text}`;
@@ -491,12 +504,16 @@ function facts() {
 // A motion of less than a second is slowed down until an eye can follow it.
 const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
 for (const s of SPEEDS) $("speed").append(new Option(`${s}×`, s));
-speed = motion.end - time < 1 ? SPEEDS.filter((s) => motion.end - time >= 2 * s).pop() || SPEEDS[0] : 1;
-$("speed").value = speed;
+function pace() {
+  speed = motion.end - time < 1 ? SPEEDS.filter((s) => motion.end - time >= 2 * s).pop() || SPEEDS[0] : 1;
+  $("speed").value = speed;
+}
 // Points that no joint ties draw what a mechanism is for: the foot of a leg, the blade of a wiper.
-const free = data.points.some((p) => p[3]);
-$("trace").append(new Option("none", ""), ...(free ? [new Option("free points", "free")] : []), new Option("all", "all"), ...data.points.map((p) => new Option(p[0], p[0])));
-$("trace").value = free ? "free" : data.points.length <= 12 ? "all" : "";
+function offerTraces() {
+  const free = data.points.some((p) => p[3]), before = $("trace").value, first = !$("trace").length;
+  fill($("trace"), [["", "none", ""], ...(free ? [["", "free points", "free"]] : []), ["", "all", "all"], ...data.points.map((p) => ["", p[0], p[0]])]);
+  if (first || $("trace").value !== before) $("trace").value = free ? "free" : data.points.length <= 12 ? "all" : "";
+}
 $("speed").addEventListener("change", () => (speed = Number($("speed").value)));
 $("trace").addEventListener("change", traces);
 $("group").addEventListener("change", () => {
@@ -507,7 +524,6 @@ $("over").addEventListener("change", choose);
 $("play").addEventListener("click", () => play(!playing));
 $("fit").addEventListener("click", refit);
 for (const id of ["labels", "forces", "gaps"]) $(id).addEventListener("change", () => (wanted = true));
-$("forcesBox").hidden = !(motion.reactions || motion.pulls);
 
 function retheme() {
   paintPage();
@@ -572,7 +588,7 @@ $("view").addEventListener("wheel", (e) => {
 }, { passive: false });
 
 window.addEventListener("keydown", (e) => {
-  if (["SELECT", "INPUT", "BUTTON"].includes(e.target.tagName) && e.target.type !== "checkbox") return;
+  if (["SELECT", "INPUT", "BUTTON", "TEXTAREA"].includes(e.target.tagName) && e.target.type !== "checkbox") return;
   const frame = (motion.end - motion.t[0]) / 100;
   const act = {
     " ": () => play(!playing), ArrowRight: () => go(time + frame), ArrowLeft: () => go(time - frame),
@@ -599,14 +615,14 @@ window.addEventListener("resize", () => {
 // -- for scripts ------------------------------------------------------------------------------------------------------------
 
 window.symgen = {
-  t: Array.from(motions[0].t),
-  q: motions[0].rows.map((row) => Array.from(row)),
-  names: data.names,
-  live: Boolean(live),
-  parameters: live ? data.live.parameters.map((x) => x.name) : [],
-  state: live ? data.live.state : [],
-  y0: live ? data.live.y0 : null,
-  rates: live ? live.rates : null,
+  get t() { return Array.from(motions[0].t); },
+  get q() { return motions[0].rows.map((row) => Array.from(row)); },
+  get names() { return data.names; },
+  get live() { return Boolean(live); },
+  get parameters() { return live ? data.live.parameters.map((x) => x.name) : []; },
+  get state() { return live ? data.live.state : []; },
+  get y0() { return live ? data.live.y0 : null; },
+  get rates() { return live ? live.rates : null; },
   // The state at the end of a run with parameters by name, by steps of the classical Runge-Kutta method.
   run(values = {}, until = motions[0].end, step = data.live.step) {
     for (const x of data.live.parameters) if (x.still && x.name in values) throw new Error(`${x.name} keeps its value in this page`);
@@ -666,8 +682,18 @@ window.symgen = {
   },
 };
 
-facts();
-if (live) sliders();
+// What is shown of data from its beginning.
+function begin(code) {
+  enliven(code);
+  facts();
+  offerTraces();
+  $("forcesBox").hidden = !(motion.reactions || motion.pulls);
+  if (live) sliders();
+  else $("live").hidden = true;
+}
+
+begin({ emitted, makeLive, observed, makeColumns: observed ? makeColumns : null });
+pace();
 view.fit(motion.rows);
 show(motion);
 requestAnimationFrame((now) => {

@@ -1,0 +1,217 @@
+"""Drafts: the text of an editor in, its errors, or what a page draws of it, out."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from symgen.api import Model
+from symgen.base.errors import AssemblyError, InputError, SymgenError
+from symgen.base.settings import Settings
+from symgen.describe.drawing.mechanism_scene import build_scene
+from symgen.describe.files.changes import Change, changed, wide_units
+from symgen.describe.files.handles import handles, numbers_of_parameters
+from symgen.describe.files.load import LARGEST_FILE, parse_toml
+from symgen.describe.files.origins import Source
+from symgen.describe.files.places import outline
+from symgen.describe.files.problems import Problem, problems
+from symgen.describe.files.renaming import removed, renamed
+from symgen.describe.files.snippets import Spot, snippet
+from symgen.describe.files.validate import validate
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.mechanism import Mechanism
+from symgen.result.player.motion_page import page_data
+from symgen.result.player.recording import Recording
+from symgen.result.result import Result
+from symgen.result.viewed import view_data
+from symgen.run.compiling.pipeline import refuse_loops
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
+
+#: Errors of a text that are sent at most.
+MOST_ERRORS = 100
+
+
+class Drafts:
+    """What texts of one file mean.
+
+    Parameters
+    ----------
+    path : Path
+        The file, whose folder has the meshes.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.source = Source.of(path)
+        self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
+        self._asked: dict[str, int] = {}
+        self._mechanism: tuple[str, Mechanism] | None = None
+
+    def check(self, text: str) -> dict[str, Any]:
+        """Return the errors of a text, each at its line, or the drawing of its start and what may be moved in it."""
+        self._refuse_large(text)
+        if found := problems(text, self.source):
+            return {"errors": [_error(problem) for problem in found[:MOST_ERRORS]], "count": len(found)}
+        raw, parts, mechanism = parse_toml(text, self.source), outline(text), self._read(text)
+        values = parameter_values(mechanism)
+        described = Model(mechanism).initial_state(values)[0]
+        q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
+        try:
+            start = prepare(*_for_closing(mechanism), Purpose.STATE).start
+            q, warnings = start.y[: len(described)], start.warnings
+        except AssemblyError as error:
+            q = np.array(error.q) if error.q else described
+            open_joints = error.joints
+            line = next((parts_line(text, parts.mentions, ("joints", name)) for name in open_joints), 1)
+            errors = [{"line": line, "text": str(error)}]
+        except SymgenError as error:  # a start that a formula leaves undefined
+            errors = [{"line": 1, "text": str(error)}]
+        recording = Recording(mechanism, values, np.zeros(1), np.atleast_2d(q))
+        moved = bool(warnings) or bool(open_joints)
+        ghost = Recording(mechanism, values, np.zeros(1), np.atleast_2d(described)) if moved else None
+        data = page_data(recording, second=ghost, open_joints=open_joints, note="; ".join(warnings))
+        wide = wide_units(text)
+        movable = handles(mechanism, raw, parts.values, text, [float(x) for x in q])
+        numbers = numbers_of_parameters(raw, parts.values, text)
+        return {
+            "errors": errors,
+            "count": len(errors),
+            "data": data,
+            "unit": float(build_scene(mechanism, q, values).unit),
+            "handles": [
+                {**handle._asdict(), "followers": [_in_page(follower, wide) for follower in handle.followers]}
+                for handle in movable
+            ],
+            "numbers": {name: _span(span, wide) for name, span in numbers.items()},
+        }
+
+    def motion(self, text: str, tab: str, asked: int) -> dict[str, Any]:
+        """Return the motion of a text, or that a later one was asked for.
+
+        Parameters
+        ----------
+        text : str
+            The text.
+        tab : str
+            Who asks; a later question of the same one takes the place of this one.
+        asked : int
+            Which question it is.
+        """
+        self._refuse_large(text)
+        self._asked[tab] = max(asked, self._asked.get(tab, 0))
+        with self._running:
+            if self._asked[tab] != asked:
+                return {"superseded": True}
+
+            def still_wanted(_: float) -> None:
+                if self._asked[tab] != asked:
+                    raise KeyboardInterrupt
+
+            mechanism = self._read(text)
+            result = Model(mechanism).simulate(_shaped(mechanism), progress=still_wanted)
+            if self._asked[tab] != asked:
+                return {"superseded": True}
+            facts = {"status": result.status, "reason": result.reason or ""}
+            if not len(result.t):
+                return {"data": None, **facts}
+            self._results = {tab: (text, result)}
+            return {"data": view_data(result, live=False)[0], **facts}
+
+    def live(self, text: str, tab: str) -> dict[str, Any]:
+        """Return the data and the script of a page that works out other motions of the last motion's text."""
+        with self._running:
+            before, result = self._results.get(tab, ("", None))
+            if result is None or before != text:
+                return {"superseded": True}
+            data, script = view_data(result)
+            return {"data": data, "script": script}
+
+    def change(self, kind: str, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a text with something added, renamed or taken out."""
+        text = str(given["text"])
+        self._refuse_large(text)
+        if kind == "rename":
+            return {"text": renamed(text, str(given["path"]), str(given["name"]), self.source)}
+        if kind == "remove":
+            return {"text": removed(text, str(given["path"]), self.source)}
+        raw = parse_toml(text, self.source)
+        spots = [_spot(spot) for spot in given["spots"]]
+        angle = self._angle(kind, text, spots)
+        added, path = snippet(str(given["part"]), spots, raw, outline(text), text, angle)
+        return {"text": changed(text, [Change(*added)]), "path": path}
+
+    def _angle(self, kind: str, text: str, spots: Iterable[Spot]) -> float:
+        """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""
+        spot = next(iter(spots), None)
+        if spot is None or not spot.body:
+            return 0.0
+        mechanism = self._read(text)
+        start = prepare(*_for_closing(mechanism), Purpose.STATE).start
+        angles, at = {"ground": 0.0}, 0
+        for body in mechanism.bodies:
+            if len(body.coordinates) == 3:
+                angles[body.name] = float(start.y[at + 2])
+            at += len(body.coordinates)
+        bodies = next((j.bodies for j in mechanism.joints if j.name == spot.joint), ("ground", spot.body))
+        return angles.get(bodies[-1], 0.0) - angles.get(bodies[0], 0.0)
+
+    def _read(self, text: str) -> Mechanism:
+        """Return the mechanism of a text; the last one is kept."""
+        if self._mechanism is None or self._mechanism[0] != text:
+            self._mechanism = (text, validate(parse_toml(text, self.source), self.source))
+        return self._mechanism[1]
+
+    def _refuse_large(self, text: str) -> None:
+        if len(text) > LARGEST_FILE or len(text.encode(errors="replace")) > LARGEST_FILE:
+            raise InputError(self.source, f"a text of at most {LARGEST_FILE} bytes", "a larger one")
+
+
+def parts_line(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int:
+    """Return the line of the first key of a path, 1 where there is none."""
+    start = next((mention.start for mention in mentions if mention.path == path), 0)
+    return text.count("\n", 0, start) + 1
+
+
+def _for_closing(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
+    """Return what decides where a mechanism closes, without what only moves it, in a shape that needs no compiling."""
+    bare = msgspec.structs.replace(
+        mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), frictions=(), stops=(), switchable=()
+    )
+    return bare, _shaped(bare)
+
+
+def _shaped(mechanism: Mechanism) -> Settings:
+    """Return settings of runs that begin at once: loops over tables that all mechanisms share, where these can be."""
+    try:
+        refuse_loops(mechanism)
+    except InputError:
+        return Settings()
+    return Settings(shape="looped")
+
+
+def _error(problem: Problem) -> dict[str, Any]:
+    return {"line": problem.line, "text": str(problem)}
+
+
+def _spot(given: Mapping[str, Any]) -> Spot:
+    """Return a spot of a page."""
+    x, y = float(given["x"]), float(given["y"])
+    at = tuple(float(e) for e in given.get("at") or (0.0, 0.0))
+    words = (str(given.get(key) or "") for key in ("body", "point", "joint"))
+    body, point, joint = words
+    return Spot(x, y, "" if body == "ground" else body, point, (at[0], at[1]), joint)
+
+
+def _span(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:
+    """Return characters as pages count them."""
+    return span if wide is None else (wide[span[0]], wide[span[1]])
+
+
+def _in_page(follower: Any, wide: list[int] | None) -> dict[str, Any]:
+    start, end = _span((follower.start, follower.end), wide)
+    return {**follower._asdict(), "start": start, "end": end}

@@ -1,0 +1,163 @@
+"""The server of the editor: this computer's browser alone, one secret address, one file.
+
+Everything that a page sends is JSON behind the secret; nothing in it names a file. A request of another page has
+another `Origin`, or a `Host` that is not this address, and is refused before it is read.
+"""
+
+from __future__ import annotations
+
+import json
+import secrets
+from collections.abc import Callable, Mapping
+from functools import partial
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+from symgen.base.errors import InputError, SymgenError
+from symgen.cli._editor.document import Document
+from symgen.cli._editor.drafts import Drafts
+from symgen.cli._editor.page import page
+from symgen.describe.files.load import LARGEST_FILE
+from symgen.describe.files.problems import in_line
+
+HOST = "127.0.0.1"
+#: Bytes of a request at most: a text of the largest size in JSON, where characters may be escaped.
+LARGEST_REQUEST = 6 * LARGEST_FILE + 10_000
+JSON = "application/json"
+_HEADERS = {
+    "Cache-Control": "no-store",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+}
+
+Job = Callable[[Mapping[str, Any]], Mapping[str, Any]]
+
+
+class Editor(ThreadingHTTPServer):
+    """The server of one file; `serve_forever` serves it.
+
+    Parameters
+    ----------
+    document : Document
+        The file.
+    port : int
+        Port of this computer; 0 for a free one.
+    """
+
+    daemon_threads = True
+    allow_reuse_address = False
+
+    def __init__(self, document: Document, port: int = 0) -> None:
+        super().__init__((HOST, port), _Handler)
+        self.secret = secrets.token_urlsafe(32)
+        self.document, drafts = document, Drafts(document.path)
+        self.origin = f"http://{HOST}:{self.server_port}"
+        self.jobs: dict[str, Job] = {
+            "load": lambda _: document.read(),
+            "save": lambda given: document.save(_text(given), str(given.get("digest", "")), given.get("force") is True),
+            "check": lambda given: drafts.check(_text(given)),
+            "motion": lambda given: drafts.motion(_text(given), str(given.get("tab", "")), int(given.get("asked", 0))),
+            "live": lambda given: drafts.live(_text(given), str(given.get("tab", ""))),
+            **{kind: partial(drafts.change, kind) for kind in ("add", "rename", "remove")},
+        }
+
+    @property
+    def address(self) -> str:
+        """The address of the page, with its secret."""
+        return f"{self.origin}/{self.secret}/"
+
+
+def _text(given: Mapping[str, Any]) -> str:
+    text = given.get("text")
+    if not isinstance(text, str):
+        raise InputError("text", "a text", type(text).__name__)
+    return text
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """One connection."""
+
+    server: Editor
+    protocol_version = "HTTP/1.1"
+    server_version, sys_version = "symgen", ""
+    timeout = 60.0
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Log nothing: the address has a secret."""
+
+    def do_GET(self) -> None:
+        """Send the page; nothing else is there."""
+        if not self._allowed("GET"):
+            return self._refuse(403)
+        if self._word() != "":
+            return self._refuse(404)
+        nonce = secrets.token_urlsafe(16)
+        text, policy = page(self.server.document.path.name, nonce)
+        self._send(200, text, "text/html", {"Content-Security-Policy": policy})
+
+    def do_POST(self) -> None:
+        """Do a job of the page."""
+        if not self._allowed("POST"):
+            return self._refuse(403)
+        job = self.server.jobs.get(self._word() or "")
+        if job is None:
+            return self._refuse(404)
+        if self.headers.get_content_type() != JSON:
+            return self._refuse(415)
+        length = self.headers.get("Content-Length", "")
+        if not length.isdecimal() or "Transfer-Encoding" in self.headers:
+            return self._refuse(411)
+        if int(length) > LARGEST_REQUEST:
+            return self._refuse(413)
+        try:
+            given = json.loads(self.rfile.read(int(length)))
+        except (ValueError, RecursionError):
+            return self._refuse(400)
+        self._send(200, json.dumps(self._answer(job, given if isinstance(given, dict) else {})), JSON)
+
+    def _answer(self, job: Job, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return what a job returns, or the sentence of its error."""
+        try:
+            return job(given)
+        except InputError as error:
+            return {"error": in_line(error) if error.file is None else str(error)}
+        except SymgenError as error:
+            return {"error": str(error)}
+        except (KeyError, TypeError, ValueError) as error:
+            return {"error": f"expected what the page of this editor sends, got something else ({error})"}
+        except MemoryError:
+            return {"error": "there is not enough memory for that"}
+
+    def _allowed(self, method: str) -> bool:
+        """Whether the request comes from the page itself, or from who has its address."""
+        origin, site = self.headers.get("Origin"), self.headers.get("Sec-Fetch-Site", "none")
+        own = self.headers.get_all("Host") == [self.server.origin.removeprefix("http://")]
+        first = [*self.path.split("/"), ""][1]
+        known = secrets.compare_digest(first.encode(), self.server.secret.encode())
+        if method == "POST":
+            return own and known and origin == self.server.origin
+        return own and known and origin in (None, self.server.origin) and site in ("none", "same-origin")
+
+    def _word(self) -> str | None:
+        """Return what follows the secret in the address; None for anything with further parts."""
+        parts = self.path.split("/")
+        return parts[2] if len(parts) == 3 else None
+
+    def _refuse(self, status: int) -> None:
+        self.close_connection = True
+        self._send(status, "", "text/plain")
+
+    def _send(self, status: int, text: str, kind: str, headers: Mapping[str, str] | None = None) -> None:
+        body = text.encode()
+        self.send_response(status)
+        for name, value in {**_HEADERS, **(headers or {})}.items():
+            self.send_header(name, value)
+        self.send_header("Content-Type", f"{kind}; charset=utf-8")
+        self.send_header("Content-Length", str(len(body)))
+        if self.close_connection:
+            self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(body)

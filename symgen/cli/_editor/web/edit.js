@@ -1,0 +1,289 @@
+// -- the server -----------------------------------------------------------------------------------------------------------
+
+const tab = Array.from(crypto.getRandomValues(new Uint32Array(2)), String).join("-");
+const NOTHING = { emitted: null, makeLive: null, observed: null, makeColumns: null };
+const LARGEST = 1000000;
+const MOTION = 60, LIVE = 700; // milliseconds of rest before a motion, and its live part, are asked for
+let version = 0, checking = false, again = false, digest = "", saved = "", timer = 0, resume = null, times = {}, fresh = true; // nothing has moved yet
+
+async function post(job, given) {
+  if (given.text && given.text.length > LARGEST) return { error: `expected a text of at most ${LARGEST} characters, got ${given.text.length}` };
+  try {
+    const answer = await fetch(job, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(given) });
+    if (!answer.ok) throw new Error(`it refused, with ${answer.status}`);
+    return await answer.json();
+  } catch (error) {
+    return { error: `symgen edit does not answer: ${error.message}; is it still running?` };
+  }
+}
+
+function say(text, wrong = false) {
+  $("status").textContent = text;
+  $("status").style.color = wrong ? "var(--bad)" : "";
+}
+
+// -- what is shown --------------------------------------------------------------------------------------------------------
+
+// Other data in the page: of a start alone, of a motion, or of a motion with a live part. Where it looks from stays.
+function display(next, kind, code = NOTHING) {
+  const { camera, spatial } = view, empty = !data.scene.items.length;
+  if (resume === null && motion.t.length > 1) resume = time;
+  data = opened(next);
+  stage();
+  motions = data.motions.map(recorded);
+  motion = motions[0];
+  follow = null;
+  rows = [];
+  ranges = null;
+  document.querySelector("header h1").textContent = data.title;
+  if (view.spatial === spatial && !empty) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
+  else view.fit(motion.rows);
+  if (kind === "live") begin(code);
+  else {
+    live = columns = null;
+    $("live").inert = true;
+  }
+  if (kind === "motion") {
+    facts();
+    $("forcesBox").hidden = !(motion.reactions || motion.pulls);
+  }
+  if (kind === "live") $("live").inert = false;
+  offerTraces();
+  const shown = kind !== "start" ? resume ?? time : 0;
+  show(motion);
+  if (kind === "start") {
+    $("plots").hidden = false;
+    $("plots").classList.add("waiting");
+  } else {
+    resume = null;
+    if (fresh) pace();
+    if (fresh) view.fit(motion.rows);
+    else if (!held) outgrown();
+    fresh = false;
+  }
+  go(shown);
+}
+
+// Look at all of it where the mechanism has left the picture, or has become small in it.
+function outgrown() {
+  const before = { ...view.camera, at: [...view.camera.at] };
+  view.fit(motion.rows);
+  const now = view.camera, ratio = before.scale / now.scale;
+  const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
+  const keep = ratio < 1.25 && ratio > 0.4 && aside < 0.25 * Math.min(now.width, now.height);
+  if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
+}
+
+function showErrors(found, count) {
+  bad = new Map(found.map((each) => [each.line, each.text]));
+  mark();
+  const box = $("errors");
+  box.textContent = "";
+  box.hidden = !found.length;
+  for (const each of found) {
+    const item = element("li"), button = element("button", `${each.line}: ${each.text}`);
+    button.addEventListener("click", () => select(startOfLine(each.line), startOfLine(each.line + 1) - 1));
+    item.append(button);
+    box.append(item);
+  }
+  if (count > found.length) box.append(element("li", `${count - found.length} more`));
+  $("picture").classList.toggle("stale", Boolean(found.length) && !movable.length);
+}
+
+// -- checking while it is typed -------------------------------------------------------------------------------------------
+
+async function check() {
+  if (checking) {
+    again = true;
+    return;
+  }
+  checking = true;
+  const own = version, text = T.value, began = performance.now();
+  const answer = await post("check", { text });
+  checking = false;
+  if (own === version || held) checked(answer, text, own, began);
+  if (again) {
+    again = false;
+    check();
+  }
+}
+
+function checked(answer, text, own, began) {
+  if (answer.error) return say(answer.error, true);
+  if (!answer.data) {
+    movable = [];
+    checkedText = null;
+    numbers = {};
+    showErrors(answer.errors, answer.count);
+    times.error = performance.now() - began;
+    layHandles();
+    return;
+  }
+  movable = answer.handles;
+  numbers = answer.numbers;
+  checkedText = text;
+  showErrors(answer.errors, answer.count);
+  if (!playing || answer.errors.length) display(answer.data, "start");
+  render();
+  times.drawing = performance.now() - began;
+  times.frames = (times.frames || 0) + 1;
+  say(answer.data.note);
+  clearTimeout(timer);
+  if (!answer.errors.length && own === version && !held) timer = setTimeout(() => move(own, text), MOTION);
+}
+
+async function move(own, text) {
+  const began = performance.now(), answer = await post("motion", { text, tab, asked: own });
+  if (own !== version || answer.superseded) return;
+  if (answer.error) return say(answer.error, true);
+  if (answer.data) display(answer.data, "motion");
+  render();
+  times.motion = performance.now() - began;
+  times.moved = own;
+  say(answer.reason || (answer.data && answer.data.note) || "", answer.status === "failed");
+  if (answer.data && answer.status !== "failed") timer = setTimeout(() => enlive(own, text), LIVE);
+}
+
+async function enlive(own, text) {
+  const began = performance.now(), answer = await post("live", { text, tab });
+  if (own !== version || answer.superseded || answer.error || held) return;
+  display(answer.data, "live", answer.script ? executed(answer.script) : NOTHING);
+  times.live = performance.now() - began;
+  times.lived = own;
+}
+
+// The script of a live part runs with the word that the page's policy knows.
+function executed(script) {
+  const tag = document.createElement("script");
+  tag.nonce = document.querySelector("script[nonce]").nonce;
+  tag.textContent = `window.symgenLive = (() => {\n${script}\n})();`;
+  document.head.append(tag);
+  tag.remove();
+  const code = window.symgenLive;
+  delete window.symgenLive;
+  return code;
+}
+
+changes.push(() => {
+  version++;
+  clearTimeout(timer);
+  $("dirty").hidden = T.value === saved;
+  $("undo").disabled = !past.length;
+  $("redo").disabled = !future.length;
+  check();
+});
+
+// A slider's number goes into the text when it is let go.
+$("live").addEventListener("change", (e) => {
+  const name = e.target.dataset.name, span = name && Object.hasOwn(numbers, name) && checkedText === T.value ? numbers[name] : null;
+  if (!span) return;
+  const value = [...$("live").querySelectorAll('input[type="number"]')].find((x) => x.dataset.name === name).valueAsNumber;
+  const before = T.value.slice(...span), text = String(value);
+  if (Number.isFinite(value)) setText(T.value.slice(0, span[0]) + (/[.e]/i.test(before) && !/[.e]/i.test(text) ? `${text}.0` : text) + T.value.slice(span[1]));
+});
+
+// -- the file -------------------------------------------------------------------------------------------------------------
+
+async function open(again = false) {
+  const answer = await post("load", {});
+  if (answer.error) return say(answer.error, true);
+  digest = answer.digest;
+  saved = digest ? answer.text : null;
+  if (again) setText(answer.text, 0);
+  else beginText(answer.text);
+}
+
+async function save(force = false) {
+  const text = T.value, answer = await post("save", { text, digest, force });
+  if (answer.error) return say(answer.error, true);
+  if (answer.changed) {
+    $("question").textContent = `${editor.file} has changed on the disk since it was read here.`;
+    return $("ask").showModal();
+  }
+  digest = answer.digest;
+  saved = text;
+  $("dirty").hidden = T.value === saved;
+  say(`saved ${editor.file}`);
+}
+$("save").addEventListener("click", () => save());
+for (const [id, act] of [["over", () => save(true)], ["take", () => open(true)], ["back", () => {}]]) {
+  $(id).addEventListener("click", () => {
+    $("ask").close();
+    act();
+  });
+}
+window.addEventListener("beforeunload", (e) => T.value !== saved && saved !== null && e.preventDefault());
+
+// -- names ----------------------------------------------------------------------------------------------------------------
+
+// The path of what the cursor is at: a parameter, a named point, or the table.
+function atCursor() {
+  const c = context(), [section, name] = c.table, line = T.value.split("\n")[lineAt(T.selectionStart) - 1] || "";
+  const key = /^\s*["']?([\w-]+)["']?\s*=/.exec(line)?.[1];
+  const begin = T.value.lastIndexOf("\n", T.selectionStart - 1) + 1, header = /^\s*\[+([\w.-]+)\]/.exec(line);
+  if (header) return header[1].split(".").slice(0, 2).join(".");
+  if (section === "bodies" && key === "points") {
+    const inner = [...line.matchAll(/([A-Za-z]\w*)\s*=\s*\[/g)].find((m) => begin + m.index <= T.selectionStart && T.selectionStart <= begin + m.index + m[1].length);
+    if (inner) return `bodies.${name}.points.${inner[1]}`;
+  }
+  if (["parameters", "inputs", "outputs"].includes(section) && c.table.length === 1) return key ? `${section}.${key}` : "";
+  return name ? `${section}.${name}` : "";
+}
+
+let naming = "";
+function rename() {
+  naming = atCursor();
+  if (!naming) return say("put the cursor at a body, a joint, a force, a point or a parameter", true);
+  $("naming").hidden = false;
+  $("named").textContent = `New name of ${naming}`;
+  $("name").value = naming.split(".").pop();
+  $("name").select();
+}
+
+async function named_so(on) {
+  $("naming").hidden = true;
+  const text = T.value, place = T.selectionStart;
+  T.focus();
+  if (!on) return;
+  const answer = await post("rename", { text, path: naming, name: $("name").value.trim() });
+  if (answer.error) return say(answer.error, true);
+  if (T.value === text) setText(answer.text, Math.min(place, answer.text.length));
+}
+
+async function remove() {
+  const text = T.value, path = atCursor(), place = T.selectionStart;
+  if (!path) return say("put the cursor into the table that is to be taken out", true);
+  const answer = await post("remove", { text, path });
+  if (answer.error) return say(answer.error, true);
+  if (T.value !== text) return;
+  setText(answer.text, Math.min(place, answer.text.length));
+  say(`took out ${path}`);
+}
+$("rename").addEventListener("click", rename);
+$("remove").addEventListener("click", remove);
+$("give").addEventListener("click", () => named_so(true));
+$("keep").addEventListener("click", () => named_so(false));
+$("name").addEventListener("keydown", (e) => {
+  if (e.key === "Enter" || e.key === "Escape") {
+    e.preventDefault();
+    named_so(e.key === "Enter");
+  }
+});
+
+// -- keys -----------------------------------------------------------------------------------------------------------------
+
+$("undo").addEventListener("click", undo);
+$("redo").addEventListener("click", redo);
+window.addEventListener("keydown", (e) => {
+  const key = e.key.toLowerCase(), act = e.ctrlKey || e.metaKey
+    ? { s: save, f: () => seek(true), z: e.shiftKey ? redo : undo, y: redo }[key]
+    : { f2: rename, escape: () => tool !== "move" && choosing("move") }[key];
+  if (!act || (key === "z" && e.target !== T && e.target.tagName === "INPUT")) return;
+  if (key !== "escape") e.preventDefault();
+  e.stopPropagation();
+  act();
+}, { capture: true });
+
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, rest: () => !checking && !again && times.moved === version };
+choosing("move");
+open();

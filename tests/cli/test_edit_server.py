@@ -1,0 +1,294 @@
+"""The server of ``symgen edit``: what it answers, to whom, and what it writes."""
+
+import http.client
+import json
+import os
+import re
+import shutil
+import threading
+from collections.abc import Iterator
+from contextlib import closing
+from email.message import Message
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from symgen.base.errors import InputError
+from symgen.cli._editor.document import Document
+from symgen.cli._editor.drafts import Drafts
+from symgen.cli._editor.server import LARGEST_REQUEST, Editor
+from symgen.describe import catalogue
+from symgen.describe.files.load import LARGEST_FILE
+
+FOUR_BAR = catalogue.file_of("four-bar")
+assert FOUR_BAR is not None
+TEXT = FOUR_BAR.read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def editor(tmp_path: Path) -> Iterator[Editor]:
+    file = tmp_path / "bar.toml"
+    file.write_text(TEXT, encoding="utf-8")
+    with Editor(Document(file)) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True)
+        thread.start()
+        yield server
+        server.shutdown()
+        thread.join(10)
+
+
+class Answer(NamedTuple):
+    status: int
+    headers: Message
+    body: bytes
+
+
+def asked(editor: Editor, path: str, body: bytes | None = None, method: str = "", **changed: str | None) -> Answer:
+    """Return the answer to a request as the page sends it, but for headers that are changed, or left out for None."""
+    headers: dict[str, str | None] = {"Host": editor.origin.removeprefix("http://")}
+    if body is not None:
+        headers |= {"Origin": editor.origin, "Content-Type": "application/json", "Content-Length": str(len(body))}
+    headers |= {name.replace("_", "-"): value for name, value in changed.items()}
+    with closing(http.client.HTTPConnection("127.0.0.1", editor.server_port, timeout=20)) as connection:
+        connection.putrequest(method or ("GET" if body is None else "POST"), path, skip_host=True)
+        for name, value in headers.items():
+            if value is not None:
+                connection.putheader(name, value)
+        connection.endheaders(body)
+        with connection.getresponse() as response:
+            return Answer(response.status, response.headers, response.read())
+
+
+def done(editor: Editor, job: str, **given: Any) -> Any:
+    answer = asked(editor, f"/{editor.secret}/{job}", json.dumps(given).encode())
+    assert answer.status == 200
+    return json.loads(answer.body)
+
+
+def test_the_page_is_whole_and_runs_under_a_policy_of_its_own(editor: Editor) -> None:
+    answer = asked(editor, f"/{editor.secret}/")
+    text, policy = answer.body.decode(), answer.headers["Content-Security-Policy"]
+    nonce = re.search(r"script-src 'nonce-([\w-]+)'", policy)
+    assert answer.status == 200 and nonce is not None
+    assert "default-src 'none'" in policy and "unsafe" not in policy and "connect-src 'self'" in policy
+    assert "frame-ancestors 'none'" in policy and answer.headers["Referrer-Policy"] == "no-referrer"
+    assert text.count(f'nonce="{nonce[1]}"') == len(
+        re.findall(r"<(?:script|style)(?! type=\"application/json\")", text)
+    )
+    assert not re.search(r"https?://(?!www\.w3\.org)", text)
+    assert not re.search(r"<(link|img|script|iframe)[^>]*(src|href)=(?!\"data:)", text)
+    other = asked(editor, f"/{editor.secret}/").headers["Content-Security-Policy"]
+    assert other != policy  # a word that is used twice could be known
+
+
+def test_a_name_of_a_file_is_no_markup(tmp_path: Path) -> None:
+    file = tmp_path / "<img src=x onerror=alert(1)>.toml"
+    file.write_text(TEXT, encoding="utf-8")
+    with Editor(Document(file)) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True)
+        thread.start()
+        text = asked(server, f"/{server.secret}/").body.decode()
+        server.shutdown()
+    assert "<img" not in text and "&lt;img src=x" in text
+
+
+JOB = json.dumps({"text": TEXT}).encode()
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Origin": None},
+        {"Origin": "http://127.0.0.1:1"},
+        {"Host": "evil.example"},
+        {"Host": "localhost"},
+        {"Host": None},
+    ],
+)
+def test_a_page_from_elsewhere_is_refused(editor: Editor, changed: dict[str, str | None]) -> None:
+    assert asked(editor, f"/{editor.secret}/check", JOB, **changed).status == 403
+
+
+def test_a_link_from_another_page_is_refused(editor: Editor) -> None:
+    assert asked(editor, f"/{editor.secret}/", Sec_Fetch_Site="cross-site").status == 403
+    assert asked(editor, f"/{editor.secret}/", Origin="http://evil.example").status == 403
+    assert asked(editor, f"/{editor.secret}/", Sec_Fetch_Site="none").status == 200
+
+
+@pytest.mark.parametrize("path", ["/", "//", "/guess/", "/guess/check", "", "*", "/%2e%2e/", "http://evil.example/"])
+def test_without_the_secret_nothing_is_there(editor: Editor, path: str) -> None:
+    assert asked(editor, path or "/x").status == 403
+    assert asked(editor, path or "/x", JOB).status == 403
+    assert asked(editor, f"/{editor.secret[:-1]}/check", JOB).status == 403
+
+
+@pytest.mark.parametrize(
+    "path", ["../bar.toml", "..", "../../etc/passwd", "%2e%2e/bar.toml", "bar.toml", "check/", "check?x", "__init__"]
+)
+def test_no_address_is_a_path_of_a_file(editor: Editor, path: str) -> None:
+    for answer in (asked(editor, f"/{editor.secret}/{path}"), asked(editor, f"/{editor.secret}/{path}", JOB)):
+        assert answer.status == 404 and answer.body == b""
+
+
+def test_other_requests_are_refused(editor: Editor) -> None:
+    job = f"/{editor.secret}/check"
+    assert asked(editor, job, JOB, Content_Type="text/plain").status == 415  # what a form could send
+    assert asked(editor, job, JOB, Content_Length=None).status == 411
+    assert asked(editor, job, b"", Content_Length=str(LARGEST_REQUEST + 1)).status == 413
+    assert asked(editor, job, b"{").status == 400
+    assert asked(editor, job, b"[" * 100_000).status == 400
+    assert "expected a text" in json.loads(asked(editor, job, b"[1]").body)["error"]
+    assert "expected a text" in done(editor, "check", text=3)["error"]
+    assert "error" in done(editor, "add", text=TEXT, part="body", spots=[{"x": "here"}])
+    assert asked(editor, job, JOB, method="PUT").status == 501
+    assert done(editor, "check", text=TEXT)["errors"] == []  # and it goes on
+
+
+def test_errors_are_those_of_the_command_line_with_their_lines(editor: Editor, cli: Any, tmp_path: Path) -> None:
+    wrong = TEXT.replace('"crank_mass"', '"crank_mas"', 1).replace("until", "untill", 1)
+    (tmp_path / "wrong.toml").write_text(wrong, encoding="utf-8")
+    said = cli("check", tmp_path / "wrong.toml")[2].splitlines()
+    found = done(editor, "check", text=wrong)
+    assert [f"{tmp_path / 'wrong.toml'}:{e['line']}: {e['text']}" for e in found["errors"]] == said
+    assert len(said) == found["count"] == 2 and "data" not in found
+    assert done(editor, "check", text="[mechanism\n")["errors"][0]["line"] == 1
+
+
+def test_a_mechanism_that_does_not_close_is_drawn_with_its_sentence(editor: Editor) -> None:
+    found = done(editor, "check", text=TEXT.replace("[10.0, 0.0]", "[30.0, 0.0]"))
+    (error,) = found["errors"]
+    assert "cannot be assembled" in error["text"]
+    assert TEXT.split("\n")[error["line"] - 1].startswith("[joints.")
+    assert any(item["role"] == "fault" for item in found["data"]["scene"]["items"])
+    assert len(found["data"]["motions"]) == 2  # the described start stands behind
+
+
+def test_the_drawing_has_the_start_and_the_motion_what_a_page_has(editor: Editor) -> None:
+    text = TEXT.replace("until = 10.0", "until = 0.2")
+    found = done(editor, "check", text=text)
+    assert found["errors"] == [] and found["data"]["motions"][0]["count"] == 1
+    assert {handle["name"] for handle in found["handles"]} == {f"joints.{name}" for name in "ABCD"}
+    assert {text[slice(*span)] for span in found["numbers"].values()} == {"2.0", "8.0", "5.0"}
+    moved = done(editor, "motion", text=text, tab="a", asked=1)
+    assert moved["status"] == "ok" and moved["data"]["motions"][0]["count"] > 10 and moved["data"]["live"] is None
+    live = done(editor, "live", text=text, tab="a")
+    assert live["data"]["live"]["method"] == "direct-correction" and "makeLive" in live["script"]
+    assert done(editor, "live", text=TEXT, tab="a") == {"superseded": True}
+
+
+def test_a_later_question_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:
+    drafts, text = Drafts(tmp_path / "a.toml"), TEXT.replace("until = 10.0", "until = 0.1")
+    assert drafts.motion(text, "a", 2)["status"] == "ok"
+    assert drafts.motion(text, "a", 1) == {"superseded": True}
+    assert drafts.motion(text, "b", 1)["status"] == "ok"
+
+
+def test_characters_are_counted_as_pages_count_them(editor: Editor) -> None:
+    text = "# \U0001f600\n" + TEXT
+    span = done(editor, "check", text=text)["numbers"]["crank_mass"]
+    assert text.encode("utf-16-le")[2 * span[0] : 2 * span[1]].decode("utf-16-le") == "2.0"
+
+
+# -- the file ----------------------------------------------------------------------------------------------------------
+
+
+def test_saving_changes_what_was_changed_and_nothing_else(editor: Editor) -> None:
+    file = editor.document.path
+    file.write_bytes(b"\xef\xbb\xbf" + TEXT.replace("\n", "\r\n").encode())
+    before, loaded = file.read_bytes(), done(editor, "load")
+    assert "\r" not in loaded["text"] and file.read_bytes() == before
+    answer = done(editor, "save", text=loaded["text"].replace("[10.0, 0.0]", "[9.5, 0.0]"), digest=loaded["digest"])
+    assert answer["saved"] and file.read_bytes() == before.replace(b"[10.0, 0.0]", b"[9.5, 0.0]")
+
+
+def test_lines_with_two_kinds_of_ends_keep_theirs(tmp_path: Path) -> None:
+    file = tmp_path / "mixed.toml"
+    file.write_bytes(b"# a\r\n# b\nx = 1\r\n# c\n")
+    document = Document(file)
+    loaded = document.read()
+    document.save(loaded["text"].replace("x = 1\n", "x = 2\ny = 3\n"), loaded["digest"], False)
+    assert file.read_bytes() == b"# a\r\n# b\nx = 2\r\ny = 3\r\n# c\n"
+
+
+def test_two_editors_of_one_file_ask_before_they_write_over_each_other(editor: Editor) -> None:
+    other = Document(editor.document.path)
+    first, second = done(editor, "load"), other.read()
+    assert other.save(second["text"] + "# theirs\n", second["digest"], False)["saved"]
+    assert done(editor, "save", text=first["text"] + "# ours\n", digest=first["digest"]) == {"changed": True}
+    assert editor.document.path.read_text().endswith("# theirs\n")
+    answer = done(editor, "save", text=first["text"] + "# ours\n", digest=first["digest"], force=True)
+    assert answer["saved"] and editor.document.path.read_text().endswith("# ours\n")
+    assert done(editor, "save", text=TEXT, digest=answer["digest"])["saved"]  # its own writing is no change of others
+
+
+def test_a_file_that_went_away_is_a_change(editor: Editor) -> None:
+    loaded = done(editor, "load")
+    editor.document.path.unlink()
+    assert done(editor, "save", text=TEXT, digest=loaded["digest"]) == {"changed": True}
+
+
+def test_a_writing_that_is_cut_off_leaves_the_file(editor: Editor, monkeypatch: pytest.MonkeyPatch) -> None:
+    loaded = done(editor, "load")
+
+    def cut_off(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", cut_off)
+    assert "No space left" in done(editor, "save", text="# new\n", digest=loaded["digest"])["error"]
+    assert [path.name for path in editor.document.path.parent.iterdir()] == ["bar.toml"]
+    assert editor.document.path.read_text() == TEXT
+
+
+def test_ten_megabytes_are_one_sentence(editor: Editor, tmp_path: Path) -> None:
+    large = "# " + "x" * 10_000_000
+    (tmp_path / "large.toml").write_text(large)
+    with pytest.raises(InputError, match="a file of at most 1000000 bytes"):
+        Document(tmp_path / "large.toml")
+    assert asked(editor, f"/{editor.secret}/check", b"", Content_Length=str(len(large))).status == 413
+    within = "#" * (LARGEST_FILE + 1)
+    for job in ("check", "save", "motion", "add"):
+        assert "1000000 bytes" in done(editor, job, text=within)["error"]
+    assert editor.document.path.read_text() == TEXT
+
+
+# -- the command -------------------------------------------------------------------------------------------------------
+
+
+def test_documents_by_the_words_of_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    copy = Document.of("four-bar", None)
+    assert copy.path == Path("four-bar.toml") and copy.read() == {"text": TEXT, "digest": ""}
+    assert list(tmp_path.iterdir()) == []  # nothing is written before it is saved
+    assert copy.save(TEXT, "", False)["saved"] and Path("four-bar.toml").read_text() == TEXT
+    new = Document.of(None, "crane")
+    assert 'name = "crane"' in new.read()["text"] and not Path("crane.toml").exists()
+    assert Document.of("four-bar.toml", None).read()["digest"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ((), "--new NAME, got neither"),
+        (("four-bar", "--new", "x"), "got both"),
+        (("nowhere.toml",), "symgen edit --new nowhere begins one"),
+        (("n-four-bar:3",), "a catalogue name without a size"),
+        (("--new", "A b"), "name: expected"),
+        (("taken", "--new", "taken"), "got both"),
+        (("--new", "taken"), "symgen edit taken.toml"),
+    ],
+)
+def test_refusals(
+    cli: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], sentence: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(str(FOUR_BAR), "taken.toml")
+    code, out, err = cli("edit", *words)
+    assert code == 2 and out == "" and sentence in err
+
+
+def test_a_port_that_is_taken_is_one_sentence(editor: Editor, cli: Any) -> None:
+    code, _, err = cli("edit", editor.document.path, "--no-browser", "--port", editor.server_port)
+    assert code == 2 and err.startswith("symgen: --port: expected a port that is free")
