@@ -120,6 +120,9 @@ class Chromium:
             self.said.append(" ".join(str(a.get("value", a.get("description"))) for a in given["args"]))
         elif found.get("method") == "Log.entryAdded" and given["entry"]["level"] in ("error", "warning"):
             self.said.append(given["entry"]["text"])
+        elif found.get("method") == "Page.javascriptDialogOpening":  # a page that asks before it is left
+            accept = {"id": 0, "method": "Page.handleJavaScriptDialog", "params": {"accept": True}}
+            os.write(self._write, json.dumps({**accept, "sessionId": self.session}).encode() + b"\0")
         elif found.get("method") == "Network.requestWillBeSent":
             address = given["request"]["url"]
             if not address.startswith(("file:", "data:", "about:")):

@@ -1,0 +1,373 @@
+"""``symgen edit`` in a real browser: typed, dragged, drawn, undone, saved; ``make browser`` runs these."""
+
+import json
+import os
+import shutil
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from symgen.api import load
+from symgen.cli._editor.document import Document
+from symgen.cli._editor.server import Editor
+from symgen.describe import catalogue
+from tests.browser.chromium import PATIENCE, Chromium
+
+pytestmark = pytest.mark.browser
+
+#: Where pictures of a run of these tests are kept; nowhere unless it is set.
+KEPT = os.environ.get("SYMGEN_BROWSER_PICTURES")
+
+
+class Page:
+    """A page of the editor in a browser."""
+
+    def __init__(self, chromium: Chromium, editor: Editor) -> None:
+        self.chromium, self.editor, self.run = chromium, editor, chromium.run
+
+    def open(self, width: int = 1280, height: int = 800) -> None:
+        """Open the page and wait until its mechanism moves."""
+        self.chromium.call(
+            "Emulation.setDeviceMetricsOverride",
+            **{"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600},
+        )
+        self.chromium.said = []
+        self.chromium.call("Page.navigate", url=self.editor.address)
+        self.until("Boolean(window.symgen && window.symgen.editor)")
+
+    def until(self, words: str) -> None:
+        """Wait until an expression of the page is true."""
+        ends = time.monotonic() + PATIENCE
+        while not self.run(words):
+            assert time.monotonic() < ends, f"never: {words}; {self.said()}"
+            time.sleep(0.02)
+
+    def rested(self) -> None:
+        """Wait until the text that stands there has been checked and moves."""
+        self.until("window.symgen.editor.rest()")
+
+    def said(self) -> list[str]:
+        """Return what the console says, and who is asked other than the server."""
+        return [line for line in self.chromium.said if not line.startswith(f"the page asks for {self.editor.address}")]
+
+    def text(self, of: str) -> str:
+        """Return the text of an element, of the field what is in it."""
+        return str(self.run(f"((e) => e.value ?? e.textContent)(document.getElementById('{of}'))"))
+
+    def type(self, at: int, text: str, erased: int = 0) -> None:
+        """Type at a character of the text, after having erased some behind it."""
+        selected = f"document.getElementById('text').setSelectionRange({at}, {at + erased})"
+        self.run(f"document.getElementById('text').focus(); {selected}")
+        if text:
+            self.chromium.call("Input.insertText", text=text)
+        else:
+            self.key("Delete")
+
+    def key(self, key: str, modifiers: int = 0) -> None:
+        """Press a key; modifiers are 2 for control and 8 for shift."""
+        code = {"Enter": 13, "Delete": 46, "Escape": 27, "Tab": 9, "F2": 113}.get(key, ord(key.upper()[0]))
+        for kind in ("rawKeyDown", "char", "keyUp") if key == "Enter" else ("rawKeyDown", "keyUp"):
+            text = {"text": "\r"} if kind == "char" else {}
+            self.chromium.call(
+                "Input.dispatchKeyEvent",
+                **{"type": kind, "key": key, "windowsVirtualKeyCode": code, "modifiers": modifiers, **text},
+            )
+
+    def where(self, name: str) -> tuple[float, float]:
+        """Return the middle of a handle on the screen."""
+        found = self.run(
+            "(() => { const all = [...document.querySelectorAll('.handle')];"
+            f" const b = all.find((e) => e.title === {json.dumps(name)});"
+            " const r = b.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()"
+        )
+        return float(found[0]), float(found[1])
+
+    def mouse(self, kind: str, x: float, y: float) -> None:
+        held = {"button": "left", "clickCount": 1, "buttons": int(kind != "mouseReleased")}
+        self.chromium.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **held)
+
+    def click(self, x: float, y: float) -> None:
+        for kind in ("mousePressed", "mouseReleased"):
+            self.mouse(kind, x, y)
+
+    def press(self, of: str) -> None:
+        self.run(f"document.querySelector({json.dumps(of)}).click()")
+
+    def drag(self, name: str, dx: float, dy: float, steps: int = 8) -> None:
+        """Drag a handle by pixels."""
+        x, y = self.where(name)
+        self.mouse("mousePressed", x, y)
+        for k in range(1, steps + 1):
+            self.mouse("mouseMoved", x + dx * k / steps, y + dy * k / steps)
+        self.mouse("mouseReleased", x + dx, y + dy)
+
+    def picture(self, name: str) -> None:
+        if KEPT:
+            self.chromium.frame()
+            self.chromium.picture(Path(KEPT) / f"edit-{name}.png")
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    own = catalogue.file_of("four-bar")
+    assert own is not None
+    return Path(shutil.copy(own, tmp_path / "bar.toml"))
+
+
+@pytest.fixture
+def page(chromium: Chromium, file: Path) -> Iterator[Page]:
+    with Editor(Document(file)) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True)
+        thread.start()
+        opened = Page(chromium, server)
+        yield opened
+        chromium.call("Page.navigate", url="about:blank")
+        opened.until("location.href === 'about:blank'")
+        server.shutdown()
+
+
+def comments(text: str) -> list[str]:
+    return [line for line in text.split("\n") if line.startswith("#")]
+
+
+def test_a_four_bar_from_a_typed_error_to_a_saved_change(page: Page, file: Path) -> None:
+    before = file.read_bytes()
+    page.open()
+    page.rested()
+    page.picture("opened")
+    text = page.text("text")
+    assert text.encode() == before and page.said() == []
+    count = page.run("window.symgen.t.length")
+    assert count > 100 and page.run("window.symgen.editor.handles().length") == 4
+
+    # an error: its sentence at its line, while it is typed
+    at = text.index('"crank_mass"') + len('"crank_mass')
+    line = text.count("\n", 0, at) + 1
+    page.type(at, "x")
+    page.until("!document.getElementById('errors').hidden")
+    (error,) = page.run("[...document.querySelectorAll('#errors button')].map((e) => e.textContent)")
+    assert error.startswith(f"{line}: bodies.crank.mass: expected a number or an expression of parameters")
+    assert "did you mean 'crank_mass'?" in error
+    assert page.run("[...document.querySelectorAll('#numbers .bad')].map((e) => e.textContent)") == [str(line)]
+    assert page.run("document.getElementById('picture').classList.contains('stale')")
+    page.picture("error")
+
+    # mended
+    page.type(at, "", erased=1)
+    page.until("document.getElementById('errors').hidden")
+    page.rested()
+    assert page.text("text") == text
+
+    # a pivot is dragged: its number, the loop closed, another motion
+    old = page.run("window.symgen.q[0]")
+    page.drag("joints.D", 40, 0)
+    page.rested()
+    moved = page.text("text")
+    changed = [(a, b) for a, b in zip(text.split("\n"), moved.split("\n"), strict=True) if a != b]
+    assert len(changed) == 1 and changed[0][0] == 'at = [[10.0, 0.0], "D"]'
+    x = float(changed[0][1].split("[[")[1].split(",")[0])
+    assert 10.5 < x < 14.0
+    new = page.run("window.symgen.q[0]")
+    described = moved.replace("bar.toml", "")
+    (file.parent / "same.toml").write_text(described)
+    start = load(file.parent / "same.toml").simulate(until=0.01).q.values[0]
+    assert new == pytest.approx(start, abs=1e-5) and abs(new[5] - old[5]) > 1e-3
+    page.picture("dragged")
+
+    # a bar from the pin C to a free place, and a pin of its end to the ground
+    page.press("[data-tool=bar]")
+    cx, cy = page.where("joints.C")
+    page.click(cx, cy)
+    page.click(cx + 60, cy + 90)
+    page.until("document.getElementById('text').value.includes('[bodies.bar1]')")
+    page.rested()
+    page.press("[data-tool=pin]")
+    end = page.where("bodies.bar1.points.B")
+    page.click(*end)
+    page.click(*end)
+    page.until("document.getElementById('text').value.includes('[joints.pin2]')")
+    page.rested()
+    page.press("[data-tool=move]")
+    page.picture("added")
+    built = page.text("text")
+    assert 'between = ["coupler", "bar1"]' in built and 'between = ["ground", "bar1"]' in built
+    assert [line for line in moved.split("\n") if line not in built.split("\n")] == []
+
+    # undone: pin, bar, drag
+    for expected in (None, moved, text):
+        page.key("z", 2)
+        if expected is not None:
+            assert page.text("text") == expected
+    page.key("Z", 2 + 8)
+    assert page.text("text") == moved
+    page.rested()
+
+    # saved, and loaded again
+    assert file.read_bytes() == before
+    page.key("s", 2)
+    page.until("document.getElementById('status').textContent.startsWith('saved')")
+    assert file.read_text(encoding="utf-8") == moved
+    page.open()
+    page.rested()
+    assert page.text("text") == moved and comments(moved) == comments(text)
+    assert page.said() == []
+
+
+def test_a_pin_of_two_bodies_follows_the_hand_and_every_step_is_drawn(page: Page) -> None:
+    page.open()
+    page.rested()
+    text, frames = page.text("text"), page.run("window.symgen.editor.times().frames")
+    x, y = page.where("joints.B")
+    page.mouse("mousePressed", x, y)
+    for k in range(1, 7):
+        page.mouse("mouseMoved", x + 4 * k, y - 3 * k)
+        page.until(f"window.symgen.editor.times().frames >= {frames + k}")
+    held = page.where("joints.B")
+    assert held == pytest.approx((x + 24, y - 18), abs=4)
+    page.mouse("mouseReleased", x + 24, y - 18)
+    page.rested()
+    assert page.where("joints.B") == pytest.approx(held, abs=1.5)
+    changed = [a for a, b in zip(text.split("\n"), page.text("text").split("\n"), strict=True) if a != b]
+    assert [line.split(" = ")[0] for line in changed] == ["points", "points"]
+    page.key("z", 2)
+    assert page.text("text") == text and page.said() == []
+
+
+def test_keys_alone_move_a_point_complete_a_word_and_rename(page: Page) -> None:
+    page.open()
+    page.rested()
+    page.run("[...document.querySelectorAll('.handle')].find((e) => e.title === 'joints.D').focus()")
+    before = page.text("text")
+    page.chromium.call("Input.dispatchKeyEvent", type="rawKeyDown", key="ArrowRight", windowsVirtualKeyCode=39)
+    page.rested()
+    moved = page.text("text")
+    assert moved != before and '[[10.0, 0.0], "D"]' not in moved
+
+    at = moved.index("angular_velocity")
+    page.type(at, "\n")
+    page.type(at, "cen")
+    page.until("!document.getElementById('choices').hidden")
+    assert page.run("document.querySelector('#choices [aria-selected=true]').textContent").startswith("centre_of_mass")
+    assert "In the body's frame" in page.text("about")
+    page.picture("completion")
+    page.key("Tab")
+    page.chromium.call("Input.insertText", text=" = [0.0, 0.0]")
+    page.until("document.getElementById('errors').hidden")
+    page.rested()
+    assert "\ncentre_of_mass = [0.0, 0.0]\n" in page.text("text")
+
+    page.key("F2")
+    page.chromium.call("Input.insertText", text="arm")
+    page.key("Enter")
+    page.until("document.getElementById('text').value.includes('[bodies.arm]')")
+    page.rested()
+    renamed = page.text("text")
+    assert 'between = ["arm", "coupler"]' in renamed and '"crank"' not in renamed
+    page.run("document.getElementById('text').focus()")
+    page.press("#remove")
+    page.until("!document.getElementById('text').value.includes('[bodies.arm]')")
+    assert page.run("document.getElementById('status').textContent") == "took out bodies.arm"
+    page.key("z", 2)
+    assert page.text("text") == renamed
+    assert page.said() == []
+
+
+def test_a_slider_writes_its_number_back(page: Page) -> None:
+    page.open()
+    page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
+    assert page.run("window.symgen.live && !document.getElementById('live').inert")
+    page.run(
+        "(() => { const f = document.querySelector('#live input[type=number]'); f.value = 3.5;"
+        " f.dispatchEvent(new Event('change', { bubbles: true })); })()"
+    )
+    page.until("document.getElementById('text').value.includes('crank_mass = { value = 3.5, unit')")
+    page.rested()
+    assert page.said() == []
+
+
+def test_a_file_that_changed_on_the_disk_asks(page: Page, file: Path) -> None:
+    page.open()
+    page.rested()
+    file.write_text(file.read_text() + "# theirs\n")
+    page.type(0, "# ours\n")
+    page.key("s", 2)
+    page.until("document.getElementById('ask').open")
+    page.picture("asks")
+    assert "bar.toml has changed on the disk" in page.text("question")
+    page.press("#back")
+    assert file.read_text().endswith("# theirs\n")
+    page.key("s", 2)
+    page.until("document.getElementById('ask').open")
+    page.press("#over")
+    page.until("document.getElementById('status').textContent.startsWith('saved')")
+    assert file.read_text().startswith("# ours\n") and not file.read_text().endswith("# theirs\n")
+
+
+HOSTILE = """\
+[mechanism]
+name = "bar"
+title = "</script><script>window.hurt = 1</script><img src=x onerror='window.hurt = 1'>"
+source = "<svg onload='window.hurt = 1'>"
+gravity = [0.0, -9.81]
+[run]
+until = 0.1
+[parameters]
+m = { value = 1.0, unit = "kg", note = "</script><b onclick=1>*/ ${window.hurt = 1} `" }
+[bodies.rod]
+mass = "m"
+inertia = 0.1
+points = { A = [0.0, 0.5] }
+[joints.pin]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0], "A"]
+"""
+
+
+def test_markup_in_a_file_stays_text(page: Page, file: Path) -> None:
+    file.write_text(HOSTILE)
+    page.open()
+    page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
+    assert page.run("document.querySelector('header h1').textContent").startswith("</script><script>")
+    for name in ("'<img src=x onerror=alert(1)>'", '"</pre><script>window.hurt = 1</script>"'):
+        page.type(HOSTILE.index("[bodies.rod]"), f"[bodies.{name}]\n")
+        page.until("!document.getElementById('errors').hidden")
+    for text in ('unit = "</u><script>window.hurt=1</script>"', 'unit = "<img src=x onerror=window.hurt=1>"'):
+        page.type(HOSTILE.index('unit = "kg"'), text + ", ")
+        page.until("!document.getElementById('errors').hidden")
+    page.chromium.frame()
+    assert page.run("window.hurt === undefined")
+    assert page.run("document.querySelectorAll('#pane img, #pane script, header img, #note img').length") == 0
+    assert page.said() == []
+
+
+def test_narrow_and_dark_pages_have_names_for_all_controls(page: Page) -> None:
+    for width, height in ((1280, 800), (390, 800)):
+        page.open(width, height)
+        page.rested()
+        assert page.run("document.documentElement.scrollWidth <= window.innerWidth")
+        if page.run("document.documentElement.dataset.theme") == "light":
+            page.press("#theme")
+        page.picture(f"dark-{width}")
+        nameless: Any = page.run(
+            "[...document.querySelectorAll('button, input, select, textarea, [role=slider], [role=toolbar]')]"
+            ".filter((e) => !(e.getAttribute('aria-label') || e.getAttribute('aria-labelledby') || e.textContent.trim()"
+            " || (e.labels && [...e.labels].some((l) => l.textContent.trim())))).map((e) => e.outerHTML)"
+        )
+        assert nameless == []
+        assert page.said() == []
+
+
+def test_a_mechanism_in_space_is_edited_by_its_text(page: Page, file: Path) -> None:
+    own = catalogue.file_of("heavy-top")
+    assert own is not None
+    file.write_text(own.read_text(encoding="utf-8"))
+    page.open()
+    page.rested()
+    assert page.run("!document.getElementById('solid').hidden && window.symgen.editor.handles().length === 0")
+    page.picture("space")
+    assert page.said() == []
