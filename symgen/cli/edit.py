@@ -34,6 +34,7 @@ def command(model: str | None, new: str | None, no_browser: bool, port: int) -> 
         raise InputError("--port", "a port that is free", f"{port} ({why(error)})") from None
     with server:
         click.echo(server.address)
+        server.prepare()
         if not no_browser:
             import webbrowser
 

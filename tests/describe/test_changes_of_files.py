@@ -29,14 +29,14 @@ EMPTY = '# mine\n[mechanism]\nname = "new"\n'
 
 
 def added(text: str, kind: str, *spots: Spot, angle: float = 0.0) -> tuple[str, str]:
-    change, path = snippet(kind, spots, parse_toml(text, "x"), outline(text), text, angle)
-    return changed(text, [change]), path
+    changes, path = snippet(kind, spots, parse_toml(text, "x"), outline(text), text, angle)
+    return changed(text, changes), path
 
 
 def is_inserted(before: str, after: str) -> bool:
-    """Whether a text is another one with one piece put in."""
-    ops = [op for op in difflib.SequenceMatcher(None, before, after, autojunk=False).get_opcodes() if op[0] != "equal"]
-    return len(ops) == 1 and ops[0][0] == "insert"
+    """Whether a text is another one with lines put in."""
+    matcher = difflib.SequenceMatcher(None, before.split("\n"), after.split("\n"), autojunk=False)
+    return {op[0] for op in matcher.get_opcodes()} == {"equal", "insert"}
 
 
 def test_changes_that_overlap_are_refused() -> None:
@@ -74,6 +74,8 @@ def test_an_outline_has_all_headers_and_mentions() -> None:
 def test_a_bar_from_a_pin_to_a_free_place() -> None:
     after, path = added(FOUR_BAR, "body", Spot(8.0, 4.5, "rocker", "C", (2.5, 0.0), "C"), Spot(11.0, 8.5))
     assert path == "bodies.bar1" and is_inserted(FOUR_BAR, after)
+    order = ("[bodies.bar1]", "[joints.A]", "[joints.D]", "[joints.pin1]")
+    assert sorted(order, key=after.index) == [*order]
     mechanism = validate(parse_toml(after, "x"), "x")
     assert mechanism.joint_named("pin1").bodies == ("rocker", "bar1")
     raw = parse_toml(after, "x")["bodies"]["bar1"]

@@ -14,7 +14,7 @@ from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
 from symgen.base.settings import Settings
 from symgen.describe.drawing.mechanism_scene import build_scene
-from symgen.describe.files.changes import Change, changed, wide_units
+from symgen.describe.files.changes import changed, wide_units
 from symgen.describe.files.handles import handles, numbers_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
 from symgen.describe.files.origins import Source
@@ -143,7 +143,7 @@ class Drafts:
         spots = [_spot(spot) for spot in given["spots"]]
         angle = self._angle(kind, text, spots)
         added, path = snippet(str(given["part"]), spots, raw, outline(text), text, angle)
-        return {"text": changed(text, [Change(*added)]), "path": path}
+        return {"text": changed(text, added), "path": path}
 
     def _angle(self, kind: str, text: str, spots: Iterable[Spot]) -> float:
         """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import json
 import secrets
+import threading
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
@@ -63,6 +65,15 @@ class Editor(ThreadingHTTPServer):
             "live": lambda given: drafts.live(_text(given), str(given.get("tab", ""))),
             **{kind: partial(drafts.change, kind) for kind in ("add", "rename", "remove")},
         }
+
+    def prepare(self) -> None:
+        """Read what the first answer needs, code and words, while the browser opens."""
+
+        def read() -> None:
+            with suppress(SymgenError):
+                self.jobs["check"](self.document.read())
+
+        threading.Thread(target=read, name="symgen-edit", daemon=True).start()
 
     @property
     def address(self) -> str:

@@ -54,8 +54,8 @@ class Spot(NamedTuple):
 
 def snippet(
     kind: str, spots: Sequence[Spot], raw: Mapping[str, Any], parts: Outline, text: str, angle: float = 0.0
-) -> tuple[Change, str]:
-    """Return the change that adds something to a file, and the path of what it adds.
+) -> tuple[tuple[Change, ...], str]:
+    """Return the changes that add something to a file, one for each section, and the path of what they add.
 
     Parameters
     ----------
@@ -181,19 +181,19 @@ def _need_body(kind: str, spot: Spot) -> None:
         raise InputError(kind, "a point of a body", "a point of the ground")
 
 
-def _inserted(blocks: Sequence[_Block], parts: Outline, text: str) -> Change:
-    """Return the change that puts tables behind the last one of the first one's section, else at the end."""
-    section = blocks[0].path.partition(".")[0]
-    ends = [
-        end for header, (_, end) in zip(parts.headers, blocks_of(parts, text), strict=True) if header.path[0] == section
-    ]
-    at = max(ends, default=len(text.rstrip()))
-    if any((section,) == path[:1] and len(path) == 2 for path in parts.values) and not ends:
-        at = len(text.rstrip())
-    body = "\n\n".join("\n".join((f"[{block.path}]", *block.lines)) for block in blocks)
-    before = "" if at == 0 else "\n\n" if not text[:at].endswith("\n") else "\n"
-    after = "\n" if at == len(text) or text[at] != "\n" else ""
-    return Change(at, at, f"{before}{body}{after}")
+def _inserted(blocks: Sequence[_Block], parts: Outline, text: str) -> tuple[Change, ...]:
+    """Return the changes that put tables behind the last ones of their sections, else at the end of the file."""
+    ends = {str(header.path[0]): end for header, (_, end) in zip(parts.headers, blocks_of(parts, text), strict=True)}
+    places: dict[int, list[_Block]] = {}
+    for block in blocks:
+        places.setdefault(ends.get(block.path.partition(".")[0], len(text.rstrip())), []).append(block)
+    changes = []
+    for at, own in places.items():
+        body = "\n\n".join("\n".join((f"[{block.path}]", *block.lines)) for block in own)
+        before = "" if at == 0 else "\n" if text[:at].endswith("\n") else "\n\n"
+        after = "\n" if at == len(text) or text[at] != "\n" else ""
+        changes.append(Change(at, at, f"{before}{body}{after}"))
+    return tuple(changes)
 
 
 def blocks_of(parts: Outline, text: str) -> list[tuple[int, int]]:

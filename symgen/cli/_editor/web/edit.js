@@ -70,7 +70,7 @@ function outgrown() {
   view.fit(motion.rows);
   const now = view.camera, ratio = before.scale / now.scale;
   const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
-  const keep = ratio < 1.25 && ratio > 0.4 && aside < 0.25 * Math.min(now.width, now.height);
+  const keep = ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height);
   if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
 }
 
