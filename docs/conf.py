@@ -41,6 +41,7 @@ NAVIGATION = {
     "Analyses": ("docs/equilibrium", "docs/modes", "docs/linearise", "docs/kinematics", "docs/inverse"),
     "Reference": (
         "docs/file-format/README",
+        "docs/edit",
         "docs/drawing",
         "docs/player",
         "docs/command-line",

@@ -5,7 +5,7 @@ with ``--json`` nothing but JSON does; everything else goes to standard error. S
 
 In: arguments of the command line.
 Out: text, JSON and files, an exit code.
-Imports: click, NumPy; rich for tables; all rooms.
+Imports: click, msgspec, NumPy; rich for tables; all rooms.
 """
 
 from __future__ import annotations

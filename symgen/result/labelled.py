@@ -127,10 +127,16 @@ def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: 
     return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
 
 
+def largest(values: Array) -> tuple[float, ...]:
+    """Return the largest finite magnitude of an array, nothing where there is none."""
+    finite = values[np.isfinite(values)]
+    return (float(np.abs(finite).max()),) if finite.size else ()
+
+
 def unit_scales(table: Labelled) -> dict[str, float]:
     """Return the scale of the numbers of each unit: the largest of all columns, of moments forces times lengths."""
     units = np.array(table.units)
-    scales = {unit: scale_of(table.values[:, units == unit].ravel(), unit) for unit in set(table.units)}
+    scales = {unit: scale_of(largest(table.values[:, units == unit]), unit) for unit in set(table.units)}
     return scales | {unit: max(x, least_scale(scales, unit)) for unit, x in scales.items()}
 
 

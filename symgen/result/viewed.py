@@ -78,7 +78,8 @@ def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], 
     result : MotionTables
         Of this process.
     live : bool
-        Whether the page shall be able to work out other motions.
+        Whether the page shall be able to work out other motions, and know the gaps of pins; without both it is there
+        sooner.
 
     Raises
     ------
@@ -87,7 +88,7 @@ def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], 
     """
     shown = playable_motion(result)
     part, note = _live(shown.mechanism, result.run_facts()) if live else (None, "")
-    return page_data(shown, part, note), "" if part is None else live_script(part)
+    return page_data(shown, part, note, gaps=live), "" if part is None else live_script(part)
 
 
 def is_live(method: str) -> bool:

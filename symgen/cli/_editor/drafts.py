@@ -13,7 +13,6 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
 from symgen.base.settings import Settings
-from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.files.changes import changed, wide_units
 from symgen.describe.files.handles import handles, numbers_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
@@ -50,14 +49,17 @@ class Drafts:
         self.source = Source.of(path)
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
         self._asked: dict[str, int] = {}
-        self._mechanism: tuple[str, Mechanism] | None = None
+        self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
 
     def check(self, text: str) -> dict[str, Any]:
         """Return the errors of a text, each at its line, or the drawing of its start and what may be moved in it."""
         self._refuse_large(text)
-        if found := problems(text, self.source):
+        try:
+            raw, mechanism = self._read(text)
+        except InputError:
+            found = problems(text, self.source)
             return {"errors": [_error(problem) for problem in found[:MOST_ERRORS]], "count": len(found)}
-        raw, parts, mechanism = parse_toml(text, self.source), outline(text), self._read(text)
+        parts = outline(text)
         values = parameter_values(mechanism)
         described = Model(mechanism).initial_state(values)[0]
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
@@ -82,7 +84,6 @@ class Drafts:
             "errors": errors,
             "count": len(errors),
             "data": data,
-            "unit": float(build_scene(mechanism, q, values).unit),
             "handles": [
                 {**handle._asdict(), "followers": [_in_page(follower, wide) for follower in handle.followers]}
                 for handle in movable
@@ -112,7 +113,7 @@ class Drafts:
                 if self._asked[tab] != asked:
                     raise KeyboardInterrupt
 
-            mechanism = self._read(text)
+            mechanism = self._read(text)[1]
             result = Model(mechanism).simulate(_shaped(mechanism), progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
@@ -150,7 +151,7 @@ class Drafts:
         spot = next(iter(spots), None)
         if spot is None or not spot.body:
             return 0.0
-        mechanism = self._read(text)
+        mechanism = self._read(text)[1]
         start = prepare(*_for_closing(mechanism), Purpose.STATE).start
         angles, at = {"ground": 0.0}, 0
         for body in mechanism.bodies:
@@ -160,11 +161,13 @@ class Drafts:
         bodies = next((j.bodies for j in mechanism.joints if j.name == spot.joint), ("ground", spot.body))
         return angles.get(bodies[-1], 0.0) - angles.get(bodies[0], 0.0)
 
-    def _read(self, text: str) -> Mechanism:
-        """Return the mechanism of a text; the last one is kept."""
-        if self._mechanism is None or self._mechanism[0] != text:
-            self._mechanism = (text, validate(parse_toml(text, self.source), self.source))
-        return self._mechanism[1]
+    def _read(self, text: str) -> tuple[dict[str, Any], Mechanism]:
+        """Return the tables and the mechanism of a text; the last text is read once."""
+        last = self._last
+        if last is None or last[0] != text:
+            raw = parse_toml(text, self.source)
+            self._last = last = (text, (raw, validate(raw, self.source)))
+        return last[1]
 
     def _refuse_large(self, text: str) -> None:
         if len(text) > LARGEST_FILE or len(text.encode(errors="replace")) > LARGEST_FILE:

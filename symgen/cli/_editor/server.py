@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import secrets
+import sys
 import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -65,6 +66,11 @@ class Editor(ThreadingHTTPServer):
             "live": lambda given: drafts.live(_text(given), str(given.get("tab", ""))),
             **{kind: partial(drafts.change, kind) for kind in ("add", "rename", "remove")},
         }
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say nothing of pages that went away before their answer."""
+        if not isinstance(sys.exception(), ConnectionError | TimeoutError):
+            super().handle_error(request, client_address)
 
     def prepare(self) -> None:
         """Read what the first answer needs, code and words, while the browser opens."""

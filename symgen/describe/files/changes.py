@@ -63,7 +63,7 @@ def wide_units(text: str) -> list[int] | None:
 
 
 def with_line_ends(text: str, before: str) -> str:
-    """Return a text whose lines end as those of the text before it do.
+    """Return a text with the line ends of the text before it.
 
     Pages know one line end. Where a file has two kinds, lines that stayed keep theirs, and others have that of the
     first line.

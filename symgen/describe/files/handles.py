@@ -160,7 +160,7 @@ class _Handles:
             taken.add(spot.path)
 
     def pinned(self) -> Iterator[tuple[str, list[_Spot]]]:
-        """Yield the pins: the first joint of each, and the points that it holds together with those of others."""
+        """Yield the pins: the first joint of each, and all points that it and further joints hold together."""
         groups: list[tuple[str, dict[Path, _Spot]]] = []
         for name, entry in self.raw.get("joints", {}).items():
             joint = next((j for j in self.mechanism.joints if j.name == name), None)
@@ -175,7 +175,7 @@ class _Handles:
             yield name, [*spots.values()]
 
     def spots(self) -> Iterator[_Spot]:
-        """Yield the points of bodies, and those that joints and forces have without a name."""
+        """Yield the points of bodies, and points of joints and forces that have no name."""
         for name, entry in self.raw.get("bodies", {}).items():
             for point, vector in (entry.get("points") or {}).items():
                 yield _Spot(name, ("bodies", name, "points", point), point, vector)

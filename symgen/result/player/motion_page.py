@@ -83,8 +83,9 @@ def page_data(
     note: str = "",
     second: Recording | None = None,
     open_joints: Sequence[str] = (),
+    gaps: bool = True,
 ) -> dict[str, Any]:
-    """Return what the script of a page draws, for JSON; arguments as of `page`.
+    """Return what the script of a page draws, for JSON.
 
     Parameters
     ----------
@@ -98,6 +99,8 @@ def page_data(
         Another motion of the same mechanism, drawn faintly behind.
     open_joints : sequence of str
         Joints that are marked as open.
+    gaps : bool
+        Whether gaps of pins are told; the page measures them from positions of 32 bits otherwise.
     """
     spatial = recording.mechanism.space == "spatial"
     scene = build_scene(recording.mechanism, recording.q, recording.values, open_joints)
@@ -122,7 +125,7 @@ def page_data(
         if missing:
             words = f"no plots of {', '.join(dict.fromkeys(missing))}: the page would be too large"
             data["note"] = "; ".join(dict.fromkeys([*filter(None, [data["note"]]), words]))
-        data["motions"].append(packed(shown, keep, coarse) | _gaps(scene, each.q[keep]))
+        data["motions"].append(packed(shown, keep, coarse) | (_gaps(scene, each.q[keep]) if gaps else {}))
     return data
 
 

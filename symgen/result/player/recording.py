@@ -11,6 +11,7 @@ import numpy as np
 
 from symgen.base.digits import cleaned, scale_of
 from symgen.describe.drawing.scene import Array
+from symgen.result.labelled import largest
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -137,7 +138,7 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
         for title, some in parts_of(meaning, [names[i][0] for i in columns]):
             chosen = columns[some]
             own = tuple(names[i][0] for i in chosen)
-            scale = scale_of(q[:, columns].ravel(), unit)
+            scale = scale_of(largest(q[:, columns]), unit)
             groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen), scale=scale))
     return groups
 
@@ -263,7 +264,7 @@ def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
     if group.logarithmic:
         values = np.log10(np.maximum(np.abs(values), 1e-17))
     else:
-        values = cleaned(values, max(group.scale, scale_of(group.values.ravel(), group.unit)))
+        values = cleaned(values, max(group.scale, scale_of(largest(group.values), group.unit)))
     return {"every": every, **shorts(values)}
 
 

@@ -38,6 +38,7 @@ function display(next, kind, code = NOTHING) {
   document.querySelector("header h1").textContent = data.title;
   if (view.spatial === spatial && !empty) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
   else view.fit(motion.rows);
+  if (kind === "start") return begun();
   if (kind === "live") begin(code);
   else {
     live = columns = null;
@@ -49,19 +50,23 @@ function display(next, kind, code = NOTHING) {
   }
   if (kind === "live") $("live").inert = false;
   offerTraces();
-  const shown = kind !== "start" ? resume ?? time : 0;
+  const shown = resume ?? time;
+  resume = null;
   show(motion);
-  if (kind === "start") {
-    $("plots").hidden = false;
-    $("plots").classList.add("waiting");
-  } else {
-    resume = null;
-    if (fresh) pace();
-    if (fresh) view.fit(motion.rows);
-    else if (!held) outgrown();
-    fresh = false;
-  }
+  if (fresh) pace();
+  if (fresh) view.fit(motion.rows);
+  else if (!held) outgrown();
+  fresh = false;
   go(shown);
+}
+
+// A start alone: what is plotted waits for the motion.
+function begun() {
+  live = columns = group = null;
+  traced = [];
+  $("live").inert = true;
+  $("plots").classList.add("waiting");
+  go(0);
 }
 
 // Look at all of it where the mechanism has left the picture, or has become small in it.

@@ -110,7 +110,11 @@ function newHandle() {
     button.setPointerCapture(e.pointerId);
     hold(handle, e.clientX, e.clientY);
   });
-  button.addEventListener("pointermove", (e) => held && held.from && drag_to(e.clientX, e.clientY));
+  button.addEventListener("pointermove", (e) => {
+    if (!held || !held.from) return;
+    if (!held.next) requestAnimationFrame(follow_hand); // once a picture
+    held.next = [e.clientX, e.clientY];
+  });
   for (const name of ["pointerup", "pointercancel"]) button.addEventListener(name, () => held && held.from && release());
   button.addEventListener("click", (e) => {
     const handle = own();
@@ -149,6 +153,12 @@ function moved(handle, text, dx, dy, step) {
   return result;
 }
 
+function follow_hand() {
+  if (!held || !held.next) return;
+  drag_to(...held.next);
+  held.next = null;
+}
+
 function drag_to(x, y) {
   const { camera } = view, step = gridded(snapping.checked ? 5 : 0.5);
   held.moved ||= Math.hypot(x - held.from[0], y - held.from[1]) > 2;
@@ -160,6 +170,7 @@ function drag_to(x, y) {
 }
 
 function release() {
+  follow_hand();
   const { text, moved: really } = held, now = T.value;
   held = null;
   wanted = true;
