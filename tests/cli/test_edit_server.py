@@ -1,5 +1,6 @@
 """The server of ``symgen edit``: what it answers, to whom, and what it writes."""
 
+import base64
 import http.client
 import json
 import os
@@ -12,13 +13,16 @@ from email.message import Message
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 
+from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.cli._editor.document import Document
-from symgen.cli._editor.drafts import Drafts
+from symgen.cli._editor.drafts import Drafts, _with_numbers_as_parameters
 from symgen.cli._editor.server import LARGEST_REQUEST, Editor
 from symgen.describe import catalogue
+from symgen.describe.facts.digest import digest
 from symgen.describe.files.load import LARGEST_FILE
 
 FOUR_BAR = catalogue.file_of("four-bar")
@@ -177,6 +181,44 @@ def test_the_drawing_has_the_start_and_the_motion_what_a_page_has(editor: Editor
     live = done(editor, "live", text=text, tab="a")
     assert live["data"]["live"]["method"] == "direct-correction" and "makeLive" in live["script"]
     assert done(editor, "live", text=TEXT, tab="a") == {"superseded": True}
+
+
+STOPPED = """
+[mechanism]
+name = "stopped"
+gravity = [0.0, -9.81]
+[run]
+until = 0.5
+[bodies.rod]
+mass = 1.2
+inertia = 0.1
+points = { A = [-0.5, 0.0] }
+position = [0.5, 0.0]
+[joints.pin]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0], "A"]
+stop = { lower = -0.8 }
+"""
+
+
+def test_a_moved_number_needs_no_new_code(tmp_path: Path) -> None:
+    file, digests = tmp_path / "stopped.toml", set[str]()
+    for length in (-0.5, -0.45):
+        file.write_text(STOPPED.replace("[-0.5, 0.0]", f"[{length}, 0.0]"), encoding="utf-8")
+        digests.add(digest(_with_numbers_as_parameters(load(file).mechanism)))
+    assert len(digests) == 1
+
+
+@pytest.mark.slow
+def test_a_motion_with_a_stop_is_that_of_a_run(tmp_path: Path) -> None:
+    file = tmp_path / "stopped.toml"
+    file.write_text(STOPPED, encoding="utf-8")
+    moved, run = Drafts(file).motion(STOPPED, "a", 1), load(file).simulate()
+    part = moved["data"]["motions"][0]
+    q = np.frombuffer(base64.b64decode(part["q"]), "<f4").reshape(-1, part["count"])
+    assert q[:, -1] == pytest.approx(run.q.values[-1], abs=1e-6)
+    assert run.events and moved["status"] == run.status
 
 
 def test_a_later_question_takes_the_place_of_an_earlier_one(tmp_path: Path) -> None:

@@ -12,11 +12,13 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
-from symgen.base.settings import Settings
+from symgen.base.settings import Settings, is_set
+from symgen.describe.facts.lifted import lifted, numbers_of_file
 from symgen.describe.files.changes import changed, wide_units
 from symgen.describe.files.handles import handles, numbers_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
-from symgen.describe.files.origins import Source
+from symgen.describe.files.origins import Source, origin_of
+from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline
 from symgen.describe.files.problems import Problem, problems
 from symgen.describe.files.renaming import removed, renamed
@@ -114,7 +116,9 @@ class Drafts:
                     raise KeyboardInterrupt
 
             mechanism = self._read(text)[1]
-            result = Model(mechanism).simulate(_shaped(mechanism), progress=still_wanted)
+            settings = _shaped(mechanism)
+            own = mechanism if is_set(settings, "shape") else _with_numbers_as_parameters(mechanism)
+            result = Model(own).simulate(settings, progress=still_wanted)
             if self._asked[tab] != asked:
                 return {"superseded": True}
             facts = {"status": result.status, "reason": result.reason or ""}
@@ -129,6 +133,9 @@ class Drafts:
             before, result = self._results.get(tab, ("", None))
             if result is None or before != text:
                 return {"superseded": True}
+            mechanism = self._read(text)[1]
+            if not is_set(_shaped(mechanism), "shape"):  # sliders are for the parameters of the file alone
+                result = Model(mechanism).simulate()
             data, script = view_data(result)
             return {"data": data, "script": script}
 
@@ -195,6 +202,34 @@ def _shaped(mechanism: Mechanism) -> Settings:
     except InputError:
         return Settings()
     return Settings(shape="looped")
+
+
+def _with_numbers_as_parameters(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism whose code stays what it is while a hand changes numbers of the file.
+
+    Zeros stay: code is shorter with them.
+    """
+    origin = origin_of(mechanism)
+    if origin is None:
+        return mechanism
+    names = [name for name in map(_changeable, numbers_of_file(origin.raw)) if name]
+    try:
+        return lifted("edit", mechanism, names).mechanism
+    except InputError:  # a place that takes numbers alone
+        return mechanism
+
+
+def _changeable(number: tuple[str, Place, float]) -> str:
+    """Return the name of a number that emitted code has and a hand changes; empty for others."""
+    name, path, value = number
+    if value == 0.0:
+        return ""
+    if path[0] == "mechanism":
+        return name if path[1] == "gravity" else ""
+    key = path[2] if len(path) > 2 else ""
+    keys = {"bodies": ("mass", "inertia", "points", "centre_of_mass"), "joints": ("at",)}
+    forces = ("at", "stiffness", "damping", "free_length", "free_angle")
+    return name if key in {**keys, "forces": forces}.get(str(path[0]), ()) else ""
 
 
 def _error(problem: Problem) -> dict[str, Any]:

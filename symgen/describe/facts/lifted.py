@@ -66,7 +66,7 @@ def lifted(where: str, mechanism: Mechanism, names: Sequence[str]) -> Lifted:
     if origin is None:
         expected = "names of parameters, as the file of this model is not at hand"
         raise InputError(where, expected, quoted(paths[0]), "load the file again")
-    places, raw = dict(_numbers(origin.raw)), [origin.raw]
+    places, raw = {name: path for name, path, _ in numbers_of_file(origin.raw)}, [origin.raw]
     others = {name for section in ("parameters", "inputs", "states", "tables") for name in origin.raw.get(section, {})}
     for name in paths:
         if name not in places:
@@ -93,8 +93,8 @@ def _is_path(name: str) -> bool:
     return (section in SECTIONS and ("." in rest or section == "mechanism")) or "[" in name
 
 
-def _numbers(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
-    """Yield all numbers of a description with paths, as text and as keys."""
+def numbers_of_file(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path, float]]:
+    """Yield all numbers of a description that have paths: each path as text and as keys, and the number."""
     stack: list[tuple[str, Path, object]] = [(name, (name,), raw.get(name)) for name in SECTIONS]
     while stack:
         text, path, value = stack.pop()
@@ -103,7 +103,7 @@ def _numbers(raw: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
         elif isinstance(value, list | tuple):
             stack.extend((f"{text}[{i}]", (*path, i), item) for i, item in enumerate(value))
         elif isinstance(value, int | float) and not isinstance(value, bool):
-            yield text, path
+            yield text, path, float(value)
 
 
 def _absent(where: str, name: str, origin: Origin, places: Mapping[str, Path]) -> InputError:
