@@ -86,6 +86,12 @@ class Page:
         )
         return float(found[0]), float(found[1])
 
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Return where a place of the mechanism is on the screen."""
+        corner = "(({ x, y }) => [x, y])(document.getElementById('picture').getBoundingClientRect())"
+        (left, top), (right, down) = self.run(corner), self.run(f"window.symgen.editor.place({x}, {y})")
+        return left + right + 1.0, top + down + 1.0  # inside its border
+
     def mouse(self, kind: str, x: float, y: float) -> None:
         held = {"button": "left", "clickCount": 1, "buttons": int(kind != "mouseReleased")}
         self.chromium.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **held)
@@ -221,16 +227,17 @@ def test_a_pin_of_two_bodies_follows_the_hand_and_every_step_is_drawn(page: Page
     page.open()
     page.rested()
     text, frames = page.text("text"), page.run("window.symgen.editor.times().frames")
+    place = "(({ x, y }) => [x, y])(window.symgen.editor.handles().find((h) => h.name === 'joints.B'))"
     x, y = page.where("joints.B")
     page.mouse("mousePressed", x, y)
     for k in range(1, 7):
         page.mouse("mouseMoved", x + 4 * k, y - 3 * k)
         page.until(f"window.symgen.editor.times().frames >= {frames + k}")
-    held = page.where("joints.B")
-    assert held == pytest.approx((x + 24, y - 18), abs=4)
+    assert page.where("joints.B") == pytest.approx((x + 24, y - 18), abs=4)
+    held = page.run(place)
     page.mouse("mouseReleased", x + 24, y - 18)
     page.rested()
-    assert page.where("joints.B") == pytest.approx(held, abs=1.5)
+    assert page.run(place) == pytest.approx(held, abs=1e-3)  # where the hand left it, in metres
     changed = [a for a, b in zip(text.split("\n"), page.text("text").split("\n"), strict=True) if a != b]
     assert [line.split(" = ")[0] for line in changed] == ["points", "points"]
     page.key("z", 2)
@@ -360,6 +367,45 @@ def test_narrow_and_dark_pages_have_names_for_all_controls(page: Page) -> None:
         )
         assert nameless == []
         assert page.said() == []
+
+
+def test_a_driven_four_bar_from_an_empty_file_by_the_mouse_alone(page: Page, file: Path) -> None:
+    file.write_text('# mine\n[mechanism]\nname = "mine"\n\n[run]\nuntil = 1.0\n')
+    page.open()
+    page.until("!document.getElementById('errors').hidden")
+    clicks = 0
+
+    def click(x: float, y: float) -> None:
+        nonlocal clicks
+        clicks += 1
+        page.click(x, y)
+
+    def use(tool: str, *places: str | tuple[float, float]) -> None:
+        nonlocal clicks
+        clicks += 1
+        page.press(f"[data-tool={tool}]")
+        before = page.text("text")
+        for place in places:
+            click(*(page.where(place) if isinstance(place, str) else page.place(*place)))
+        page.until(f"document.getElementById('text').value.length > {len(before)}")
+        page.rested()
+
+    use("bar", (-0.6, -0.4), (-0.5, -0.1))
+    use("bar", "bodies.bar1.points.B", (0.3, 0.5))
+    use("bar", "bodies.bar2.points.B", (0.5, -0.4))
+    use("pin", "bodies.bar1.points.A", "bodies.bar1.points.A")
+    use("pin", "bodies.bar3.points.B", "bodies.bar3.points.B")
+    use("motor", "joints.pin3")
+    text = page.text("text")
+    assert text.count("[bodies.") == 3 and text.count('"revolute"') == 4
+    assert clicks == 17 and text.startswith("# mine\n[mechanism]")
+    assert '"driver"' in page.text("text")
+    column = page.run("window.symgen.names.indexOf('bar1.theta')")
+    angle = page.run(f"(({{ q, t }}) => [q[0][{column}], q.at(-1)[{column}], t.at(-1)])(window.symgen)")
+    assert angle[2] == 1.0 and angle[1] - angle[0] == pytest.approx(2.0, abs=1e-5)
+    assert "at = [[-0.6, -0.4]" in text and "at = [[0.5, -0.4]" in text
+    page.picture("from-nothing")
+    assert page.said() == []
 
 
 def test_a_mechanism_in_space_is_edited_by_its_text(page: Page, file: Path) -> None:

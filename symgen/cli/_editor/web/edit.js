@@ -36,7 +36,7 @@ function display(next, kind, code = NOTHING) {
   rows = [];
   ranges = null;
   document.querySelector("header h1").textContent = data.title;
-  if (view.spatial === spatial && !empty) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
+  if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
   else view.fit(motion.rows);
   if (kind === "start") return begun();
   if (kind === "live") begin(code);
@@ -54,7 +54,7 @@ function display(next, kind, code = NOTHING) {
   resume = null;
   show(motion);
   if (fresh) pace();
-  if (fresh) view.fit(motion.rows);
+  if (fresh && tool === "move") view.fit(motion.rows);
   else if (!held) outgrown();
   fresh = false;
   go(shown);
@@ -69,13 +69,13 @@ function begun() {
   go(0);
 }
 
-// Look at all of it where the mechanism has left the picture, or has become small in it.
+// Look at all of it where the mechanism has left the picture, or has become small in it and nothing is being added.
 function outgrown() {
   const before = { ...view.camera, at: [...view.camera.at] };
   view.fit(motion.rows);
   const now = view.camera, ratio = before.scale / now.scale;
   const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
-  const keep = ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height);
+  const keep = ratio < 1.02 && (ratio > 0.5 || tool !== "move") && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height);
   if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
 }
 
@@ -289,6 +289,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();

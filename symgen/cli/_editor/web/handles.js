@@ -192,14 +192,15 @@ function pick(handle) {
   add({ name: handle.name, x: handle.x, y: handle.y, body: handle.body, point: handle.point, at: handle.at, joint });
 }
 
+const onGround = (x, y, step) => ({ name: "", x: +onGrid(x, step).toFixed(decimals(step)), y: +onGrid(y, step).toFixed(decimals(step)), body: "", point: "" });
+
 function pickPlace(x, y) {
-  const step = gridded(snapping.checked ? 5 : 0.5);
-  add({ name: "", x: +onGrid(x, step).toFixed(decimals(step)), y: +onGrid(y, step).toFixed(decimals(step)), body: "", point: "" });
+  add(onGround(x, y, gridded(snapping.checked ? 5 : 0.5)));
 }
 
 async function add(spot) {
   const [, , need] = TOOLS.find(([name]) => name === tool);
-  if (tool === "pin" && spots.length && spot.body && spot.body === spots[0].body) spot = { ...spot, name: "", body: "", point: "" };
+  if (tool === "pin" && spots.length && spot.body && spot.body === spots[0].body) spot = { ...onGround(spot.x, spot.y, gridded(0.05)), at: spot.at };
   spots.push(spot);
   wanted = true;
   if (spots.length < need) return layHandles();
@@ -230,5 +231,5 @@ where.addEventListener("keydown", (e) => {
   const near = movable.find((h) => Math.hypot(h.x - x, h.y - y) * view.camera.scale < 2);
   where.value = "";
   if (near) pick(near);
-  else add({ name: "", x, y, body: "", point: "" });
+  else add({ ...onGround(0, 0, 1), x, y });
 });
