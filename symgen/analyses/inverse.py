@@ -16,8 +16,8 @@ from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
 from symgen.base.digits import cleaned
 from symgen.base.errors import InputError, counted
-from symgen.describe.bounds.smooth_friction import with_sliding_friction
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
+from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.inputs import are_words_of_data
 from symgen.result.labelled import Labelled, labelled
@@ -172,7 +172,7 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
-    mechanism = with_sliding_friction(WHERE, mechanism)
+    mechanism = with_sliding(WHERE, mechanism)
     refuse_bounds(WHERE, mechanism)
     names = arguments.words(WHERE, actuators)
     if len(set(names)) < len(names):

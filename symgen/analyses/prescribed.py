@@ -14,8 +14,7 @@ from symgen.analyses.algebra import coordinate_differences
 from symgen.base.errors import AssemblyError, InputError, nearest
 from symgen.base.vocabulary.expressions import readings
 from symgen.base.vocabulary.measures import GROUND, Integral
-from symgen.describe.bounds.friction import without_friction
-from symgen.describe.bounds.stops import without_stops
+from symgen.describe.bounds.modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
@@ -94,8 +93,8 @@ def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def instantaneous(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism without what a run alone determines: integrals, events, velocities, dry friction, stops."""
-    mechanism = without_stops(without_friction(mechanism))
+    """Return a mechanism without what a run alone determines: integrals, events, velocities, rows with bounds."""
+    mechanism = without_bounds(mechanism)
     outputs = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
     bodies = list[AnyBody]()
     for body in mechanism.bodies:

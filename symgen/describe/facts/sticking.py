@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, names_in, readings
+from symgen.describe.bounds.modes import two_sided
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Joint, Mechanism
@@ -52,7 +53,7 @@ def _is_alone(argument: Expr) -> bool:
 
 def _coordinates(mechanism: Mechanism) -> Iterator[tuple[Joint, str]]:
     """Yield joints and their coordinates that may have friction and have none."""
-    rough = {friction.joint for friction in mechanism.frictions}
+    rough = {row.owner for row in two_sided(mechanism)}
     for joint in mechanism.joints:
         if joint.kind != "driver" and joint.name not in rough:
             yield from ((joint, label) for label, _ in joint.coordinates)

@@ -217,7 +217,7 @@ class Readings:
         return self._context.losses if self._order == OUTPUT else {}
 
     def owners(self) -> Iterator[str]:
-        """Yield the names of all bodies, joints, forces and stops with readings."""
+        """Yield the names of all bodies, joints, forces and rows with bounds that have readings."""
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces

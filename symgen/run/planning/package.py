@@ -169,7 +169,7 @@ def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) 
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
     if mechanism.bounded:
         try:
-            pressed = any(friction.pressed for friction in mechanism.frictions)
+            pressed = any(row.pressed for row in mechanism.bounded)
             refuse_bounds(choice.method, choice.options, choice.implicit, pressed)
         except InputError:
             return False

@@ -14,7 +14,7 @@ from symgen.base.errors import InputError, quoted
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import follows_places
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.facts.digest import digest
 from symgen.describe.facts.kinks import longest_step
 from symgen.describe.facts.lengths import longest_body

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import compiled_form
-from symgen.describe.bounds.friction import JAM, REVERSE, SLIP
-from symgen.describe.bounds.stops import HIT, LEAVE
+from symgen.describe.bounds.modes import HIT, JAM, LEAVE, REVERSE, SLIP
 from symgen.describe.parts.events import RECORD, RESET, STOP
 from symgen.run.effects.accumulation import accumulation, add_resets, latest_events, new_past
 from symgen.run.effects.effects import Impact

@@ -16,7 +16,7 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form
-from symgen.describe.bounds.stops import HIT
+from symgen.describe.bounds.modes import HIT
 from symgen.run.layout import abi
 from symgen.run.single.bounded_rows import NOT_APPLIED, OTHERS, SAME
 from symgen.run.single.strikes import GATHER, STRIKE, gather, new_strikes, strike

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.base.errors import InputError
-from symgen.describe.bounds.friction import JAM
+from symgen.describe.bounds.modes import JAM
 from symgen.run.single import agreement
 from symgen.run.single.bounded_rows import DISAGREED, JAMMED, OTHERS, REDUNDANT, SHARED
 from symgen.run.single.events import Happening

@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form, plain_form
-from symgen.describe.bounds.friction import MODE, REVERSE, SLIP, STICK
-from symgen.describe.bounds.stops import HIT, LEAVE, REST
+from symgen.describe.bounds.modes import HIT, LEAVE, MODE, REST, REVERSE, SLIP, STICK
 from symgen.describe.parts.events import RESET
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions

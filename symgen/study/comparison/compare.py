@@ -15,8 +15,7 @@ from symgen.base.errors import InputError
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import Settings, default
 from symgen.compile.store.paths import cache_location
-from symgen.describe.bounds.friction import without_friction
-from symgen.describe.bounds.stops import without_stops
+from symgen.describe.bounds.modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.run.planning.outputs import multiples, output_size
@@ -241,7 +240,7 @@ def compare_all(
 def _chosen(model: Model, common: Settings) -> Model:
     """Return a model without events that are only recorded, and with the largest step for all; refuse other events."""
     mechanism = model.mechanism
-    refuse_events("compare", without_stops(without_friction(mechanism)), common)
+    refuse_events("compare", without_bounds(mechanism), common)
     plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
     plain = bounded(plain, common.max_step)
     return model if plain is mechanism else Model(plain)

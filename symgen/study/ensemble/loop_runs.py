@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.program import LANES, lane_bases
 from symgen.compile.loopcode.padding import aligned
-from symgen.describe.bounds.friction import JAM, MODE, REVERSE, SLIP
-from symgen.describe.bounds.stops import LEAVE
+from symgen.describe.bounds.modes import JAM, LEAVE, MODE, REVERSE, SLIP
 from symgen.describe.parts.events import RESET
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
@@ -211,7 +210,7 @@ class LoopRuns:
         return nothing if watched.effects is None else watched.effects
 
     def _modes(self, watched: Watched, rows: BoundedRows, span: Span, width: int, nw: int) -> Any:
-        """Return dry friction and stops with their events, and memory for one thread."""
+        """Return rows with bounds with their events, and memory for one thread."""
         choice = new_choice(self.compiled, rows, rate_functions(self.compiled.law_module), width, nw)
         choice.step[0] = first_step(span)
         effects = self._effects(watched, width, nw)

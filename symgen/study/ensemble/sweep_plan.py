@@ -267,7 +267,7 @@ def make_ensemble(
         return with_integrals(mechanism, law) if adds else law
 
     compiled, spare = with_sums(compiled), None
-    pressed = any(friction.pressed for friction in mechanism.frictions)  # for which there is one solver
+    pressed = any(row.pressed for row in mechanism.bounded)  # for which there is one solver
     if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
         choice = plan.choice.with_options(solver="augmented")
         other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
