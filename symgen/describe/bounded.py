@@ -19,8 +19,8 @@ class Family(msgspec.Struct, frozen=True):
 
     Parameters
     ----------
-    one, noun : str
-        What one of them is, and all are.
+    one, some, noun : str
+        What one of them is, without and with an article, and what all are.
     in_force, off : str
         What a row is where it is in force, and where it is off.
     part : str
@@ -40,6 +40,7 @@ class Family(msgspec.Struct, frozen=True):
     """
 
     one: str
+    some: str
     noun: str
     in_force: str
     off: str

@@ -28,7 +28,8 @@ from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes, exertio
 from symgen.derive.formulate.of_time import time_function
 from symgen.derive.formulate.tree import energies_on_tree
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.modes import first_modes, held_by_reactions, number_of
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import first_modes, number_of
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.topology import UNITS, quantities
@@ -186,7 +187,7 @@ def _drag(
     if bounded.across:
         cosines = [[model.measure(cosine).value for cosine in line] for line in bounded.across]
         pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
-    return Drag(places[bounded.row], sign, coefficient, rate, pressed)
+    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one)
 
 
 def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Number
 from symgen.base.vocabulary.measures import Holonomic, Measure, Sum
-from symgen.describe.bounds.modes import held_by_reactions, one_sided, two_sided
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import one_sided, two_sided
 from symgen.describe.mechanism import Mechanism
 
 

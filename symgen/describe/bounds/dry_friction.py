@@ -9,6 +9,7 @@ from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
 from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounds.by_reaction import reaction_of
 from symgen.describe.bounds.modes import (
     JAM,
     MODE,
@@ -17,7 +18,6 @@ from symgen.describe.bounds.modes import (
     effort_in_force,
     number_of,
     rate_of,
-    reaction_of,
     unit_of_effort,
 )
 from symgen.describe.bounds.row import Bounds
@@ -38,6 +38,7 @@ def _line(facts: Mapping[str, Any]) -> str:
 
 FRICTION = Family(
     one="friction",
+    some="dry friction",
     noun="dry friction",
     in_force="at rest",
     off="in motion",

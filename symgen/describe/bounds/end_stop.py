@@ -29,6 +29,7 @@ def _line(facts: Mapping[str, Any]) -> str:
 
 STOPS = Family(
     one="stop",
+    some="a stop",
     noun="stops",
     in_force="closed",
     off="open",

@@ -66,9 +66,19 @@ def keys_of_any_joint() -> dict[str, Any]:
     return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items()}}
 
 
+def families() -> tuple[Family, ...]:
+    """Return the families of all kinds."""
+    return tuple(dict.fromkeys(kind.family for _, kind in BOUNDS.items()))
+
+
+def nouns(word: str = "noun", joined: str = " and ") -> str:
+    """Return a word of all families, joined: what rows with bounds are."""
+    return joined.join(getattr(family, word) for family in families())
+
+
 def lines_of_rows(facts: Mapping[str, Any]) -> Iterator[str]:
     """Yield the lines of ``symgen inspect`` on rows with bounds, from its facts."""
-    for family in dict.fromkeys(kind.family for _, kind in BOUNDS.items()):
+    for family in families():
         yield from map(family.line, facts.get(family.fact, ()))
 
 

@@ -13,8 +13,8 @@ from collections.abc import Iterable, Iterator, Sequence
 import msgspec
 
 from symgen.base.errors import InputError
-from symgen.base.ir.program import JAMMING, MODE_NUMBERS, MODES
-from symgen.base.vocabulary.expressions import ONE, Expr, Name, Reading, call, dot, readings
+from symgen.base.ir.program import MODE_NUMBERS, MODES
+from symgen.base.vocabulary.expressions import Expr, Name, Reading, readings
 from symgen.base.vocabulary.measures import Driven, Integral
 from symgen.describe.bounded import BoundedRow, Family
 from symgen.describe.mechanism import Event, Mechanism, Output
@@ -52,31 +52,6 @@ def unit_of_effort(row: BoundedRow) -> str:
     return "N m" if row.unit == "rad" else "N"
 
 
-def components(row: BoundedRow) -> tuple[Expr, ...]:
-    """Return the components of the reaction that bounds depend on."""
-    forces = [Reading(each, Driven(each, row.measure)) for each in row.pressed]
-    if not row.across:
-        return tuple(forces)
-    return tuple(
-        dot(
-            forces,
-            [Reading(f"{row.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=True)],
-        )
-        for k, line in enumerate(row.across)
-    )
-
-
-def reaction_of(row: BoundedRow) -> Expr:
-    """Return the factor of the bounds: the size of the reaction, or 1."""
-    parts = components(row)
-    if not parts:
-        return ONE
-    if len(parts) == 1:
-        return call("abs", parts[0])
-    squares = [call("mul", part, part) for part in parts]
-    return call("sqrt", call("add", *squares))
-
-
 # -- rows of a mechanism -----------------------------------------------------------------------------------------------
 
 
@@ -100,16 +75,6 @@ def mode_names(mechanism: Mechanism) -> dict[str, int]:
         for bounded in mechanism.bounded
         for i, number in enumerate(MODES)
     }
-
-
-def held_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
-    """Return the rows whose bounds depend on a reaction."""
-    return tuple(row for row in mechanism.bounded if row.pressed)
-
-
-def jamming_names(mechanism: Mechanism) -> dict[str, int]:
-    """Return the names of jamming numbers, with their places in the section ``jamming``."""
-    return {f"{row.row}.{JAMMING}": i for i, row in enumerate(held_by_reactions(mechanism))}
 
 
 def two_sided(mechanism: Mechanism) -> tuple[BoundedRow, ...]:

@@ -14,7 +14,7 @@
 | ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
-| ``pin.dissipated``, ``pin.lower.dissipated`` | energy lost in dry friction, and at a stop | outputs |
+| ``pin.dissipated``, ``pin.lower.dissipated`` | energy that a row with bounds takes | outputs |
 
 `symgen.describe.formulas.readings` makes columns of results from the same table.
 """

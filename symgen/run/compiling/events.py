@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.describe.bounds.by_reaction import components, held_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
-from symgen.describe.bounds.modes import components, held_by_reactions, mode_events, one_sided, rate_of, two_sided
+from symgen.describe.bounds.modes import mode_events, one_sided, rate_of, two_sided
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, changing_rows, discontinuities_of
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
@@ -84,6 +85,8 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
         forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*components(row), ZERO), strict=False)
     return BoundedRows(
         tuple(row.name for row in every),
+        tuple(row.family.one for row in every),
+        tuple(row.family.noun for row in every),
         len(held),
         compile_side(mechanism, compiled, "bounded", "Rows with bounds", state),
         compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),

@@ -31,7 +31,8 @@ from symgen.compile.store.modules import load_module
 from symgen.compile.store.sources import CODE, reached_digest
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
-from symgen.describe.bounds.modes import families_of, held_by_reactions
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import families_of
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo

@@ -31,7 +31,7 @@ class Stop:
     skips : bool
         Whether a run goes on at the next stop, without a step between the two.
     strikes : bool
-        Whether rates of gaps jump there, so that closed end stops may strike.
+        Whether rates of gaps jump there, so that there may be impacts.
     """
 
     t: float
@@ -82,17 +82,19 @@ class ChangingRows(Protocol):
 
 @dataclass(frozen=True)
 class BoundedRows:
-    """Rows whose forces have bounds: of coordinates with dry friction, then of stops (`symgen.run.single.transitions`).
+    """Rows whose forces have bounds, two of them first, then one-sided ones (`symgen.run.single.transitions`).
 
     Attributes
     ----------
     names : tuple of str
         Their names.
+    kinds, nouns : tuple of str
+        What each is, and what all of its family are.
     dry : int
-        Number of coordinates with dry friction.
+        Number of those with two bounds.
     state, accelerations : callable
-        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, of friction bounds at rest and bounds at the
-        beginning of a motion, of stops restitutions; second derivatives of coordinates and gaps. Bounds by reactions
+        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
+        of a motion, of one-sided rows restitutions; second derivatives of coordinates and gaps. Bounds by reactions
         are over these.
     reactions : callable or None
         ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
@@ -101,10 +103,12 @@ class BoundedRows:
     changes : bool
         Whether anything but the motion and inputs changes over time.
     losses : tuple of int or None
-        Of each stop, the place in the state of the energy that it has taken; None where no output reads it.
+        Of each one-sided row, the place in the state of the energy that it has taken; None where no output reads it.
     """
 
     names: tuple[str, ...]
+    kinds: tuple[str, ...]
+    nouns: tuple[str, ...]
     dry: int
     state: Formulas
     accelerations: Formulas

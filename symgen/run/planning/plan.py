@@ -341,7 +341,7 @@ def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
 
 
 def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
-    """Refuse events where runs do not look for them, dry friction and stops too; what is only recorded changes nothing.
+    """Refuse events where runs do not look for them, bounded rows too; what is only recorded changes nothing.
 
     Raises
     ------

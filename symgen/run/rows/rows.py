@@ -37,8 +37,8 @@ from symgen.run.rows.row_modes import (
     begin_modes_between_stops,
     choose_after_change,
     forget_modes,
-    rest_stops,
-    strike_stops,
+    rest_gaps,
+    strike_gaps,
     take_modes,
     take_resets,
 )
@@ -78,7 +78,7 @@ def forget(model: Any, state: Any) -> None:
 
 
 def begin_choice(model: Any, span: Any, state: Any) -> int:
-    """Return `DONE`: a run without friction has no modes to choose."""
+    """Return `DONE`: a run without bounded rows has no modes to choose."""
     return int(abi.DONE)
 
 
@@ -266,7 +266,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
         (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these,
-        where friction or stops have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
+        where bounded rows have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -369,7 +369,7 @@ _MODES = {
     **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
     **{"store_after": store_after_effects},
 }
-_STRIKING = {"meet_stops": strike_stops, "gather_stops": rest_stops, "take_others": take_resets}
+_STRIKING = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "take_others": take_resets}
 _MODES_BETWEEN_STOPS = {"begin_choice": begin_modes_between_stops, "take_change": choose_after_change}
 _PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
@@ -394,7 +394,7 @@ def over_rows(
         From `symgen.run.loops.frame.loop`.
     events, stops, effects, examined, modes, pressed : bool
         Whether rows have switching functions, stops of parameters, events that change a run, constraints that may jump,
-        dry friction or stops of a motion, and bounds of friction that depend on reactions.
+        bounded rows, and bounds that depend on reactions.
     """
     key = loop, events, stops, effects, examined, modes, pressed
     if key not in _loops:

@@ -19,6 +19,7 @@ from symgen.base.errors import InputError, StepError
 from symgen.base.memory import processors
 from symgen.base.settings import is_set
 from symgen.compile.loopcode.entry import ArgumentBlock
+from symgen.describe.bounds.keys import families
 from symgen.result.stepping.meter import compiled_formulas
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
@@ -257,7 +258,8 @@ def _refuse(prepared: Prepared, simulation: Simulation) -> None:
     if compiled.shape != "straight":
         raise InputError(where, "code of the shape 'straight'", f"'{compiled.shape}'", hint)
     if prepared.spec.events is not None or compiled.info.bounded:
-        raise InputError(where, "a model without events, stops and dry friction", "one with such", hint)
+        kinds = " and ".join(family.noun for family in reversed(families()))
+        raise InputError(where, f"a model without events, {kinds}", "one with such", hint)
     if prepared.spec.stops:
         raise InputError(where, "inputs and formulas that do not jump at known times", "one that does", hint)
     if not simulation._copied:

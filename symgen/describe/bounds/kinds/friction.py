@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta
 
 from symgen.base.vocabulary.expressions import Expr, call
-from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Measure, Turn, axes
+from symgen.base.vocabulary.measures import Measure
+from symgen.describe.bounds.by_reaction import directions_across, reacting_rows
 from symgen.describe.bounds.dry_friction import FRICTION, Friction
 from symgen.describe.bounds.keys import KeyOfJoints, by_coordinate
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Scalar, read_table, words_of
 from symgen.describe.parts.scope import Scope
-
-#: Kinds of joints, in the plane and in space, whose rows of forces are the components of a reaction.
-REACTING = ("revolute", "translational", "pin-in-slot")
-REACTING_IN_SPACE = ("revolute", "translational", "cylindrical")
 
 FrictionTable = Annotated[
     dict[str, float | str | dict[str, float | str]],
@@ -127,7 +123,7 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
         viscous=bound("viscous", section.viscous),
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
         pressed=pressed,
-        across=_across(measure, pressed),
+        across=directions_across(measure, pressed),
         speed=scope.constant(f"{key}.speed", section.speed, positive=True) if section.speed is not None else None,
     )
 
@@ -149,25 +145,13 @@ def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: Friction
         raise scope.error(key, expected, got)
     if not of_reaction:
         return ()
-    kinds = REACTING_IN_SPACE if scope.spatial else REACTING
-    rows = tuple(f"{joint.name}.{row.label}" for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m")
-    if not rows or joint.kind not in kinds:
-        expected = f"friction by the reaction of a joint among {', '.join(kinds)}"
-        raise scope.error(f"{key}.coefficient", expected, f"a {joint.kind} joint")
+    rows = reacting_rows(scope, joint, f"{key}.coefficient")
     turns = joint.unit(label) == "rad"
     if turns and section.radius is None:
         raise scope.error(f"{key}.radius", "the radius of the pin, as its reaction acts there", "no such key")
     if not turns and section.radius is not None:
         raise scope.error(f"{key}.radius", "no radius, as the coordinate is a displacement", f"{section.radius}")
     return rows
-
-
-def _across(measure: Measure, pressed: Sequence[str]) -> tuple[tuple[Measure, ...], ...]:
-    """Return the cosines of the axes of ground with two directions across the axis of a hinge in space."""
-    if len(pressed) < 3:
-        return ()
-    assert isinstance(measure, Turn), "a joint with three forces turns about an axis"
-    return tuple(tuple(Dot(e, axis) for axis in axes(GROUND, 3)) for e in (measure.zero, measure.quarter))
 
 
 KIND = KeyOfJoints("friction", FRICTION, FrictionTable, read_friction)
