@@ -351,9 +351,9 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
         varied = replaced(varied, parameters=tuple(plain))
     form = compile_linearised(varied, compiled, (*inputs, *by))
     p, places = start.p.copy(), {q.name: i for i, q in enumerate(compiled.info.parameters)}
-    for stop in placed.stops[1:]:
-        if stop.t <= start.t * (1.0 + HERE):
-            p[[places[name] for name in stop.values]] = list(stop.values.values())
+    for seam in placed.seams[1:]:
+        if seam.t <= start.t * (1.0 + HERE):
+            p[[places[name] for name in seam.values]] = list(seam.values.values())
     p[[places[name] for name, _ in placed.mechanism.input_formulas]] = 0.0
     compiled.prepare(p)
     subject = Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)

@@ -62,7 +62,7 @@ class BoundedRow(Protocol):
 
     @property
     def name(self) -> str:
-        """Name, which begins those of its events and outputs."""
+        """Name, with which the names of its events and outputs begin."""
         ...
 
     @property

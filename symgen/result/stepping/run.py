@@ -20,7 +20,7 @@ from symgen.result.stepping.advance import Clock, Controller
 from symgen.result.stepping.readings import Readings
 from symgen.result.stepping.saved_state import Saved
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.stops import Foreseen, foreseen_in_run, merged, stops_of
+from symgen.run.breaks.seams import Foreseen, foreseen_in_run, merged, seams_of
 from symgen.run.layout import abi
 from symgen.run.single.changes import begin_with_step
 from symgen.run.single.events import EventRecord
@@ -70,7 +70,7 @@ class SteppedRun(Readings):
         self._changed = dict(plan.parameters)
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         self._clocks, self._calling = list[Clock](), False
-        self._jumps, self._driven = plan.inputs.stops, plan.inputs.driven
+        self._jumps, self._driven = plan.inputs.seams, plan.inputs.driven
         self._foreseen, self._horizon = self._breaks(), plan.spec.until
         self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
@@ -361,8 +361,8 @@ class SteppedRun(Readings):
         """Return the run's specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
-            self._jumps = stops_of(driven, values, spec.until)
-        return replace(spec, stops=merged(self._jumps, self._foreseen.stops(values, self._horizon)))
+            self._jumps = seams_of(driven, values, spec.until)
+        return replace(spec, seams=merged(self._jumps, self._foreseen.seams(values, self._horizon)))
 
     def _breaks(self) -> Foreseen:
         """Return the discontinuities of formulas at which steps end."""

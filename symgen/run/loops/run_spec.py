@@ -1,4 +1,4 @@
-"""Specification of a run for its loop: times, tolerances, limits, inputs between stops and switching functions."""
+"""Specification of a run for its loop: times, tolerances, limits, inputs between seams and switching functions."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ MAX_ATTEMPTS = 1e8
 
 
 @dataclass(frozen=True)
-class Stop:
-    """A time at which a step of a run ends, and the values of inputs from then on.
+class Seam:
+    """A seam of two pieces of a run: the time at which a step ends, and the values of inputs from then on.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class Stop:
     values : mapping of str to float
         Inputs that change; at the first one all that vary.
     skips : bool
-        Whether a run goes on at the next stop, without a step between the two.
+        Whether a run goes on at the next seam, without a step between the two.
     strikes : bool
         Whether rates of gaps jump there, so that there may be impacts.
     """
@@ -200,7 +200,7 @@ class RunSpec:
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
         Time in which a motion that begins at rest is taken to cross the mechanism [s]; until `until` by default.
-    stops : tuple of Stop
+    seams : tuple of Seam
         Times at which inputs jump, and their values from then on; the first one has the values at the start.
     events : Watched or None
         Switching functions: events, and ends of adaptive steps.
@@ -224,7 +224,7 @@ class RunSpec:
     max_evaluations: int | None = None
     max_attempts: float = MAX_ATTEMPTS
     duration: float | None = None
-    stops: tuple[Stop, ...] = ()
+    seams: tuple[Seam, ...] = ()
     events: Watched | None = None
     in_place: str = ""
 

@@ -16,7 +16,7 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.start_records import record_type
 from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import notes_at
-from symgen.run.loops.stopping import change, due, go_over, has_gap, has_struck, is_defined, same
+from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.watch import remember_rank
 from symgen.run.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
 from symgen.run.single.bounded_rows import CHOICE, DEEP, OTHERS, OUT_OF_RANGE, SAME, TOUCHING, put_off
@@ -132,16 +132,16 @@ def begin_modes(model: Any, span: Any, state: Any) -> int:
     return int(chosen(model, state))
 
 
-def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
+def begin_modes_between_seams(model: Any, span: Any, state: Any) -> int:
     """Choose modes where a run begins, with the values of inputs there; return `DONE` or the code of an end."""
     system, _, _ = model
-    _, stops, _, prepare, prepare_law = system
-    stops = bare(stops)
+    _, seams, _, prepare, prepare_law = system
+    seams = bare(seams)
     control, p, changed = state.control, state.p, False
-    while due(stops, control[abi.PASSED]) - state.clock[abi.TIME] <= same(stops, span, state.clock[abi.TIME]):
-        changed = change(stops, control[abi.PASSED], p) or changed
-        if has_gap(stops, control[abi.PASSED]):
-            go_over(stops, control[abi.PASSED], state.clock)
+    while due(seams, control[abi.PASSED]) - state.clock[abi.TIME] <= same(seams, span, state.clock[abi.TIME]):
+        changed = change(seams, control[abi.PASSED], p) or changed
+        if has_gap(seams, control[abi.PASSED]):
+            go_over(seams, control[abi.PASSED], state.clock)
         control[abi.PASSED] += 1
     if changed:
         prepare(p)
@@ -154,11 +154,11 @@ def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
 def choose_after_change(model: Any, span: Any, state: Any) -> int:
     """Choose modes where inputs have changed; return `CHANGED` to go on, or the code of an end."""
     system, _, modes = model
-    now, stops = state.clock[abi.TIME], bare(system[1])
-    if has_struck(stops, state.control[abi.PASSED] - 1):
+    now, seams = state.clock[abi.TIME], bare(system[1])
+    if has_struck(seams, state.control[abi.PASSED] - 1):
         put_off(modes.choice, state.w)
     code = begin_modes(model, span, state)
-    if code == abi.DONE and span.until - now > same(stops, span, now):
+    if code == abi.DONE and span.until - now > same(seams, span, now):
         code = int(abi.CHANGED)
     return code
 

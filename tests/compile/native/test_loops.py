@@ -14,7 +14,7 @@ from symgen.compile.native.types import float64
 from symgen.compile.store import jit as store
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
 from symgen.run.loops.event_loop import with_events
-from symgen.run.loops.stopping import with_stops
+from symgen.run.loops.seams import with_seams
 from symgen.run.rows.rows import over_rows
 
 from .twofold import process
@@ -34,18 +34,18 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     loop = getattr(importlib.import_module(f"symgen.run.loops.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
-    read(with_stops(loop))
+    read(with_seams(loop))
 
 
 @pytest.mark.parametrize("events", [False, True])
-@pytest.mark.parametrize("stops", [False, True])
+@pytest.mark.parametrize("seams", [False, True])
 @pytest.mark.parametrize("steps", ["constant", "adaptive"])
 @pytest.mark.parametrize("scheme", ["explicit", "picard"])
-def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, stops):
+def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, seams):
     loop = getattr(importlib.import_module(f"symgen.run.loops.schemes.{scheme}"), steps)
-    read(over_rows(loop, events, stops))
+    read(over_rows(loop, events, seams))
     if events:
-        read(over_rows(loop, events, stops, effects=True))
+        read(over_rows(loop, events, seams, effects=True))
 
 
 def read(loop):

@@ -15,7 +15,7 @@ from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.inputs import Jump
-from symgen.run.breaks.stops import merged, times_between
+from symgen.run.breaks.seams import merged, times_between
 from symgen.run.loops.run_spec import Stop
 from symgen.study.ensemble.sweep import sweep
 

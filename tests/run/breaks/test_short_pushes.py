@@ -16,7 +16,7 @@ import symgen
 from symgen.base.vocabulary.expressions import Expr
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.run.breaks.in_time import InTime, crossings
-from symgen.run.breaks.stops import foreseen
+from symgen.run.breaks.seams import foreseen
 from symgen.study.ensemble.sweep import sweep
 from symgen.study.ensemble.sweep_plan import make_ensemble
 

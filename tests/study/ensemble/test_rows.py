@@ -343,7 +343,7 @@ def test_rows_whose_inputs_jump_stay_in_the_loop_and_are_single_runs(push, steps
     settings |= {"inputs": {"push": push}, **steps}
     kept = (*EVERYTHING, "pulse", "reactions")
     found = symgen.sweep(model, {"crank_mass": [1.0, 2.0, 3.0]}, quantities=kept, **settings)
-    assert found.ensemble.recipe.stops
+    assert found.ensemble.recipe.seams
     assert_rows(found, model, **settings)
     jumped = symgen.sweep(
         model, {"crank_mass": [1.0]}, quantities=("crank.ax",), **settings | {"inputs": {"push": 5.0}}
@@ -374,7 +374,7 @@ def test_rows_with_events_and_inputs_that_jump_stay_in_the_loop_and_are_single_r
     masses = [1.0, 3.0, 6.0]
     found = symgen.sweep(model, {"crank_mass": masses}, quantities=("crank.theta", "pulse", "A.Fx"), **settings)
     watch = found.ensemble.recipe.watch
-    assert watch is not None and found.ensemble.recipe.stops
+    assert watch is not None and found.ensemble.recipe.seams
     times = []
     for r, mass in enumerate(masses):
         one = model.simulate(**settings, parameters={"crank_mass": mass})
