@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from symgen.describe.mechanism import Joint
 
+#: Message for runs without progress where forces or joints compare the state.
+JUMPING = "a formula jumps to and fro with the state, as friction by sign(v) does that sticks, and no step gets across"
+
 
 def advice(joint: Joint, label: str, text: str) -> str:
     """Return the sentence on the key in place of a formula with the sign of a velocity."""

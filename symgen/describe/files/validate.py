@@ -20,6 +20,7 @@ from symgen.describe.bounds.losses import losses
 from symgen.describe.bounds.modes import with_bounded_outputs
 from symgen.describe.bounds.smooth import with_smooth
 from symgen.describe.files.origins import errors_in, keep_origin
+from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
 from symgen.describe.mechanism import (
     AnyBody,
@@ -55,8 +56,6 @@ from symgen.describe.parts.own_units import check_single
 from symgen.describe.parts.parameters import Parameters
 from symgen.describe.parts.scope import Context, Scope
 from symgen.describe.parts.sections import (
-    NAMED,
-    SECTIONS,
     MechanismSection,
     OutputSection,
     StateSection,

@@ -180,12 +180,12 @@ def _check_gaps(mechanism: Mechanism, samples: Mapping[str, Data], formulas: Map
             raise InputError(f"input '{name}'", expected, "a formula of the state", hint)
 
 
-def inputs_of_gaps(mechanism: Mechanism) -> set[str]:
-    """Return the inputs that gaps read."""
-    found = set[str]()
+def inputs_of_gaps(mechanism: Mechanism) -> dict[str, str]:
+    """Return the inputs that gaps read, each with what such a row is."""
+    found = dict[str, str]()
     for row in mechanism.bounded:
         if isinstance(row.measure, FormulaMeasure):
-            found |= {*names_in(row.measure.of)} & {*mechanism.inputs}
+            found |= {name: row.family.one for name in names_in(row.measure.of) if name in mechanism.inputs}
     return found
 
 

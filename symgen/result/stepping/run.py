@@ -245,8 +245,11 @@ class SteppedRun(Readings):
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
             for name, value in values.items()
         }
-        if held := sorted(numbers.keys() & inputs_of_gaps(self._mechanism)):
-            raise InputError(f"set: '{held[0]}'", "an input that moves no stop", f"'{held[0]}', which a gap reads")
+        of_gaps = inputs_of_gaps(self._mechanism)
+        if held := sorted(numbers.keys() & of_gaps):
+            raise InputError(
+                f"set: '{held[0]}'", f"an input that moves no {of_gaps[held[0]]}", f"'{held[0]}', which a gap reads"
+            )
         self._advance.recover()
         loop = self._loop
         if self._adaptive:

@@ -23,8 +23,8 @@ from symgen.base.escapes import LONGEST, comment_text
 from symgen.compile.store.modules import load_module
 from symgen.derive.emit.printer import table_name
 from symgen.derive.methods._base import MethodOption, MethodParameter, MultiplierMethod
+from symgen.describe.files.section_names import SECTIONS
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.sections import SECTIONS
 from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
 
 EXPLICIT, IMPLICIT = choose_method("direct-correction"), choose_method("lagrange", None, True)
