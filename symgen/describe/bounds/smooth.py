@@ -44,7 +44,7 @@ def with_sliding(where: str, mechanism: Mechanism) -> Mechanism:
     InputError
         If bounds depend on reactions.
     """
-    rows = two_sided(mechanism)
+    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction)]
     if names := ", ".join(row.name for row in rows if row.pressed):
         raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
     return with_smooth(without_bounds(mechanism, rows), rows) if rows else mechanism
@@ -63,7 +63,8 @@ def smoothed(where: str, rows: Sequence[BoundedRow], speed: float, values: Mappi
         expected = "dry friction with one constant bound, or with stribeck_speed"
         if row.pressed:
             raise InputError(where, expected, f"that of {row.name} by the reaction")
-        assert isinstance(row, Friction), "which has a law of its rate"
+        if not isinstance(row, Friction):
+            raise InputError(where, expected, f"the {row.family.one} {row.name}")
         low, high = (evaluate(bound, values, where) for bound in (row.sliding, row.static))
         if high != low and row.stribeck_speed is None:
             raise InputError(where, expected, f"that of {row.name}, {high:g} at rest and {low:g} in motion")

@@ -115,6 +115,7 @@ class _Validator:
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
         self._bounded: dict[str, tuple[BoundedRow, ...]] = {}  # rows with bounds of joints
+        self._keys = tuple(keys_of_any_joint())
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
@@ -378,11 +379,11 @@ class _Validator:
     def read_joint(self, name: str) -> Joint:
         """Return the joint `name`, and note what else its table says."""
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type", *keys_of_any_joint())
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", *self._keys)
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.context, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read_table(struct, table, self.where(path), ("type", *keys_of_any_joint()))
+        section = read_table(struct, table, self.where(path), ("type", *self._keys))
         joint = section.build(scope)
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
