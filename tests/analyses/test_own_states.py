@@ -94,6 +94,7 @@ RATES = (
 )
 
 
+@pytest.mark.fast("1", "6", "12", "16")
 @pytest.mark.parametrize("seed", range(20))
 def test_random_states_along_driven_chains(seed):
     """States by SciPy along the motion in closed form; efforts are those of a run, which integrates everything."""
@@ -132,6 +133,7 @@ def test_random_states_along_driven_chains(seed):
         np.testing.assert_allclose(needed[name], moved.efforts[name], atol=1e-6)
 
 
+@pytest.mark.fast("1", "6", "11")
 @pytest.mark.parametrize("seed", range(20))
 def test_random_states_in_recorded_motions(seed):
     """A motor's torque is a formula of time in the run; the motion needs just that."""

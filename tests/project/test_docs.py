@@ -5,7 +5,7 @@ import ast
 import os
 import re
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -147,9 +147,14 @@ def test_every_file_shown_is_valid(page: Path) -> None:
         validate(parse_toml(block.text, name(page)), name(page))
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
-def test_links_lead_somewhere(page: Path) -> None:
-    for target in _LINK.findall(page.read_text(encoding="utf-8")):
+def each_target(pattern: re.Pattern[str]) -> Iterator[tuple[Path, str]]:
+    """Yield every page with every target that a pattern finds in it."""
+    for page in PAGES:
+        yield from ((page, target) for target in pattern.findall(page.read_text(encoding="utf-8")))
+
+
+def test_links_lead_somewhere() -> None:
+    for page, target in each_target(_LINK):
         if target.startswith(("https://", "http://")):
             continue
         path, _, anchor = target.partition("#")
@@ -160,9 +165,8 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert anchor in anchors(file), f"{name(page)} links to {target}, which has no such heading"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
-def test_pictures_are_there(page: Path) -> None:
-    for target in _PICTURE.findall(page.read_text(encoding="utf-8")):
+def test_pictures_are_there() -> None:
+    for page, target in each_target(_PICTURE):
         file = (page.parent / target).resolve()
         assert file.is_file() and file.is_relative_to(ROOT), f"{name(page)} shows {target}, which does not exist"
         largest = gallery.LARGEST_OF_README if file.parent == gallery.PICTURES else gallery.LARGEST
