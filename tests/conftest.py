@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 #: Random inputs of a test that does not say how many it draws; every run draws others.
-EXAMPLES = 30
+EXAMPLES = 15
 
 # no test depends on how fast a machine is or how busy: neither an example's time nor that of drawing it is bounded
 settings.register_profile("any machine", max_examples=EXAMPLES, deadline=None, suppress_health_check=list(HealthCheck))
