@@ -190,8 +190,16 @@ def titles(*few: str):
 
 
 @pytest.mark.parametrize("title", titles(FEW[0]))
-@pytest.mark.parametrize("options", [(), ("--target", "cuda"), ("--target", "lanes"), ("--shape", "looped")])
-def test_packages(options, title, tmp_path):
+def test_packages(title, tmp_path):
+    assert_same_packages((), title, tmp_path)
+
+
+@pytest.mark.parametrize("options", [("--target", "cuda"), ("--target", "lanes"), ("--shape", "looped")])
+def test_packages_of_other_code_have_the_same_comments(options, tmp_path):
+    assert_same_packages(options, FEW[0], tmp_path)
+
+
+def assert_same_packages(options, title, tmp_path):
     folders = [written(path, "generate", *options, "code") for path in pair(tmp_path, title)]
     honest, hostile = ({p.name: p.read_text(encoding="utf-8") for p in folder.iterdir()} for folder in folders)
     assert hostile.keys() == honest.keys()
