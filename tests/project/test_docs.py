@@ -125,6 +125,30 @@ def test_the_errors_of_the_wrong_file_that_a_page_shows(
     assert cli("check", "slips.toml") == (2, "", errors)
 
 
+@pytest.mark.fast(
+    "README.md",
+    "docs/architecture.md",
+    "docs/drawing.md",
+    "docs/howto/controllers.md",
+    "docs/howto/gymnasium.md",
+    "docs/howto/own-integrator.md",
+    "docs/howto/own-joint.md",
+    "docs/howto/own-mechanism.md",
+    "docs/howto/own-method.md",
+    "docs/howto/stiff-mechanisms.md",
+    "docs/howto/stops.md",
+    "docs/internals.md",
+    "docs/inverse.md",
+    "docs/joint-coordinates.md",
+    "docs/linearise.md",
+    "docs/modes.md",
+    "docs/player.md",
+    "docs/stress.md",
+    "docs/tutorial-space.md",
+    "docs/tutorials/modes.md",
+    "docs/tutorials/scissor-lift.md",
+    "docs/tutorials/wiper.md",
+)
 @pytest.mark.parametrize("page", with_language("python"))
 def test_every_snippet_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The snippets of a page share their names, as a reader would type them one after the other."""
