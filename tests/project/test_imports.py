@@ -164,6 +164,7 @@ def test_importing_symgen_costs_nothing(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_running_a_generated_model_needs_neither_sympy_nor_jinja2_nor_numba(tmp_path: Path) -> None:
     code = (
         "import symgen\n"
@@ -188,6 +189,7 @@ def test_generating_needs_no_numba(tmp_path: Path) -> None:
     assert not loaded(code, tmp_path) & {"numba", "scipy", *DRAWING}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("choice", [("--target", "cuda"), ("--shape", "looped")], ids=" ".join)
 def test_writing_code_that_does_not_run_here_needs_no_numba(tmp_path: Path, choice: tuple[str, str]) -> None:
     arguments = "generate", "pendulum", *choice, "--method", "baumgarte", "--output", str(tmp_path / "written")
@@ -198,6 +200,7 @@ def test_writing_code_that_does_not_run_here_needs_no_numba(tmp_path: Path, choi
 CLI = "from symgen.cli import main\nassert main() == 0"
 
 
+@pytest.mark.fast("--help-", "--version-", "list --json-", "schema-", "cache info --json-")
 @pytest.mark.parametrize(
     ("command", "forbidden"),
     [
