@@ -69,16 +69,6 @@ def ended(tmp_path_factory):
     return dict(zip(REQUESTS, json.loads(found.stdout), strict=True))
 
 
-@pytest.mark.fast(
-    "sweep pendulum --vary bob.vy=log(1,2,1e9) --until 0.02",
-    "sweep pendulum --vary bob.vy=lin(0,1,30000) --vary bob.vx=lin(0,1,30000) --until 0.02",
-    "sweep pendulum --vary bob.vy=lin(0,1,20000) --until 1 --output-step 1e-5 --quantity q",
-    "run n-four-bar:1000 --until 0.01 --output-step 1e-9",
-    "run n-four-bar:1000 --until 0.01 --output-step 1e-9 --json",
-    "run n-four-bar:1000 --step 1e-6 --until 1 --output-step 1e-6",
-    "run andrews --output-step 1e-8 --until 0.03 --save a.nc",
-    "compare four-bar --until 1 --output-step 1e-7",
-)
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="bounds the address space")
 @pytest.mark.parametrize("words", REQUESTS)
 def test_one_sentence_before_anything_is_allocated(ended, words):
