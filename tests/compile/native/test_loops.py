@@ -28,6 +28,16 @@ SCHEMES = {
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
 
+@pytest.mark.fast(
+    "False-explicit-constant",
+    "False-lie-constant",
+    "False-half_explicit-constant",
+    "False-rattle-constant",
+    "False-symplectic-constant",
+    "False-screw-constant",
+    "False-symmetric-constant",
+    "True-adams-adaptive",
+)
 @pytest.mark.parametrize(("scheme", "name"), LOOPS)
 @pytest.mark.parametrize("events", [False, True])
 def test_every_loop_is_in_the_language(scheme, name, events):
@@ -37,6 +47,12 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     read(with_seams(loop))
 
 
+@pytest.mark.fast(
+    "explicit-constant-False-False",
+    "explicit-adaptive-True-False",
+    "picard-constant-True-False",
+    "picard-adaptive-True-True",
+)
 @pytest.mark.parametrize("events", [False, True])
 @pytest.mark.parametrize("seams", [False, True])
 @pytest.mark.parametrize("steps", ["constant", "adaptive"])
@@ -128,6 +144,7 @@ def test_runs_are_numbas(case):
     compared("straight", *CASES[case])
 
 
+@pytest.mark.slow
 def test_a_run_imports_no_numba():
     for shape, *case in (("straight", "four-bar", "lagrange", "rk4"), ("looped", "pendulum", "lagrange", "rk4")):
         assert not json.loads(process("compile.native.loops", shape, *case).stdout)["numba"]

@@ -306,6 +306,7 @@ def test_code_for_large_mechanisms_is_refused():
         symgen.sweep("n-four-bar:100", {"vertical0.omega": [1.0]})
 
 
+@pytest.mark.slow
 def test_without_compilation_the_numbers_are_the_same(tmp_path):
     """NUMBA_DISABLE_JIT=1 is how a run is debugged."""
     script = (
@@ -332,6 +333,11 @@ def pushed(formula: str) -> Mechanism:
     return mechanism_of(text)
 
 
+@pytest.mark.fast(
+    "5 if t < 0.0503 else -20-adaptive",
+    "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-constant",
+    "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-adaptive",
+)
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )
