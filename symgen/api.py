@@ -32,7 +32,8 @@ from symgen.run.single.run import Array
 if TYPE_CHECKING:
     from symgen import compare as _compare
     from symgen import sweep as _sweep
-    from symgen.analyses.functions import Frame, Functions
+    from symgen.analyses.frame import Frame
+    from symgen.analyses.functions import Functions
     from symgen.result.result import Result
     from symgen.result.stepping.run import SteppedRun
     from symgen.run.compiling.pipeline import MethodChoice

@@ -47,7 +47,7 @@ class ArrayFunction:
         slow = _Converted(function, default, values)
         slow.block = function.block(default, slow)
         entry = slow if slow.block is None else function.entry(slow.block)
-        self.__call__ = entry
+        object.__setattr__(self, "__call__", entry)  # a slot: a call costs no method of Python
 
     if TYPE_CHECKING:
 

@@ -18,12 +18,10 @@ from symgen.base import arguments
 from symgen.base.errors import InputError, nearest
 from symgen.base.settings import COORDINATES, Settings
 from symgen.base.vocabulary.expressions import ZERO
-from symgen.base.vocabulary.quantities import Quantity
 from symgen.describe.bounds.smooth_friction import with_sliding_friction
 from symgen.describe.bounds.stops import without_stops
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.parts.topology import quantities
 from symgen.run.compiling.choices import choose_coordinates, on_tree
 from symgen.run.compiling.functions import compile_function
@@ -32,6 +30,7 @@ from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 
 if TYPE_CHECKING:
+    from symgen.analyses.frame import Frame
     from symgen.derive.lower.functions import StateFunctions, Values
     from symgen.describe.mechanism import Mechanism, Vec
     from symgen.run.planning.prepare import Prepared
@@ -51,7 +50,7 @@ BY = {"q": "q", "v": "v", "a": "a", "effort": "e", "p": "p"}
 
 
 class Functions:
-    """Compiled functions of the state of a mechanism ``M v' + h = efforts - D^T lambda``, ``D v' = gamma``, ``q' = N v``.
+    """Compiled functions of the state of a mechanism: M v' + h = efforts - D^T lambda, D v' = gamma, q' = N v.
 
     Arguments are arrays: coordinates `q`, velocities `v`, accelerations or efforts along the velocities, then, where
     they differ from `p`, the numbers that `values` returns, or a mapping of changed ones. A further array takes the
@@ -148,7 +147,7 @@ class Functions:
 
     @property
     def bias(self) -> ArrayFunction:
-        """``h(q, v)``, shape (nv,) [N, N m]: efforts that keep v' at 0, against gravity, springs, dampers and inputs."""
+        """``h(q, v)``, shape (nv,) [N, N m]: efforts that keep v' at 0, against all forces of the file."""
         return self._quantity("bias", "gyroscopic terms less forces")
 
     @property
@@ -311,7 +310,7 @@ class Functions:
         if own.shape[0] != own.shape[1] or np.linalg.cond(own) > 1e10:
             expected = f"{basis.shape[1]} velocities that are independent there"
             raise InputError("independent", expected, ", ".join(independent))
-        return tuple(independent), np.linalg.solve(own.T, basis.T).T
+        return tuple(independent), np.asarray(np.linalg.solve(own.T, basis.T).T, dtype=np.float64)
 
     # -- frames --------------------------------------------------------------------------------------------------------
 
@@ -329,7 +328,7 @@ class Functions:
             If there is no such frame, or several bodies have such a point.
         """
         name, bodies = arguments.text("frame", name), self.mechanism.bodies
-        places = {b.name: (b.name, (ZERO,) * len(self.mechanism.gravity)) for b in bodies}
+        places: dict[str, tuple[str, Vec]] = {b.name: (b.name, (ZERO,) * len(self.mechanism.gravity)) for b in bodies}
         places |= {f"{b.name}.{point}": (b.name, at) for b in bodies for point, at in b.points}
         having = [key for key in places if key.partition(".")[2] == name]
         if name not in places and len(having) > 1:
@@ -339,6 +338,8 @@ class Functions:
             short = {key.rpartition(".")[2] for key in places}
             expected = f"a body or a point of {self.mechanism.name}"
             raise InputError(f"frame '{name}'", expected, "none of that name", nearest(name, {*places, *short}))
+        from symgen.analyses.frame import Frame
+
         return Frame(self, key, *places[key])
 
     # -- making --------------------------------------------------------------------------------------------------------
@@ -381,70 +382,11 @@ class Functions:
             made = compile_function(
                 *(self.mechanism, lambda: self._derived, name, f"what {name} solves", vectors, make), actuators
             )
-            made = made.with_kernel(_NAMES[name], kernel, np.array(sizes, dtype=np.int64), projection.room(n, m, k), shape)
+            made = made.with_kernel(
+                _NAMES[name], kernel, np.array(sizes, dtype=np.int64), projection.room(n, m, k), shape
+            )
             self._made[key] = ArrayFunction(made, self.p, self.values)
         return self._made[key]
 
 
 _NAMES = {"system": "forward_dynamics", "balance": "inverse_dynamics"}
-
-
-class Frame:
-    """A frame that moves with a body: where it is, how it moves, and what velocities do to it.
-
-    Vectors have their linear part first, then the angular one: six numbers in space, three in the plane. Components are
-    along the axes of the ground; those of `local` are along the frame's own.
-
-    Attributes
-    ----------
-    name : str
-        Its name, such as ``arm.tip``.
-    """
-
-    def __init__(self, functions: Functions, name: str, body: str, point: Vec, axes: str = "world") -> None:
-        self.functions, self.name, self._body, self._point, self._axes = functions, name, body, point, axes
-
-    def __repr__(self) -> str:
-        return f"<Frame {self.name} of {self.functions.mechanism.name}, {self._axes} axes>"
-
-    @property
-    def local(self) -> Frame:
-        """The same frame with components along its own axes."""
-        return Frame(self.functions, self.name, self._body, self._point, "local")
-
-    @property
-    def pose(self) -> ArrayFunction:
-        """The homogeneous matrix of (q): axes as columns, then the position [m]; 4 x 4, in the plane 3 x 3."""
-        return self._function("pose", ("q",))
-
-    @property
-    def velocity(self) -> ArrayFunction:
-        """Velocity and angular velocity of (q, v) [m/s, rad/s]."""
-        return self._function("velocity", ("q", "v"))
-
-    @property
-    def jacobian(self) -> ArrayFunction:
-        """``J(q)`` of velocity = J v, shape (6 or 3, nv); what drivers add is no part of it."""
-        return self._function("jacobian", ("q",))
-
-    @property
-    def jacobian_rate(self) -> ArrayFunction:
-        """``J' v`` of (q, v): the rate of `velocity` where v' is 0 [m/s^2, rad/s^2]; in local axes, of its components."""
-        return self._function("jacobian_rate", ("q", "v"))
-
-    def reduced_jacobian(self, q: Any, independent: Sequence[str] = (), p: Any = None) -> Array:
-        """Return J over independent velocities, with loops closed; see `Functions.reduction`."""
-        along = self.functions.reduction(q, independent, p)[1]
-        own = self.jacobian(q) if p is None else self.jacobian(q, p)
-        return np.asarray(own @ along)
-
-    def _function(self, what: str, vectors: tuple[str, ...]) -> ArrayFunction:
-        functions, axes = self.functions, "world" if what == "pose" else self._axes
-        key = self._body, self._point, what, axes
-        if key not in functions._made:
-            purpose = f"{what} of {self.name}"
-            identity = self._body, *map(to_text, self._point), axes
-            functions._made[key] = functions._compiled(
-                what, purpose, vectors, lambda f: f.frame(self._body, self._point, what, axes), identity
-            )
-        return functions._made[key]

@@ -12,6 +12,7 @@ import ctypes
 import functools
 import sys
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -136,9 +137,9 @@ def array_entry(block: Block, inputs: int, object_file: Callable[[str, str], byt
 def many(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[..., int]:
     """Return a function that calls a compiled one for many states, without the interpreter's lock.
 
-    It takes the address of a block of slots, that of a working memory for `SCRATCH`, the number of states, the addresses
-    of the first result and of a status, and address and step of each argument; it returns the first state at which a
-    function returned another number than 0, which is the status then, or -1.
+    It takes the addresses of a block of slots and of a working memory for `SCRATCH`, the number of states, the
+    addresses of the first result and of a status, and address and step of each argument; it returns the first state at
+    which a function returned another number than 0, which is the status then, or -1.
     """
     return _many(inputs, object_file)
 
@@ -154,11 +155,9 @@ def _many(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[...
 @functools.cache
 def _numpy_table() -> Any:
     """Return NumPy's table of functions for extensions."""
-    from numpy._core import _multiarray_umath
-
     read = ctypes.pythonapi.PyCapsule_GetPointer
     read.restype, read.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
-    address = read(_multiarray_umath._ARRAY_API, None)
+    address = read(import_module("numpy._core._multiarray_umath")._ARRAY_API, None)
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_size_t))
 
 
@@ -188,7 +187,7 @@ def entry_text(name: str, inputs: int) -> str:
     lines = [
         f'define ptr @"{name}"(ptr %self, ptr %args, i64 %nargs, ptr %kwnames) {{',
         "start:",
-        f"  %number = alloca double",
+        "  %number = alloca double",
         f"  %at = getelementptr i8, ptr %self, i64 {_DATA}",
         "  %block = load ptr, ptr %at",
         *(_slot(slot) for slot in range(FIRST + inputs)),
@@ -197,7 +196,7 @@ def entry_text(name: str, inputs: int) -> str:
         f"  %few = icmp sle i64 %nargs, {inputs + 1}",
         "  %some = and i1 %enough, %few",
         "  %right = and i1 %plain, %some",
-        f"  br i1 %right, label %check0, label %otherwise",
+        "  br i1 %right, label %check0, label %otherwise",
     ]
     for i in range(inputs):
         after = "result" if i == inputs - 1 else f"check{i + 1}"
@@ -215,11 +214,11 @@ def entry_text(name: str, inputs: int) -> str:
         f"  %scalar = icmp eq i64 %s{DIMENSIONS}, 0",
         "  br i1 %given, label %take, label %make",
         "take:",
-        f"  br i1 %scalar, label %otherwise, label %taken",
+        "  br i1 %scalar, label %otherwise, label %taken",
         "taken:",
         *_checked(d, f"%s{ROWS}", _WRITE, f"%s{DIMENSIONS}"),
         f"  %two = icmp eq i64 %s{DIMENSIONS}, 2",
-        f"  %where = select i1 %two, i64 8, i64 0",
+        "  %where = select i1 %two, i64 8, i64 0",
         f"  %second = getelementptr i8, ptr %shape{d}, i64 %where",
         "  %width = load i64, ptr %second",
         f"  %wide = icmp eq i64 %width, %s{COLUMNS}",
@@ -247,7 +246,7 @@ def entry_text(name: str, inputs: int) -> str:
         "  %room = load ptr, ptr %into",
         "  br label %call",
         "call:",
-        f"  %object = phi ptr [ %mine, %own ], [ null, %make ], [ %fresh, %made ]",
+        "  %object = phi ptr [ %mine, %own ], [ null, %make ], [ %fresh, %made ]",
         f"  %out = phi ptr [ %data{d}, %own ], [ %number, %make ], [ %room, %made ]",
         *_called(
             [(f"%data{i}" if i < last else "%last", f"%s{FIRST + i}") for i in range(inputs)],

@@ -151,17 +151,17 @@ class StateFunctions:
         return [self.equations.graph.input(space, i) for i in range(self.equations.nv)]
 
     def mass_matrix(self) -> Values:
-        """M."""
+        """Return M."""
         n = self.equations.nv
         return Values(self.equations.graph, tuple(self._matrix()), (n, n))
 
     def bias(self) -> Values:
-        """What M v' lacks: -f."""
+        """Return -f."""
         g = self.equations.graph
         return Values(g, tuple(g.neg(n) for n in self.equations.forces), (self.equations.nv,))
 
     def inverse_dynamics(self) -> Values:
-        """M a - f."""
+        """Return M a - f."""
         g, accelerations = self.equations.graph, self._vector("a")
         result = [g.neg(n) for n in self.equations.forces]
         for (i, j), node in sorted(self._mass().items()):
@@ -173,7 +173,7 @@ class StateFunctions:
         return [g.add(f, e) for f, e in zip(self.equations.forces, self._vector("e"), strict=True)]
 
     def forward_dynamics(self) -> Values:
-        """v' of mechanisms without rows: M^-1 (f + efforts)."""
+        """Return v' of mechanisms without rows: M^-1 (f + efforts)."""
         e, g, entries = self.equations, self.equations.graph, self._mass()
         near = [frozenset(j for i, j in entries if i == k and j != k) for k in range(e.nv)]
         order, _ = minimum_degree(near)
@@ -185,12 +185,12 @@ class StateFunctions:
         return Values(g, tuple(factor.solve(g, self._right())), (e.nv,), light)
 
     def system(self) -> Values:
-        """M, f + efforts, D and gamma in one line, from which a kernel computes v'."""
+        """Return M, f + efforts, D and gamma in one line, from which a kernel computes v'."""
         nodes = [*self._matrix(), *self._right(), *self._rows(), *(row.gamma for row in self.equations.rows)]
         return Values(self.equations.graph, tuple(nodes), (len(nodes),))
 
     def balance(self, actuators: Sequence[str] = ()) -> Values:
-        """M a - f, then D, in one line, from which a kernel computes efforts of loops.
+        """Return M a - f, then D, in one line, from which a kernel computes efforts of loops.
 
         Present values of named actuators follow, and what 1 of each exerts along the velocities.
 
@@ -219,23 +219,23 @@ class StateFunctions:
         return g.zero, [slope.get(("v", i), g.zero) for i in range(e.nv)]
 
     def constraint_jacobian(self) -> Values:
-        """D."""
+        """Return D."""
         e = self.equations
         return Values(e.graph, tuple(self._rows()), (e.m, e.nv))
 
     def row_values(self, which: str) -> Values:
-        """Phi, nu or gamma."""
+        """Return Phi, nu or gamma."""
         e = self.equations
         found = [getattr(row, which) for row in e.rows]
         return Values(e.graph, tuple(e.graph.zero if n is None else n for n in found), (e.m,))
 
     def rates(self) -> Values:
-        """q' = N v, with what drivers add."""
+        """Return q' = N v."""
         e = self.equations
         return Values(e.graph, e.q_rates, (e.nq,))
 
     def energy(self, which: str) -> Values:
-        """An energy."""
+        """Return an energy."""
         return Values(self.equations.graph, (getattr(self.equations, which),), ())
 
     # -- frames --------------------------------------------------------------------------------------------------------
@@ -255,8 +255,9 @@ class StateFunctions:
             Axes of components: the ground's or the body's.
         """
         g, placed = self.model.graph, _Placed(self.model, body, point)
+        shape: tuple[int, ...] = (placed.dimension + 1,) * 2
         if what == "pose":
-            nodes, shape = placed.pose(), (placed.dimension + 1,) * 2
+            nodes = placed.pose()
         else:
             twist = placed.velocity(axes == "local")
             size, nv = len(twist), self.equations.nv
@@ -357,7 +358,9 @@ class FunctionProgram:
     tables: tuple[Interpolation, ...]
 
 
-def lower_function(functions: StateFunctions, name: str, purpose: str, vectors: Iterable[str], values: Values) -> FunctionProgram:
+def lower_function(
+    functions: StateFunctions, name: str, purpose: str, vectors: Iterable[str], values: Values
+) -> FunctionProgram:
     """Return a quantity as one function.
 
     Parameters

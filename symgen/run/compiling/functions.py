@@ -1,6 +1,6 @@
 """Functions of the state, compiled: from quantities of a mechanism to calls with arrays.
 
-    mechanism, quantity --lower--> block --emit--> source --load--> function --entry--> built-in function of Python
+mechanism, quantity --lower--> block --emit--> source --load--> function --entry--> built-in function of Python
 """
 
 from __future__ import annotations

@@ -139,8 +139,8 @@ def efforts(sizes: Any, w: Any, out: Any) -> int:
     Parameters
     ----------
     sizes : Array
-        Numbers of velocities and rows, the least rank of D, the number of named actuators, and 1 if they are named; else
-        there is one along each velocity.
+        Numbers of velocities and rows, the least rank of D, the number of named actuators, and 1 if they are named;
+        else there is one along each velocity.
     w : Array
         M a - f, D, and, for named actuators, their present values and the effort of 1 of each on the velocities.
     out : Array
