@@ -16,24 +16,15 @@ from numpy.typing import NDArray
 from symgen.analyses.array_function import ArrayFunction
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest
-from symgen.base.settings import COORDINATES, Settings
 from symgen.base.vocabulary.expressions import ZERO
-from symgen.describe.bounds.smooth_friction import with_sliding_friction
-from symgen.describe.bounds.stops import without_stops
-from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.topology import quantities
-from symgen.run.compiling.choices import choose_coordinates, on_tree
 from symgen.run.compiling.functions import compile_function
 from symgen.run.loops import projection
-from symgen.run.planning.plan import Purpose
-from symgen.run.planning.prepare import prepare
+from symgen.run.planning.state_model import StateModel
 
 if TYPE_CHECKING:
     from symgen.analyses.frame import Frame
     from symgen.derive.lower.functions import StateFunctions, Values
     from symgen.describe.mechanism import Mechanism, Vec
-    from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
 WHERE = "functions"
@@ -45,6 +36,8 @@ _VECTORS = {
     "inverse_dynamics": ("q", "v", "a"),
     "forward_dynamics": ("q", "v", "e"),
 }
+#: Functions that rows are solved in.
+SOLVED = ("forward_dynamics", "inverse_dynamics")
 #: What derivatives are taken by, as arguments of `Functions.derivative` and as spaces.
 BY = {"q": "q", "v": "v", "a": "a", "effort": "e", "p": "p"}
 
@@ -74,23 +67,16 @@ class Functions:
     def __init__(
         self, mechanism: Mechanism, coordinates: str = "auto", parameters: Mapping[str, float] | None = None
     ) -> None:
-        coordinates = arguments.one_of("coordinates", coordinates, COORDINATES)
-        described = without_stops(with_sliding_friction(WHERE, mechanism))
-        self._described, self._coordinates = described, choose_coordinates(described, coordinates, "straight").name
-        self.mechanism = on_tree(described) if self._coordinates == "joint" else described
-        self.coordinates, self.velocities = quantities(self.mechanism)
-        distinct = without_repeats(self.mechanism)[0]
-        self.rows = tuple(f"{joint.name}.{row.label}" for joint in distinct.joints for row in joint.rows)
-        own = tuple(state.name for state in described.states)
-        self.parameters = (*(p.name for p in described.parameters), *own, "t")
-        self._changed: dict[str, float] = {}
+        self._model = StateModel(WHERE, mechanism, coordinates, parameters or {})
+        self.mechanism, self.rows = self._model.mechanism, self._model.rows
+        self.coordinates, self.velocities = self._model.coordinates, self._model.velocities
+        self.parameters = self._model.parameters
         self._made: dict[object, ArrayFunction] = {}
-        self.p = self.values(parameters or {})
-        self._changed = dict(parameters or {})
+        self.p = self.values()
 
     def __repr__(self) -> str:
         sizes = f"{len(self.coordinates)} coordinates, {len(self.velocities)} velocities, {len(self.rows)} rows"
-        return f"<Functions of {self.mechanism.name} in {self._coordinates} coordinates: {sizes}>"
+        return f"<Functions of {self.mechanism.name} in {self._model.kind} coordinates: {sizes}>"
 
     def values(self, changed: Mapping[str, float] | None = None, **numbers: float) -> Array:
         """Return the numbers `p` with changed parameters, inputs, own states or the time ``t``.
@@ -102,23 +88,7 @@ class Functions:
         InputError
             If there is no such name, or a value is not finite.
         """
-        given = {**self._changed, **arguments.mapping("values", changed or {}, "numbers by name"), **numbers}
-        own = [state.name for state in self.mechanism.states]
-        beside = {name: given.pop(name) for name in (*own, "t") if name in given}
-        known = {p.name for p in self.mechanism.parameters}
-        for name in given:
-            if name not in known:
-                hint = nearest(str(name), {*self.parameters})
-                raise InputError("values", f"a parameter of {self.mechanism.name}", f"'{name}'", hint)
-        of_file = parameter_values(self.mechanism, given)
-        last = [arguments.number(f"values '{name}'", beside.get(name, 0.0)) for name in (*own, "t")]
-        return np.array([*of_file.values(), *last])
-
-    @cached_property
-    def _start(self) -> Prepared:
-        parameters = {k: x for k, x in self._changed.items() if k in {p.name for p in self.mechanism.parameters}}
-        settings = Settings(coordinates=self._coordinates, parameters=parameters, shape="straight")
-        return prepare(self._described, settings, Purpose.STATE)
+        return self._model.values({**(changed or {}), **numbers})
 
     @property
     def start(self) -> tuple[Array, Array]:
@@ -129,8 +99,7 @@ class Functions:
         AssemblyError
             If the mechanism cannot be closed.
         """
-        y, nq, nv = self._start.start.y, len(self.coordinates), len(self.velocities)
-        return y[:nq].copy(), y[nq : nq + nv].copy()
+        return self._model.start
 
     @cached_property
     def _derived(self) -> StateFunctions:
@@ -162,7 +131,7 @@ class Functions:
         if not self.rows:
             return self._quantity("forward_dynamics", "accelerations")
         n, m = len(self.velocities), len(self.rows)
-        return self._reduced("system", ("q", "v", "e"), (n, m, self._rank), projection.accelerations, (n,))
+        return self._reduced("system", ("q", "v", "e"), (n, m, self._model.rank), projection.accelerations, (n,))
 
     @property
     def inverse_dynamics(self) -> ArrayFunction:
@@ -178,7 +147,7 @@ class Functions:
         if not self.rows:
             return self._quantity("inverse_dynamics", "efforts")
         n, m = len(self.velocities), len(self.rows)
-        return self._reduced("balance", ("q", "v", "a"), (n, m, self._rank, 0, 0), projection.efforts, (n,))
+        return self._reduced("balance", ("q", "v", "a"), (n, m, self._model.rank, 0, 0), projection.efforts, (n,))
 
     def actuated(self, *names: str) -> ArrayFunction:
         """Return the function (q, v, a) of the values of named actuators that make `a`, shape (number of names,).
@@ -203,7 +172,7 @@ class Functions:
         if not names or len(set(names)) < len(names):
             raise InputError("actuated", "names of actuators, each once", ", ".join(names) or "none")
         n, m, k = len(self.velocities), len(self.rows), len(names)
-        sizes = (n, m, self._rank if m else 0, k, 1)
+        sizes = (n, m, self._model.rank, k, 1)
         return self._reduced("balance", ("q", "v", "a"), sizes, projection.efforts, (k,), names)
 
     @property
@@ -249,7 +218,8 @@ class Functions:
         name : str
             Such as ``"bias"``.
         by : {"q", "v", "a", "effort", "p"}
-            One of its arguments; elements of `q` count as independent, Euler parameters too.
+            One of its arguments; elements of `q` count as independent, Euler parameters too. Rows that depend on others
+            at the start are left out.
 
         Returns
         -------
@@ -266,13 +236,17 @@ class Functions:
         if BY[by] != "p" and BY[by] not in _VECTORS[name]:
             taken = ", ".join(x for x, space in BY.items() if space in (*_VECTORS[name], "p"))
             raise InputError("derivative: by", f"an argument of {name} ({taken})", by)
-        if self.rows and name in ("forward_dynamics", "inverse_dynamics"):
-            raise InputError("derivative", "a function without loops to solve", f"{name} of a mechanism with rows")
         key = f"{name} by {BY[by]}"
         if key not in self._made:
-            purpose = f"{name} differentiated by {by}"
+            solved = name in SOLVED and self.rows
+            quantity = f"{name} of rows" if solved else name
+            kept = self._model.kept if solved else ()
             self._made[key] = self._compiled(
-                f"{name}_by_{BY[by]}", purpose, _VECTORS[name], lambda f: f.derivative(name, BY[by])
+                f"{name}_by_{BY[by]}",
+                f"{name} differentiated by {by}",
+                _VECTORS[name],
+                lambda f: f.derivative(quantity, BY[by], kept),
+                kept,
             )
         return self._made[key]
 
@@ -343,11 +317,6 @@ class Functions:
         return Frame(self, key, *places[key])
 
     # -- making --------------------------------------------------------------------------------------------------------
-
-    @property
-    def _rank(self) -> int:
-        """The rank of D at the start."""
-        return int(self._start.start.rank)
 
     def _quantity(self, name: str, purpose: str) -> ArrayFunction:
         if name not in self._made:

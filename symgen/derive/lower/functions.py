@@ -16,11 +16,11 @@ from symgen.base.ir.derivative import Key, jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.ir.program import MODE_NUMBERS, Block, Target, of_table
-from symgen.base.vocabulary.measures import GROUND, Marker
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.formulate.measures import ModelNodes
-from symgen.derive.lower.factor import factorisation, minimum_degree
+from symgen.derive.lower.factor import FactorNodes, factorisation, minimum_degree
+from symgen.derive.lower.placed_point import PlacedPoint
 from symgen.derive.lower.side import separate_graph
 from symgen.describe.mechanism import Mechanism, Vec
 
@@ -91,9 +91,14 @@ class StateFunctions:
             self._values[name] = self._separate(_QUANTITIES[name](self))
         return self._values[name]
 
-    def derivative(self, name: str, space: str) -> Values:
-        """Return the derivatives of a quantity by q, v, a, e or p."""
-        return self._by(self.values(name), space)
+    def derivative(self, name: str, space: str, kept: Sequence[int] = ()) -> Values:
+        """Return the derivatives of a quantity by q, v, a, e or p; of ``NAME of rows`` with these rows."""
+        return self._by(self.solved(name, kept) if kept else self.values(name), space)
+
+    def solved(self, name: str, kept: Sequence[int]) -> Values:
+        """Return ``forward_dynamics of rows`` or ``inverse_dynamics of rows`` in one graph, with independent rows."""
+        forward = name.startswith("forward")
+        return self._separate(self._constrained(kept) if forward else self._shortest(kept))
 
     def actuated(self, actuators: Sequence[str]) -> Values:
         """Return `balance` with named actuators."""
@@ -174,15 +179,49 @@ class StateFunctions:
 
     def forward_dynamics(self) -> Values:
         """Return v' of mechanisms without rows: M^-1 (f + efforts)."""
-        e, g, entries = self.equations, self.equations.graph, self._mass()
-        near = [frozenset(j for i, j in entries if i == k and j != k) for k in range(e.nv)]
+        return self._constrained(())
+
+    def _constrained(self, kept: Sequence[int]) -> Values:
+        """Return v' of M v' + D^T lambda = f + efforts, D v' = gamma, with independent rows."""
+        e, g = self.equations, self.equations.graph
+        factor, light = self._factor(self._mass(), e.nv, g.zero)
+        free = factor.solve(g, self._right())
+        if kept:
+            rows = self._dense_rows(kept)
+            along = [factor.solve(g, row) for row in rows]
+            count = range(len(rows))
+            schur = {(i, j): g.dot(rows[i], along[j]) for i in count for j in count if j <= i}
+            schur |= {(j, i): node for (i, j), node in schur.items()}
+            inner, light = self._factor({k: n for k, n in schur.items() if n != g.zero}, len(rows), light)
+            lacking = [g.sub(g.dot(row, free), e.rows[i].gamma) for row, i in zip(rows, kept, strict=True)]
+            loads = inner.solve(g, lacking)
+            free = [g.sub(x, g.dot([a[i] for a in along], loads)) for i, x in enumerate(free)]
+        return Values(g, tuple(free), (e.nv,), light)
+
+    def _shortest(self, kept: Sequence[int]) -> Values:
+        """Return the shortest efforts of M a - f beside independent rows."""
+        e, g, rows = self.equations, self.equations.graph, self._dense_rows(kept)
+        needed, count = list(self.inverse_dynamics().nodes), range(len(rows))
+        square = {(i, j): g.dot(rows[i], rows[j]) for i in count for j in count}
+        inner, light = self._factor({k: n for k, n in square.items() if n != g.zero}, len(rows), g.zero)
+        loads = inner.solve(g, [g.dot(row, needed) for row in rows])
+        efforts = [g.sub(x, g.dot([row[i] for row in rows], loads)) for i, x in enumerate(needed)]
+        return Values(g, tuple(efforts), (e.nv,), light)
+
+    def _dense_rows(self, kept: Sequence[int]) -> list[list[int]]:
+        e = self.equations
+        return [[dict(e.rows[i].entries).get(j, e.graph.zero) for j in range(e.nv)] for i in kept]
+
+    def _factor(self, matrix: Mapping[tuple[int, int], int], size: int, light: int) -> tuple[FactorNodes, int]:
+        """Return the factors of a matrix, and a node that is true where `light` is or a pivot is rounding."""
+        g = self.equations.graph
+        near = [frozenset(j for i, j in matrix if i == k and j != k) for k in range(size)]
         order, _ = minimum_degree(near)
-        factor = factorisation(g, entries, order, lambda row, pivot, diagonal: g.div(g.one, pivot))
-        light = g.zero
+        factor = factorisation(g, matrix, order, lambda row, pivot, diagonal: g.div(g.one, pivot))
         for k, pivot in factor.pivots.items():
             sound = g.call("gt", pivot, g.mul(g.constant(NO_MASS), factor.diagonal[k]))
             light = g.call("not", sound) if light == g.zero else g.call("or", light, g.call("not", sound))
-        return Values(g, tuple(factor.solve(g, self._right())), (e.nv,), light)
+        return factor, light
 
     def system(self) -> Values:
         """Return M, f + efforts, D and gamma in one line, from which a kernel computes v'."""
@@ -254,7 +293,7 @@ class StateFunctions:
         axes : {"world", "local"}
             Axes of components: the ground's or the body's.
         """
-        g, placed = self.model.graph, _Placed(self.model, body, point)
+        g, placed = self.model.graph, PlacedPoint(self.model, body, point)
         shape: tuple[int, ...] = (placed.dimension + 1,) * 2
         if what == "pose":
             nodes = placed.pose()
@@ -277,57 +316,6 @@ class StateFunctions:
         rates |= {("z", i): model.expression(x.rate) for i, x in enumerate(self.mechanism.states, 1)}
         slopes = jacobian(g, nodes, rates)
         return [g.total(g.mul(n, rates[key]) for key, n in sorted(slope.items())) for slope in slopes]
-
-
-class _Placed:
-    """Position, axes and motion of a point of a body, in the ground's axes."""
-
-    def __init__(self, model: ModelNodes, body: str, point: Vec) -> None:
-        self.model, g = model, model.graph
-        self.graph, self.spatial = g, model.spatial
-        self.dimension = d = 3 if model.spatial else 2
-        own = model.local(Marker(body, point))
-        slots = model.frame_inputs(body)
-        at, self.omega = slots[:d], slots[-3:] if self.spatial else slots[-1:]
-        still = body == GROUND or model.mechanism.body(body).is_point
-        if self.spatial:
-            axes = [slots[3:6], slots[6:9], slots[9:12]]
-            moved = slots[12:15]
-        else:
-            axes = [[slots[2], g.neg(slots[3])], [slots[3], slots[2]]]
-            moved = slots[4:6]
-        if still:
-            axes = [[g.one if i == j else g.zero for j in range(d)] for i in range(d)]
-            self.omega = [g.zero] * len(self.omega)
-        self.axes = axes
-        arm = [g.dot(row, own) for row in axes]
-        self.at = [g.add(x, a) for x, a in zip(at, arm, strict=True)]
-        self.moved = [g.add(x, s) for x, s in zip(moved, self._swing(own, arm), strict=True)]
-
-    def _swing(self, own: Sequence[int], arm: Sequence[int]) -> list[int]:
-        g = self.graph
-        if self.spatial:
-            x, y, z = own
-            p, q, r = self.omega
-            local = [g.sub(g.mul(q, z), g.mul(r, y)), g.sub(g.mul(r, x), g.mul(p, z)), g.sub(g.mul(p, y), g.mul(q, x))]
-            return [g.dot(row, local) for row in self.axes]
-        (w,) = self.omega
-        return [g.neg(g.mul(w, arm[1])), g.mul(w, arm[0])]
-
-    def pose(self) -> list[int]:
-        """Return the homogeneous matrix, row by row."""
-        g = self.graph
-        rows = [[*row, x] for row, x in zip(self.axes, self.at, strict=True)]
-        return [n for row in rows for n in row] + [g.zero] * self.dimension + [g.one]
-
-    def velocity(self, local: bool) -> list[int]:
-        """Return velocity and angular velocity."""
-        g = self.graph
-        if local:
-            along = [g.dot(column, self.moved) for column in zip(*self.axes, strict=True)]
-            return [*along, *self.omega]
-        turning = [g.dot(row, self.omega) for row in self.axes] if self.spatial else self.omega
-        return [*self.moved, *turning]
 
 
 _QUANTITIES: Mapping[str, Callable[[StateFunctions], Values]] = {

@@ -102,8 +102,9 @@ class StateFunction:
             status = np.zeros(1, dtype=np.int64)
             places = block.ctypes.data, scratch.ctypes.data, count, out.ctypes.data, status.ctypes.data
             return int(many(len(arrays), object_file)(*places, *flat)), int(status[0])
+        results = out.reshape(count, -1)
         for k in range(count):
-            code = self._plainly([a if a.ndim == 1 else a[k] for a in arrays], out[k].reshape(-1))
+            code = self._plainly([a if a.ndim == 1 else a[k] for a in arrays], results[k])
             if code:
                 return k, code
         return -1, 0
