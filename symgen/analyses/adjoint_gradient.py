@@ -19,7 +19,7 @@ from symgen.result.build import build_result
 from symgen.result.evaluated import Evaluated
 from symgen.result.sensitivities import Sensitivities, doubt_of_motion, place_of, prepared
 from symgen.run.layout import abi
-from symgen.run.planning.directions import Direction, named_directions
+from symgen.run.planning.directions import RunDirection, named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
 from symgen.run.planning.start_directions import StartDirections
 from symgen.run.single.adjoint import Adjoint, Uncovered, run_for_adjoint
@@ -65,9 +65,9 @@ class EndDirections:
     compiled: CompiledModel
 
     @property
-    def directions(self) -> tuple[Direction, ...]:
+    def directions(self) -> tuple[RunDirection, ...]:
         """Names."""
-        states = (Direction(f"state {i}", "", "state", str(i)) for i in range(self.compiled.info.ny))
+        states = (RunDirection(f"state {i}", "", "state", str(i)) for i in range(self.compiled.info.ny))
         return *self.start.directions, *states
 
     def parameters(self, compiled: CompiledModel) -> Array:
@@ -104,11 +104,11 @@ class Mixed:
     factors: Array
 
     @property
-    def directions(self) -> tuple[Direction, ...]:
+    def directions(self) -> tuple[RunDirection, ...]:
         """Their names: of the numbers that have a part."""
         names = np.array([d.name for d in self.start.directions])
         several = (names[part != 0.0].tolist() for part in self.factors.T)
-        return tuple(Direction(x[0] if len(x) == 1 else f"{x[0]} to {x[-1]}", "", "state", x[0]) for x in several)
+        return tuple(RunDirection(x[0] if len(x) == 1 else f"{x[0]} to {x[-1]}", "", "state", x[0]) for x in several)
 
     def parameters(self, compiled: CompiledModel) -> Array:
         """Return the directions of the array of parameters of a model."""
@@ -149,7 +149,7 @@ class AdjointGradient:
         Bytes of the stages of all steps.
     seconds : float
         Time of the run that keeps its stages, and of the way back [s].
-    directions : tuple of Direction
+    directions : tuple of RunDirection
         What it is differentiated by.
     run, result : Prepared, Result
         The run before and after it was made.
@@ -160,7 +160,7 @@ class AdjointGradient:
     slopes: Array
     memory: int
     seconds: float
-    directions: tuple[Direction, ...]
+    directions: tuple[RunDirection, ...]
     run: Prepared
     result: Result
 

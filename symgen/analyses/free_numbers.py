@@ -21,7 +21,7 @@ from symgen.result.sensitivities import Differentiated
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.directions import RunDirection
     from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
@@ -97,11 +97,11 @@ class FreeNumbers:
         self.runs += 1
         return run, run.result(build_result(run.run, run.integrate()))
 
-    def values(self, directions: Sequence[Direction], run: Prepared, result: Result) -> Array:
+    def values(self, directions: Sequence[RunDirection], run: Prepared, result: Result) -> Array:
         """Return the values of the numbers in a run that was made without `x`."""
         return np.array([self._value(d, run, result) for d in directions])
 
-    def _value(self, d: Direction, run: Prepared, result: Result) -> float:
+    def _value(self, d: RunDirection, run: Prepared, result: Result) -> float:
         if d.kind == "parameter":
             return float(parameter_values(self.mechanism, self.settings.parameters)[d.key])
         if d.kind == "method":

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.free_numbers import Bounds, FreeNumbers, limits, with_bounds
-from symgen.analyses.measured_data import Data, measured_columns
+from symgen.analyses.measured_data import MeasuredData, measured_columns
 from symgen.analyses.null_directions import null_directions
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, counted, nearest, quoted
 from symgen.describe.facts.lifted import lifted
@@ -107,7 +107,7 @@ class Identification:
     ----------
     mechanism, settings : Mechanism, Settings
         The model and how it runs.
-    data : sequence of Data
+    data : sequence of MeasuredData
         Measurements, each from a run of its own.
     free : mapping of str to (float or None, float or None)
         Numbers to be found, with their bounds.
@@ -123,7 +123,7 @@ class Identification:
         self,
         mechanism: Mechanism,
         settings: Settings,
-        data: Sequence[Data],
+        data: Sequence[MeasuredData],
         free: Mapping[str, Bounds],
         quantities: Sequence[str],
         bias: Sequence[str],
@@ -193,7 +193,7 @@ class Identification:
         """Return the derivatives of residuals."""
         return self.at(x)[1]
 
-    def result_at(self, x: Array, data: Data) -> Result:
+    def result_at(self, x: Array, data: MeasuredData) -> Result:
         """Return the run with values of the free numbers."""
         return self.free.run(data.t.tolist(), x)[1]
 

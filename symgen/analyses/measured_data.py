@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Data:
+class MeasuredData:
     """Measured columns over time.
 
     Attributes
@@ -34,7 +34,7 @@ class Data:
     columns: Mapping[str, Array]
 
 
-def measured_columns(source: object, number: int = 0) -> Data:
+def measured_columns(source: object, number: int = 0) -> MeasuredData:
     """Return measured columns: of a file, of a mapping with ``t``, or of a result.
 
     Raises
@@ -64,4 +64,4 @@ def measured_columns(source: object, number: int = 0) -> Data:
             raise InputError(whence, f"{len(t)} numbers of {name}", f"an array of shape {values.shape}")
         if not np.all(np.isfinite(values)):
             raise InputError(whence, "finite numbers", f"others in {name}")
-    return Data(whence, t, columns)
+    return MeasuredData(whence, t, columns)

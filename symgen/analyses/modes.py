@@ -26,7 +26,7 @@ from symgen.analyses.reduced import StateTangent, accelerations, tangent
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import Subject
 from symgen.base.errors import counted
-from symgen.run.compiling.linearised import Evaluated
+from symgen.run.compiling.linearised import LinearisedState
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -236,7 +236,7 @@ def _work(along: Array | Complex, force: Array | Complex) -> Array:
 
 
 def _by_force(
-    subject: Subject, e: Evaluated, along: Array | Complex, change: Array | Complex, space: str
+    subject: Subject, e: LinearisedState, along: Array | Complex, change: Array | Complex, space: str
 ) -> dict[str, Array]:
     """Return the work of each force along modes by its derivatives by q or v."""
     works = dict[str, Array]()

@@ -30,7 +30,7 @@ from symgen.run.single.adjoint import Uncovered
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.result.result import Result
-    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.directions import RunDirection
     from symgen.run.planning.prepare import Prepared
 
 Array = NDArray[np.float64]
@@ -168,14 +168,14 @@ class Objective:
         except (InputError, AssemblyError, AnalysisError):
             return np.inf, np.zeros(len(x))
 
-    def _run(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
+    def _run(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
         """Make a run with the values `x`, by default as the settings are; return it with its derivatives."""
         gradient, directions, prepared = self._directed(x)
         doubtful = gradient.result.status == "unverified"
         self.doubt = gradient.result.reason if doubtful else None
         return gradient, directions, prepared
 
-    def _directed(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
+    def _directed(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
         if self._way == "adjoint":
             try:
                 return self._by_adjoint(x)
@@ -188,7 +188,7 @@ class Objective:
             raise AnalysisError(f"{self._where}: the run does not reach its end: {result.reason}")
         return self._gradient(result), run.directions, run.run
 
-    def _by_adjoint(self, x: Array | None) -> tuple[Gradient, tuple[Direction, ...], Prepared]:
+    def _by_adjoint(self, x: Array | None) -> tuple[Gradient, tuple[RunDirection, ...], Prepared]:
         settings = self._free.settings if x is None else self._free.settings_at(x)
         self._free.runs += 1
         ending = replace(settings, times=[*self._times], until=self._times[-1])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.subject import RATE, Subject
 from symgen.base.errors import AnalysisError, InputError, nearest
-from symgen.run.compiling.linearised import Evaluated
+from symgen.run.compiling.linearised import LinearisedState
 
 Array = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ class StateTangent:
         The state.
     a, lam : Array
         v' and the multipliers there.
-    base : Evaluated
+    base : LinearisedState
         The descriptor form there.
     positions, velocities : int
         Numbers of s and u.
@@ -55,7 +55,7 @@ class StateTangent:
     y: Array
     a: Array
     lam: Array
-    base: Evaluated
+    base: LinearisedState
     positions: int
     velocities: int
     q: Array
@@ -185,7 +185,7 @@ def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
     return quantities | {v.name: ("v", i) for i, v in enumerate(info.velocities)}
 
 
-def accelerations(e: Evaluated, basis: Array, inverse: Array) -> tuple[Array, Array]:
+def accelerations(e: LinearisedState, basis: Array, inverse: Array) -> tuple[Array, Array]:
     """Return v' and the multipliers from the descriptor form evaluated with v' = 0 and no multipliers."""
     mass, force, gap = e.by("balance", "a"), e.value("balance"), e.value("accelerations")
     a = -inverse @ gap
@@ -265,7 +265,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     )
 
 
-def _shifted(subject: Subject, e: Evaluated, d: Array) -> Array:
+def _shifted(subject: Subject, e: LinearisedState, d: Array) -> Array:
     """Return the smallest change of position, in terms of velocities, that keeps joints closed while parameters change.
 
     Raises

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import Solver, largest_magnitude, level, solver
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError
-from symgen.run.compiling.linearised import Evaluated
+from symgen.run.compiling.linearised import LinearisedState
 
 if TYPE_CHECKING:
     from symgen.analyses.large import Sparse
@@ -142,12 +142,12 @@ class DenseStatics:
         return replace(self, subject=self.subject.wound(y))
 
 
-def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[Evaluated, Array]:
+def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[LinearisedState, Array]:
     """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
 
     Returns
     -------
-    e : Evaluated
+    e : LinearisedState
         The descriptor form there.
     stiffness : Array, shape (nv, nq)
         Derivatives of the balance by q, states of the file following.

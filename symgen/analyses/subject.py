@@ -18,7 +18,7 @@ from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.friction import without_friction
 from symgen.describe.bounds.stops import without_stops
 from symgen.describe.facts.digest import digest
-from symgen.run.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
+from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
@@ -201,7 +201,7 @@ class Subject(Yardsticks):
 
     def evaluated(
         self, y: Array, a: Array | None = None, lam: Array | None = None, t: float | None = None
-    ) -> Evaluated:
+    ) -> LinearisedState:
         """Evaluate the descriptor form; v' and the multipliers are 0 by default."""
         w = self.w.copy()
         self.compiled.section(w, "multipliers")[:] = 0.0 if lam is None else lam
@@ -212,7 +212,7 @@ class Subject(Yardsticks):
         """Return N at a state, over lengths of the mechanism and radians; shape (nq, nv)."""
         return self.evaluated(y).by("motion", "v") * self.spans
 
-    def rows(self, e: Evaluated) -> Array:
+    def rows(self, e: LinearisedState) -> Array:
         """Return D, with zeros for rows that are nothing but rounding; shape (m, nv)."""
         d = e.by("velocities", "v")
         d[np.linalg.norm(d * self.spans, axis=1) < NO_ROW * self.gaps] = 0.0

@@ -333,7 +333,7 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
     out = console()
     show_facts(out, lines)
     rows = list[tuple[str, ...]]()
-    for i, q in enumerate(ensemble.recipe.quantities[:24]):
+    for i, q in enumerate(ensemble.recipe.kept[:24]):
         last = study.values[:, i, -1]
         last = last[np.isfinite(last)]
         if len(last):

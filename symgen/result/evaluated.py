@@ -20,7 +20,7 @@ from symgen.run.single.directions import Course, Part
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
-    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.directions import RunDirection
     from symgen.run.single.outcome import Outcome
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ class SeedsOfParameters(Protocol):
     """Directions by name, with directions of parameters."""
 
     @property
-    def directions(self) -> tuple[Direction, ...]:
+    def directions(self) -> tuple[RunDirection, ...]:
         """The directions."""
 
     def parameters(self, compiled: CompiledModel) -> Array:

@@ -5,10 +5,10 @@ from functools import cache
 import msgspec
 import numpy as np
 import pytest
+from support.switching import with_switchable
 
 import symgen
 from symgen.base.settings import Settings
-from symgen.describe.facts.switching import with_switchable
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import prepare
 from symgen.run.single.modes import set_modes

@@ -15,7 +15,7 @@ from symgen.cli import main
 from symgen.describe.files.load import load
 from symgen.describe.files.validate import validate
 from symgen.describe.formats import Import, format_of, read_robot
-from symgen.describe.formats._frames import Frame, axis_rotation, of_quaternion, of_rpy, quaternion, times
+from symgen.describe.formats._frames import Pose, axis_rotation, of_quaternion, of_rpy, quaternion, times
 from symgen.run.compiling.closing import free_velocities
 
 #: A lever of two links that a fixed joint holds together, a slide on it, a follower, and a link without mass.
@@ -350,7 +350,7 @@ def test_rotations() -> None:
         for axis in ((1.0, 0.0, 0.0), (0.2, -1.0, 0.4), (0.0, 0.0, -1.0)):
             turn = axis_rotation(axis, angle)
             assert np.allclose(of_quaternion(quaternion(turn)), turn)
-    inner = Frame((1.0, 2.0, 3.0), rotation)
+    inner = Pose((1.0, 2.0, 3.0), rotation)
     assert np.allclose((inner @ inner.inverse()).origin, 0.0) and np.allclose(
         times(rotation, inner.inverse().rotation), np.eye(3)
     )

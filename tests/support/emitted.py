@@ -13,7 +13,7 @@ import numpy as np
 
 from symgen.base.ir.program import COUNTERS, SCALES, STATUS
 from symgen.base.vocabulary.infos import LawInfo
-from symgen.compile.store.emitted import EmittedFunction, Origin, imported
+from symgen.compile.store.emitted import CodeOrigin, EmittedFunction, imported
 from symgen.compile.store.identity import combined_digest
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
@@ -100,7 +100,7 @@ class Emitted:
         if compiled:
             stamp = combined_digest(*(source for source, _ in self.generated.modules.values()))
             for stem, module in self.modules.items():
-                origin = Origin(f"{stem} {stamp}", self.generated.modules[stem][0].encode())
+                origin = CodeOrigin(f"{stem} {stamp}", self.generated.modules[stem][0].encode())
                 for function in vars(module).values():
                     if isinstance(function, EmittedFunction) and function.__module__ == module.__name__:
                         function.origin = origin

@@ -16,7 +16,7 @@ import msgspec
 from symgen.base.ir.graph import CARRIED
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
-from symgen.compile.native.llvm import FunctionPrinter, declarations, taken
+from symgen.compile.native.llvm import LlvmPrinter, declarations, taken
 from symgen.compile.native.llvm_values import TYPES, literal
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.tangents import Dual, TangentPrinter
@@ -60,7 +60,7 @@ class AdjointPrinter(TangentPrinter):
     Parameters
     ----------
     function, symbol, together
-        As for `FunctionPrinter`; the symbols are those of the tables of functions.
+        As for `LlvmPrinter`; the symbols are those of the tables of functions.
     name, ends : str
         Name of the adjoint in machine code, and the array whose adjoint it takes.
     """
@@ -81,7 +81,7 @@ class AdjointPrinter(TangentPrinter):
     def text(self) -> str:
         """Return the definition."""
         f = self.function
-        FunctionPrinter.take_arguments(self)
+        LlvmPrinter.take_arguments(self)
         self.inner[f.key] = f
         self.statements(f.body)
         self.go_back()
@@ -124,7 +124,7 @@ class AdjointPrinter(TangentPrinter):
             return self.values[e.name], self.tangents.get(e.name)
         if isinstance(e, lang.ArrayElement):
             if e.array in self.function.tables:
-                return FunctionPrinter.value(self, e), None
+                return LlvmPrinter.value(self, e), None
             place = self.names[e.array], self.whole(e.index)
             if place in self.stored:
                 return self.stored[place]

@@ -42,7 +42,7 @@ def llvm_module(
     texts = []
     for f in functions:
         linkage = "" if f is function else "internal " if is_copied(f) else "available_externally "
-        texts.append(FunctionPrinter(f, symbol, linkage, together).text())
+        texts.append(LlvmPrinter(f, symbol, linkage, together).text())
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.sine_name(n) in text for text in texts)
     )
@@ -69,7 +69,7 @@ def loop_module(function: lang.Function, symbol: str) -> str:
                 functions.append(part)
     texts, inserted = list[str](), dict[str, str]()
     for each in functions:
-        printer = FunctionPrinter(each, lambda f: names[id(f)], "" if each is function else "internal ", False)
+        printer = LlvmPrinter(each, lambda f: names[id(f)], "" if each is function else "internal ", False)
         texts.append(printer.text())
         inserted |= printer.inserted
     lines = [line for text in inserted.values() for line in text.splitlines()]
@@ -128,7 +128,7 @@ def taken(parameter: lang.FunctionParameter) -> list[tuple[str, str]]:
     return [("ptr", parameter.name), *(("i64", f"{parameter.name}.{axis}") for axis in range(parameter.rank))]
 
 
-class FunctionPrinter(ValuePrinter):
+class LlvmPrinter(ValuePrinter):
     """Prints one function."""
 
     def __init__(

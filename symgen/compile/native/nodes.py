@@ -16,7 +16,7 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from symgen.compile.native import language as lang
-from symgen.compile.native.llvm import FunctionPrinter, declarations, head, is_copied, reached
+from symgen.compile.native.llvm import LlvmPrinter, declarations, head, is_copied, reached
 from symgen.compile.native.llvm_values import TYPES, literal
 from symgen.compile.native.node_values import OWN, SHARED, WRITTEN, NodeValuePrinter, wide_type
 from symgen.compile.native.read_values import Foreign
@@ -58,7 +58,7 @@ def node_module(
             declared |= {f.key: f for f in others}
         else:
             declared[each.key] = each
-    texts += [FunctionPrinter(f, symbol, "available_externally ", False).text() for f in copied.values()]
+    texts += [LlvmPrinter(f, symbol, "available_externally ", False).text() for f in copied.values()]
     texts += [f"declare {head(f, symbol(f), named=False)}" for key, f in declared.items() if key not in copied]
     return "\n".join([*texts, *sorted(printer.declared), *declarations(texts), ""])
 

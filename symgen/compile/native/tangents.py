@@ -17,7 +17,7 @@ from symgen.base.ir.graph import CARRIED
 from symgen.base.vocabulary.functions import ELEMENTARY, steepest
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
-from symgen.compile.native.llvm import FunctionPrinter, declarations, head, taken
+from symgen.compile.native.llvm import LlvmPrinter, declarations, head, taken
 from symgen.compile.native.llvm_values import TYPES, literal, slot
 from symgen.compile.native.read_values import Foreign
 
@@ -74,13 +74,13 @@ def module(
     return "\n".join([*texts, *declarations(texts), ""])
 
 
-class TangentPrinter(FunctionPrinter):
+class TangentPrinter(LlvmPrinter):
     """Prints one function with directions.
 
     Parameters
     ----------
     function, symbol, together
-        As for `FunctionPrinter`.
+        As for `LlvmPrinter`.
     lanes : int
         Number of directions.
     places : mapping of str to int or None
@@ -263,7 +263,7 @@ class TangentPrinter(FunctionPrinter):
         if not symbol:
             return super().call(e)
         self.declared[symbol] = e.function
-        return FunctionPrinter.called(self, f'@"{symbol}"', e.function.returned, e.arguments)
+        return LlvmPrinter.called(self, f'@"{symbol}"', e.function.returned, e.arguments)
 
     def hands_on(self, e: lang.FunctionCall) -> bool:
         """Whether a callee without a float as its result takes arguments of this function, under the same names."""

@@ -30,7 +30,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 _SHORT = 60
 
 
-class Origin(NamedTuple):
+class CodeOrigin(NamedTuple):
     """Origin of a function: digest of all sources it depends on, and the text of its file as it was loaded.
 
     The loaded text counts, as the file may have been removed or changed. A function of symgen has no digest here: it
@@ -44,7 +44,7 @@ class Origin(NamedTuple):
 class EmittedFunction(MachineFunction):
     """A function of an emitted module, on numbers and arrays of one dimension."""
 
-    origin: Origin
+    origin: CodeOrigin
 
     def tree(self) -> ast.FunctionDef | None:
         """Return the syntax tree of the function, None where its source is not available."""
@@ -212,7 +212,7 @@ def plain(function: _Function) -> _Function:
     if interpreted():
         return function
     compiled: Any = EmittedFunction(function)
-    compiled.origin = Origin(None, content(function.__code__.co_filename))  # an import makes no digests
+    compiled.origin = CodeOrigin(None, content(function.__code__.co_filename))  # an import makes no digests
     return cast("_Function", compiled)
 
 

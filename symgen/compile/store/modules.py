@@ -179,7 +179,7 @@ def _register_package(name: str) -> None:
 def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
     if name in sys.modules:
         return sys.modules[name]
-    from symgen.compile.store.emitted import EmittedFunction, Origin, imported  # with NumPy and llvmlite
+    from symgen.compile.store.emitted import CodeOrigin, EmittedFunction, imported  # with NumPy and llvmlite
 
     package, _, last = name.rpartition(".")
     module = ModuleType(name)
@@ -197,7 +197,7 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
     setattr(sys.modules[package], last, module)
     for value in vars(module).values():
         if isinstance(value, EmittedFunction) and value.py_func.__module__ == name:
-            value.origin = Origin(stamp, source.content)
+            value.origin = CodeOrigin(stamp, source.content)
     return module
 
 

@@ -14,7 +14,7 @@ UNIT: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True)
-class Frame:
+class Pose:
     """A frame in another one: its origin [m], and its axes as columns of a rotation."""
 
     origin: Vector = ORIGIN
@@ -24,14 +24,14 @@ class Frame:
         """Return a point of this frame in the other one."""
         return plus(self.origin, matrix_vector(self.rotation, x))
 
-    def __matmul__(self, inner: Frame) -> Frame:
+    def __matmul__(self, inner: Pose) -> Pose:
         """Return a frame of this frame in the other one."""
-        return Frame(self.point(inner.origin), times(self.rotation, inner.rotation))
+        return Pose(self.point(inner.origin), times(self.rotation, inner.rotation))
 
-    def inverse(self) -> Frame:
+    def inverse(self) -> Pose:
         """Return the other frame in this one."""
         back = transpose(self.rotation)
-        return Frame(scaled(-1.0, matrix_vector(back, self.origin)), back)
+        return Pose(scaled(-1.0, matrix_vector(back, self.origin)), back)
 
 
 def plus(x: Vector, y: Vector) -> Vector:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import UNIT, Frame, matrix_vector, of_quaternion, scaled, transpose
+from symgen.describe.formats._frames import UNIT, Pose, matrix_vector, of_quaternion, scaled, transpose
 from symgen.describe.formats._xml import read_tree
 from symgen.describe.parts.mesh_files import MeshFiles
 
@@ -87,7 +87,7 @@ class MjcfMeshes(MeshFiles):
         super().__init__(folder)
         self._model, self._meshes = model, {mesh.id: mesh for mesh in spec.meshes}
 
-    def shape(self, k: int, place: Frame) -> dict[str, Any] | None:
+    def shape(self, k: int, place: Pose) -> dict[str, Any] | None:
         """Return the shape of a geom of the mesh `k` at a place; None where it cannot be drawn."""
         model, mesh, start = self._model, self._meshes[k], int(self._model.mesh_pathadr[k])
         if start < 0:
@@ -103,6 +103,6 @@ class MjcfMeshes(MeshFiles):
             self.lose("they are turned, then scaled by several factors")
             return None
         a, b, c = matrix_vector(back, scaled(-1.0, tuple(mesh.refpos.tolist())))
-        own = Frame(tuple(model.mesh_pos[k].tolist()), of_quaternion(model.mesh_quat[k].tolist()))
-        inner = Frame((x * a, y * b, z * c), back)
+        own = Pose(tuple(model.mesh_pos[k].tolist()), of_quaternion(model.mesh_quat[k].tolist()))
+        inner = Pose((x * a, y * b, z * c), back)
         return {"type": "mesh", "file": file, "scale": (x, y, z), "frame": place @ own.inverse() @ inner}

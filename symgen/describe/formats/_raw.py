@@ -11,8 +11,8 @@ from typing import Any
 from symgen.base.errors import InputError
 from symgen.base.escapes import printable
 from symgen.describe.formats._frames import (
-    Frame,
     Matrix,
+    Pose,
     Vector,
     axis_rotation,
     matrix_vector,
@@ -25,15 +25,15 @@ from symgen.describe.formats._frames import (
 )
 from symgen.describe.formats._robot import (
     GROUND,
-    Actuator,
     Connection,
     Follower,
     LeftOut,
-    Link,
     Robot,
+    RobotActuator,
+    RobotLink,
     turned_inertia,
 )
-from symgen.describe.formats._solids import Solid, sum_of_solids
+from symgen.describe.formats._solids import SolidMass, sum_of_solids
 from symgen.describe.formulas.names import LONGEST, RESERVED
 from symgen.describe.parts.bodies import MOST
 
@@ -143,9 +143,9 @@ class _Description:
                     if top == name:
                         self.carriers[link] = carrier
 
-    def _members(self) -> dict[str, list[Link]]:
+    def _members(self) -> dict[str, list[RobotLink]]:
         """Return body -> its links, itself first."""
-        members: dict[str, list[Link]] = {}
+        members: dict[str, list[RobotLink]] = {}
         for name, link in self.robot.links.items():
             top = self.carriers[name]
             members.setdefault(top, [])
@@ -155,15 +155,15 @@ class _Description:
     def _mass(self, body: str) -> float:
         return sum(self.robot.links[link].mass for link, top in self.carriers.items() if top == body and link != GROUND)
 
-    def place(self, body: str) -> Frame:
+    def place(self, body: str) -> Pose:
         """Return the frame of a body in the ground frame."""
-        return Frame() if body == GROUND else self.robot.links[body].place
+        return Pose() if body == GROUND else self.robot.links[body].place
 
-    def _body(self, name: str, members: list[Link]) -> dict[str, Any]:
+    def _body(self, name: str, members: list[RobotLink]) -> dict[str, Any]:
         place, back = self.place(name), self.place(name).inverse()
         frames = [back @ link.place for link in members]
         whole = sum_of_solids(
-            Solid(link.mass, frame.point(link.centre), turned_inertia(link.inertia, frame.rotation))
+            SolidMass(link.mass, frame.point(link.centre), turned_inertia(link.inertia, frame.rotation))
             for frame, link in zip(frames, members, strict=True)
         )
         table: dict[str, Any] = {"mass": float(f"{whole.mass:.15g}"), "inertia": _tensor(whole.inertia)}
@@ -182,7 +182,7 @@ class _Description:
             table["orientation"] = {"quaternion": _tidy(e)}
         return table | self._looks(name, members, frames)
 
-    def _looks(self, name: str, members: list[Link], frames: list[Frame]) -> dict[str, Any]:
+    def _looks(self, name: str, members: list[RobotLink], frames: list[Pose]) -> dict[str, Any]:
         """Return the key ``shape`` of links in the frame of their body, or of the ground."""
         shapes = [x for link, frame in zip(members, frames, strict=True) for x in _shapes(link, frame, self.folder)]
         if len(shapes) > MOST:
@@ -278,7 +278,7 @@ class _Description:
             forces[self.names.of("drive", name)] = {"type": sort, "joint": self.names.of("joint", name)} | table
         return forces, inputs
 
-    def _formulas(self, actuator: Actuator, driven: dict[str, float], name: str) -> dict[str, str]:
+    def _formulas(self, actuator: RobotActuator, driven: dict[str, float], name: str) -> dict[str, str]:
         """Return joint -> formula of the effort of an actuator."""
         value = name
         if actuator.bounds is not None:
@@ -363,7 +363,7 @@ def _listed(names: list[str]) -> str:
     return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
 
 
-def _shapes(link: Link, frame: Frame, folder: Path) -> list[dict[str, Any]]:
+def _shapes(link: RobotLink, frame: Pose, folder: Path) -> list[dict[str, Any]]:
     """Return looks of a link in the frame of its body; meshes are named from a folder."""
     shapes = list[dict[str, Any]]()
     for shape in link.shapes:
@@ -372,7 +372,7 @@ def _shapes(link: Link, frame: Frame, folder: Path) -> list[dict[str, Any]]:
             or min(shape.get(k, 1.0) for k in ("radius", "length")) <= 0
         ):
             continue
-        own: Frame = frame @ shape["frame"]
+        own: Pose = frame @ shape["frame"]
         colour = {"colour": shape["colour"]} if "colour" in shape else {}
         at = {"at": _tidy(own.origin)}
         if shape["type"] == "sphere":
@@ -390,7 +390,7 @@ def _shapes(link: Link, frame: Frame, folder: Path) -> list[dict[str, Any]]:
     return shapes
 
 
-def _box(size: Vector, own: Frame) -> dict[str, Any]:
+def _box(size: Vector, own: Pose) -> dict[str, Any]:
     """Return a box: by its size where its edges are along the body's axes, else by its edges."""
     rows: Matrix = own.rotation
     if all(min(abs(abs(x) - 1.0), abs(x)) < 1e-6 for row in rows for x in row):

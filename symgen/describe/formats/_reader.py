@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import Frame, Matrix
+from symgen.describe.formats._frames import Matrix, Pose
 from symgen.describe.formats._robot import LeftOut
 from symgen.describe.formats._xml import decimals, read_tree, triple
 from symgen.describe.parts.mesh_files import MeshFiles
@@ -39,7 +39,7 @@ class RobotReader(ABC):
         """Return the text of a key of an element; empty without it."""
 
     @abstractmethod
-    def frame(self, where: str, element: ET.Element) -> Frame:
+    def frame(self, where: str, element: ET.Element) -> Pose:
         """Return the place of an element in what holds it."""
 
     @abstractmethod

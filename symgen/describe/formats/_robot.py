@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from symgen.describe.formats._frames import ORIGIN, Frame, Matrix, Vector, times, transpose
+from symgen.describe.formats._frames import ORIGIN, Matrix, Pose, Vector, times, transpose
 
 #: The ground among links: a name that no link has.
 GROUND = ""
@@ -43,14 +43,14 @@ class LeftOut:
 
 
 @dataclass
-class Link:
+class RobotLink:
     """A part of a robot.
 
     Attributes
     ----------
     name : str
         As in the file.
-    place : Frame
+    place : Pose
         In the ground frame where the motion starts.
     mass : float
         [kg].
@@ -63,7 +63,7 @@ class Link:
     """
 
     name: str
-    place: Frame = field(default_factory=Frame)
+    place: Pose = field(default_factory=Pose)
     mass: float = 0.0
     centre: Vector = ORIGIN
     inertia: Matrix = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -81,9 +81,9 @@ class Connection:
         As in the file, and what it is in symgen.
     parent, child : str
         The links; `GROUND` is one.
-    at : Frame
+    at : Pose
         The frame of the joint in the ground frame where the motion starts.
-    other : Frame or None
+    other : Pose or None
         Where the child has it, if the loop that it closes is open there.
     axis, second : Vector, Vector or None
         In that frame; the second axis of a universal joint.
@@ -103,8 +103,8 @@ class Connection:
     kind: Kind
     parent: str
     child: str
-    at: Frame = field(default_factory=Frame)
-    other: Frame | None = None
+    at: Pose = field(default_factory=Pose)
+    other: Pose | None = None
     axis: Vector = (0.0, 0.0, 1.0)
     second: Vector | None = None
     value: float = 0.0
@@ -128,7 +128,7 @@ class Follower:
 
 
 @dataclass(frozen=True)
-class Actuator:
+class RobotActuator:
     """An effort along joints: weights of joints, and a formula of ``INPUT`` and of coordinates of joints.
 
     With gain 0 it has no input, as a spring between joints.
@@ -165,10 +165,10 @@ class Robot:
     """What a file describes; `folder` is the folder that it is in."""
 
     name: str
-    links: dict[str, Link]
+    links: dict[str, RobotLink]
     connections: list[Connection]
     followers: list[Follower] = field(default_factory=list)
-    actuators: list[Actuator] = field(default_factory=list)
+    actuators: list[RobotActuator] = field(default_factory=list)
     gravity: Vector = (0.0, 0.0, -9.81)
     left_out: list[LeftOut] = field(default_factory=list)
     folder: Path = Path()
@@ -188,11 +188,11 @@ def follow(followers: list[Follower], connections: Mapping[str, Connection]) -> 
             del waiting[f.joint]
 
 
-def actuators_of(connections: list[Connection], followers: list[Follower]) -> list[Actuator]:
+def actuators_of(connections: list[Connection], followers: list[Follower]) -> list[RobotActuator]:
     """Return an input for each joint that turns or slides and follows no other."""
     led = {f.joint for f in followers}
     return [
-        Actuator(f"{c.name}_{_EFFORTS[c.kind][0]}", {c.name: 1.0}, unit=_EFFORTS[c.kind][1])
+        RobotActuator(f"{c.name}_{_EFFORTS[c.kind][0]}", {c.name: 1.0}, unit=_EFFORTS[c.kind][1])
         for c in connections
         if c.kind in _EFFORTS and c.name not in led
     ]

@@ -10,20 +10,20 @@ from symgen.describe.formats._frames import ORIGIN, Matrix, Vector, dot, plus, s
 
 
 @dataclass(frozen=True)
-class Solid:
+class SolidMass:
     """A solid: its mass [kg], centre of mass [m], and inertia about it [kg m^2]."""
 
     mass: float
     centre: Vector
     inertia: Matrix
 
-    def times(self, factor: float) -> Solid:
+    def times(self, factor: float) -> SolidMass:
         """Return the solid with another density."""
         a, b, c = (scaled(factor, row) for row in self.inertia)
-        return Solid(factor * self.mass, self.centre, (a, b, c))
+        return SolidMass(factor * self.mass, self.centre, (a, b, c))
 
 
-def sum_of_solids(solids: Iterable[Solid]) -> Solid:
+def sum_of_solids(solids: Iterable[SolidMass]) -> SolidMass:
     """Return solids as one, by Steiner."""
     solids = list(solids)
     mass, centre = sum(solid.mass for solid in solids), ORIGIN
@@ -38,35 +38,35 @@ def sum_of_solids(solids: Iterable[Solid]) -> Solid:
                 far = dot(arm, arm) * (i == j) - arm[i] * arm[j]
                 inertia[i][j] += solid.inertia[i][j] + solid.mass * far
     (a, b, c), (d, e, f), (g, h, k) = inertia
-    return Solid(mass, centre, ((a, b, c), (d, e, f), (g, h, k)))
+    return SolidMass(mass, centre, ((a, b, c), (d, e, f), (g, h, k)))
 
 
-def _solid(mass: float, x: float, y: float, z: float) -> Solid:
-    return Solid(mass, ORIGIN, ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)))
+def _solid(mass: float, x: float, y: float, z: float) -> SolidMass:
+    return SolidMass(mass, ORIGIN, ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)))
 
 
-def box(size: Vector) -> Solid:
+def box(size: Vector) -> SolidMass:
     """Return a box of density 1."""
     a, b, c = size
     m = a * b * c
     return _solid(m, m * (b * b + c * c) / 12.0, m * (a * a + c * c) / 12.0, m * (a * a + b * b) / 12.0)
 
 
-def ellipsoid(radii: Vector) -> Solid:
+def ellipsoid(radii: Vector) -> SolidMass:
     """Return an ellipsoid of density 1."""
     a, b, c = radii
     m = 4.0 / 3.0 * math.pi * a * b * c
     return _solid(m, m * (b * b + c * c) / 5.0, m * (a * a + c * c) / 5.0, m * (a * a + b * b) / 5.0)
 
 
-def cylinder(radius: float, length: float) -> Solid:
+def cylinder(radius: float, length: float) -> SolidMass:
     """Return a cylinder of density 1, along z."""
     m = math.pi * radius**2 * length
     across = m * (3.0 * radius**2 + length**2) / 12.0
     return _solid(m, across, across, m * radius**2 / 2.0)
 
 
-def capsule(radius: float, length: float) -> Solid:
+def capsule(radius: float, length: float) -> SolidMass:
     """Return a cylinder of density 1 along z with hemispheres at its ends."""
     middle, m = cylinder(radius, length), 4.0 / 3.0 * math.pi * radius**3
     across = middle.inertia[0][0] + m * (0.4 * radius**2 + length**2 / 4.0 + 3.0 * length * radius / 8.0)

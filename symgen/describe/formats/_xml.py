@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import Frame, Vector, of_rpy
+from symgen.describe.formats._frames import Pose, Vector, of_rpy
 
 #: Bounds of a file: bytes, elements, and depth.
 LARGEST, MOST_ELEMENTS, DEEPEST = 50_000_000, 500_000, 200
@@ -115,12 +115,12 @@ def colour_of(where: str, text: str) -> str:
     return "#" + "".join(f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in shares)
 
 
-def frame_of_origin(where: str, element: ET.Element | None) -> Frame:
+def frame_of_origin(where: str, element: ET.Element | None) -> Pose:
     """Return the frame of attributes ``xyz`` and ``rpy``; the outer frame itself without an element."""
     if element is None:
-        return Frame()
+        return Pose()
     xyz = triple(f"{where}, xyz", element.get("xyz", "0 0 0"))
-    return Frame(xyz, of_rpy(triple(f"{where}, rpy", element.get("rpy", "0 0 0"))))
+    return Pose(xyz, of_rpy(triple(f"{where}, rpy", element.get("rpy", "0 0 0"))))
 
 
 def inner_text(element: ET.Element, path: str) -> str:

@@ -7,17 +7,17 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import Frame, Matrix, Vector, of_quaternion
+from symgen.describe.formats._frames import Matrix, Pose, Vector, of_quaternion
 from symgen.describe.formats._mjcf_files import MjcfMeshes, check_files
 from symgen.describe.formats._robot import (
     GROUND,
-    Actuator,
     Connection,
     Follower,
     Kind,
     LeftOut,
-    Link,
     Robot,
+    RobotActuator,
+    RobotLink,
     turned_inertia,
 )
 from symgen.describe.formats._xml import read_tree
@@ -87,14 +87,14 @@ class _Reader:
 
     # -- bodies ------------------------------------------------------------------------------------------------------
 
-    def _frame(self, body: int) -> Frame:
-        return Frame(_vector(self.data.xpos[body]), of_quaternion(self.data.xquat[body].tolist()))
+    def _frame(self, body: int) -> Pose:
+        return Pose(_vector(self.data.xpos[body]), of_quaternion(self.data.xquat[body].tolist()))
 
-    def _link(self, i: int) -> Link:
+    def _link(self, i: int) -> RobotLink:
         model = self.model
         x, y, z = _vector(model.body_inertia[i])
         principal: Matrix = ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z))
-        link = Link(self._name("body", i), self._frame(i), float(model.body_mass[i]), _vector(model.body_ipos[i]))
+        link = RobotLink(self._name("body", i), self._frame(i), float(model.body_mass[i]), _vector(model.body_ipos[i]))
         link.inertia = turned_inertia(principal, of_quaternion(model.body_iquat[i].tolist()))
         sites = [k for k in range(model.nsite) if model.site_bodyid[k] == i]
         link.points = {self._name("site", k): _vector(model.site_pos[k]) for k in sites}
@@ -112,7 +112,7 @@ class _Reader:
 
     def _shape(self, k: int) -> list[dict[str, Any]]:
         model, sorts = self.model, self.mujoco.mjtGeom
-        frame = Frame(_vector(model.geom_pos[k]), of_quaternion(model.geom_quat[k].tolist()))
+        frame = Pose(_vector(model.geom_pos[k]), of_quaternion(model.geom_quat[k].tolist()))
         a, b, c = _vector(model.geom_size[k])
         red, green, blue = (f"{round(255 * min(max(x, 0.0), 1.0)):02x}" for x in model.geom_rgba[k].tolist()[:3])
         look: dict[str, Any] = {"frame": frame, "colour": f"#{red}{green}{blue}"}
@@ -130,7 +130,7 @@ class _Reader:
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
-    def _joints(self, i: int, links: dict[str, Link]) -> None:
+    def _joints(self, i: int, links: dict[str, RobotLink]) -> None:
         """Add the joints of a body; between several of them stand links without mass."""
         model = self.model
         child, above = self._name("body", i), int(model.body_parentid[i])
@@ -145,14 +145,14 @@ class _Reader:
             last = k == numbers[-1]
             below = child if last else f"{child}_{self._name('joint', k)}"
             if not last:
-                links[below] = Link(below, links[child].place)
+                links[below] = RobotLink(below, links[child].place)
             connection = self._joint(k, parent, below, links[child].place)
             if connection is not None:
                 self.connections.append(connection)
                 self.led[k] = connection
             parent = below
 
-    def _joint(self, k: int, parent: str, child: str, place: Frame) -> Connection | None:
+    def _joint(self, k: int, parent: str, child: str, place: Pose) -> Connection | None:
         model, sorts = self.model, self.mujoco.mjtJoint
         sort, dof, at = int(model.jnt_type[k]), int(model.jnt_dofadr[k]), int(model.jnt_qposadr[k])
         name = self._name("joint", k)
@@ -168,7 +168,7 @@ class _Reader:
             for what, value in (("friction", friction), ("armature", float(model.dof_armature[dof]))):
                 if value:
                     self.left_out.append(LeftOut(what, name, "a ball joint has three directions", True))
-        frame = Frame(_vector(self.data.xanchor[k]), place.rotation)
+        frame = Pose(_vector(self.data.xanchor[k]), place.rotation)
         c = Connection(name, kind, parent, child, frame, axis=_vector(model.jnt_axis[k]))
         c.damping = 0.0 if self._disabled("DAMPER") else damping
         c.stiffness = 0.0 if self._disabled("SPRING") else float(model.jnt_stiffness[k])
@@ -200,14 +200,14 @@ class _Reader:
         model, data = self.model, self.model.eq_data[k].tolist()
         ends = [int(model.eq_obj1id[k]), int(model.eq_obj2id[k])]
         if int(model.eq_objtype[k]) == int(self.mujoco.mjtObj.mjOBJ_SITE):
-            local = [Frame(_vector(model.site_pos[s]), of_quaternion(model.site_quat[s].tolist())) for s in ends]
+            local = [Pose(_vector(model.site_pos[s]), of_quaternion(model.site_quat[s].tolist())) for s in ends]
             ends = [int(model.site_bodyid[s]) for s in ends]
         elif weld:
-            relative = Frame((data[3], data[4], data[5]), of_quaternion(data[6:10]))
-            anchor = Frame((data[0], data[1], data[2]))
+            relative = Pose((data[3], data[4], data[5]), of_quaternion(data[6:10]))
+            anchor = Pose((data[0], data[1], data[2]))
             local = [relative @ anchor, anchor]
         else:
-            local = [Frame((data[0], data[1], data[2])), Frame((data[3], data[4], data[5]))]
+            local = [Pose((data[0], data[1], data[2])), Pose((data[3], data[4], data[5]))]
         frames = [self._frame(body) @ frame for body, frame in zip(ends, local, strict=True)]
         names = [GROUND if body == 0 else self._name("body", body) for body in ends]
         kind: Kind = "rigid" if weld else "spherical"
@@ -233,7 +233,7 @@ class _Reader:
 
     # -- actuators ---------------------------------------------------------------------------------------------------
 
-    def _actuator(self, i: int) -> Actuator | None:
+    def _actuator(self, i: int) -> RobotActuator | None:
         model, m = self.model, self.mujoco
         name = self._name("actuator", i)
         gear, at = float(model.actuator_gear[i][0]), int(model.actuator_trnid[i][0])
@@ -255,7 +255,7 @@ class _Reader:
         bounds = _pair(model.actuator_ctrlrange[i]) if model.actuator_ctrllimited[i] else None
         limits = _pair(model.actuator_forcerange[i]) if model.actuator_forcelimited[i] else None
         gain = float(model.actuator_gainprm[i][0])
-        return Actuator(name, weights, gain, offset, along, against, bounds, limits)
+        return RobotActuator(name, weights, gain, offset, along, against, bounds, limits)
 
     def _tendon(self, i: int) -> dict[str, float]:
         """Return joint -> coefficient of a fixed tendon; empty for another one."""
@@ -265,7 +265,7 @@ class _Reader:
             return {}
         return {self._name("joint", int(model.wrap_objid[w])): float(model.wrap_prm[w]) for w in wraps}
 
-    def _spring(self, i: int) -> Actuator | None:
+    def _spring(self, i: int) -> RobotActuator | None:
         """Return the spring and damper of a fixed tendon, as an effort without an input."""
         model = self.model
         stiffness = 0.0 if self._disabled("SPRING") else float(model.tendon_stiffness[i])
@@ -278,7 +278,7 @@ class _Reader:
             self.left_out.append(LeftOut("a spring of a tendon", self._name("tendon", i), why, True))
             return None
         name = f"{self._name('tendon', i)}_spring"
-        return Actuator(name, weights, 0.0, stiffness * low, -stiffness, -damping)
+        return RobotActuator(name, weights, 0.0, stiffness * low, -stiffness, -damping)
 
     def _straight(self, joint: int) -> bool:
         sorts = self.mujoco.mjtJoint

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Frame, Vector, matrix_vector, of_quaternion, of_rpy, transpose
+from symgen.describe.formats._frames import Pose, Vector, matrix_vector, of_quaternion, of_rpy, transpose
 from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
@@ -17,12 +17,12 @@ from symgen.describe.formats._robot import (
     Follower,
     Kind,
     LeftOut,
-    Link,
     Robot,
+    RobotLink,
     actuators_of,
     turned_inertia,
 )
-from symgen.describe.formats._solids import Solid, box, capsule, cylinder, ellipsoid, sum_of_solids
+from symgen.describe.formats._solids import SolidMass, box, capsule, cylinder, ellipsoid, sum_of_solids
 from symgen.describe.formats._xml import (
     colour_of,
     decimals,
@@ -71,7 +71,7 @@ class _Placed:
     """A frame of the file: the frame that its pose is in, and the link or frame that it moves with."""
 
     base: str
-    pose: Frame
+    pose: Pose
     attached: str
 
 
@@ -83,9 +83,9 @@ class _Reader(RobotReader):
     def __init__(self, path: Path) -> None:
         super().__init__(path)
         self.version = self._version(self.tree.get("version", ""))
-        self.frames = {_WORLD: _Placed("", Frame(), _WORLD)}
-        self.places = {_WORLD: Frame()}
-        self.links = dict[str, Link]()
+        self.frames = {_WORLD: _Placed("", Pose(), _WORLD)}
+        self.places = {_WORLD: Pose()}
+        self.links = dict[str, RobotLink]()
         self.elements = list[tuple[str, ET.Element]]()  # joints, each with the prefix of its model
         self.static = list[str]()
 
@@ -93,7 +93,7 @@ class _Reader(RobotReader):
         """Return the text of an inner element."""
         return inner_text(element, key)
 
-    def frame(self, where: str, element: ET.Element) -> Frame:
+    def frame(self, where: str, element: ET.Element) -> Pose:
         """Return the pose of a look."""
         return self._pose(element)
 
@@ -143,7 +143,7 @@ class _Reader(RobotReader):
 
     # -- frames ------------------------------------------------------------------------------------------------------
 
-    def _model(self, model: ET.Element, prefix: str, base: str, pose: Frame, static: bool) -> None:
+    def _model(self, model: ET.Element, prefix: str, base: str, pose: Pose, static: bool) -> None:
         """Note the frames of a model, its links and joints, and the models in it."""
         where = f"{self.source}: model {quoted(self.name(model))}"
         if model.get("placement_frame"):
@@ -184,26 +184,26 @@ class _Reader(RobotReader):
         name = "" if pose is None else pose.get("relative_to", pose.get("frame", ""))
         return prefix + name if name else otherwise
 
-    def _pose(self, element: ET.Element, where: str = "", base: str = "") -> Frame:
+    def _pose(self, element: ET.Element, where: str = "", base: str = "") -> Pose:
         """Return the pose of an element; at the top of a file it has no other base."""
         pose = element.find("pose")
         if pose is None:
-            return Frame()
+            return Pose()
         where = f"{self.source}: pose of {quoted(element.get('name', element.tag))}"
         if base == _WORLD and pose.get("relative_to", _WORLD) != _WORLD:
             raise InputError(where, "a pose in the world", quoted(pose.get("relative_to", "")))
         text, factor = pose.text or "", 1.0
         if not text.strip():
-            return Frame()
+            return Pose()
         if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
             x, y, z, *e = decimals(where, text, 7)
             if not any(e):
                 raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
-            return Frame((x, y, z), of_quaternion((e[3], *e[:3])))
+            return Pose((x, y, z), of_quaternion((e[3], *e[:3])))
         if pose.get("degrees", "false") in ("true", "1"):
             factor = 0.017453292519943295
         x, y, z, *angles = decimals(where, text, 6)
-        return Frame((x, y, z), of_rpy([factor * angle for angle in angles]))
+        return Pose((x, y, z), of_rpy([factor * angle for angle in angles]))
 
     def _frame(self, name: str, where: str) -> str:
         """Return the name of a frame; a model is its own frame."""
@@ -213,7 +213,7 @@ class _Reader(RobotReader):
             raise InputError(where, "the name of a frame", quoted(name), nearest(name, self.frames))
         return name
 
-    def _place(self, name: str) -> Frame:
+    def _place(self, name: str) -> Pose:
         """Return the place of a frame in the ground frame."""
         chain, at = list[str](), name
         while at not in self.places:
@@ -240,17 +240,17 @@ class _Reader(RobotReader):
 
     # -- links -------------------------------------------------------------------------------------------------------
 
-    def _link(self, element: ET.Element, name: str) -> Link:
+    def _link(self, element: ET.Element, name: str) -> RobotLink:
         where = f"{self.source}: link {quoted(name)}"
-        link, inertial = Link(name), element.find("inertial")
+        link, inertial = RobotLink(name), element.find("inertial")
         if inertial is not None and inertial.get("auto", "false") in ("true", "1"):
             solid = self._from_shapes(element, inertial, where)
         else:  # what a file leaves out is 1 there
-            at = Frame() if inertial is None else self._pose(inertial)
+            at = Pose() if inertial is None else self._pose(inertial)
             mass = inner_number(where, inertial, "mass", 1.0)
             inertia = None if inertial is None else inertial.find("inertia")
             own = tensor(lambda key: inner_number(where, inertia, key, 1.0 if key[1] == key[2] else 0.0))
-            solid = Solid(mass, at.origin, turned_inertia(own, at.rotation))
+            solid = SolidMass(mass, at.origin, turned_inertia(own, at.rotation))
         if solid.mass < 0.0:
             raise InputError(f"{where}, mass", "a mass of 0 or above", repr(solid.mass))
         link.mass, link.centre, link.inertia = solid.mass, solid.centre, solid.inertia
@@ -259,22 +259,22 @@ class _Reader(RobotReader):
             self.left_out.append(LeftOut("a link without gravity", name, "gravity acts on all bodies", True))
         return link
 
-    def _from_shapes(self, element: ET.Element, inertial: ET.Element, where: str) -> Solid:
+    def _from_shapes(self, element: ET.Element, inertial: ET.Element, where: str) -> SolidMass:
         """Return the inertia of the shapes of all collisions."""
-        usual, solids = inner_number(where, inertial, "density", _DENSITY), list[Solid]()
+        usual, solids = inner_number(where, inertial, "density", _DENSITY), list[SolidMass]()
         for collision in element.findall("collision"):
             at = f"{where}, collision {quoted(collision.get('name', ''))}"
             density = inner_number(at, collision, "density", usual)
             solid, pose = self._solid(collision, at), self._pose(collision)
             tensor = turned_inertia(solid.inertia, pose.rotation)
-            solids.append(Solid(solid.mass, pose.point(solid.centre), tensor).times(density))
+            solids.append(SolidMass(solid.mass, pose.point(solid.centre), tensor).times(density))
         if not solids:
             raise InputError(f"{where}, inertial auto", "a link with collisions", "none")
         whole = sum_of_solids(solids)
         mass = inner_number(where, inertial, "mass", whole.mass)
         return whole.times(mass / whole.mass)
 
-    def _solid(self, collision: ET.Element, where: str) -> Solid:
+    def _solid(self, collision: ET.Element, where: str) -> SolidMass:
         """Return the solid of a collision, of density 1."""
         for part in collision.iterfind("geometry/*"):
             at = f"{where}, {part.tag}"

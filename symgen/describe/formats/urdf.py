@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Frame, axis_rotation, scaled
+from symgen.describe.formats._frames import Pose, axis_rotation, scaled
 from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
@@ -15,8 +15,8 @@ from symgen.describe.formats._robot import (
     Follower,
     Kind,
     LeftOut,
-    Link,
     Robot,
+    RobotLink,
     actuators_of,
     follow,
     turned_inertia,
@@ -69,7 +69,7 @@ class _Reader(RobotReader):
         """Return an attribute."""
         return element.get(key, "")
 
-    def frame(self, where: str, element: ET.Element) -> Frame:
+    def frame(self, where: str, element: ET.Element) -> Pose:
         """Return the frame of an origin."""
         return frame_of_origin(f"{where}, {element.tag} origin", element.find("origin"))
 
@@ -113,10 +113,10 @@ class _Reader(RobotReader):
 
     # -- links -------------------------------------------------------------------------------------------------------
 
-    def _link(self, element: ET.Element) -> Link:
+    def _link(self, element: ET.Element) -> RobotLink:
         name = self.name(element)
         where = f"{self.source}: link {quoted(name)}"
-        link = Link(name)
+        link = RobotLink(name)
         if (inertial := element.find("inertial")) is not None:
             frame = frame_of_origin(f"{where}, inertial origin", inertial.find("origin"))
             mass, inertia = inertial.find("mass"), inertial.find("inertia")
@@ -132,7 +132,7 @@ class _Reader(RobotReader):
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
-    def _joint(self, element: ET.Element, links: dict[str, Link]) -> Connection:
+    def _joint(self, element: ET.Element, links: dict[str, RobotLink]) -> Connection:
         name = self.name(element)
         where = f"{self.source}: joint {quoted(name)}"
         sort = element.get("type", "")
@@ -158,13 +158,13 @@ class _Reader(RobotReader):
                 connection.value = min(max(0.0, lower), upper)
         return connection
 
-    def _end(self, where: str, element: ET.Element | None, tag: str, links: dict[str, Link]) -> str:
+    def _end(self, where: str, element: ET.Element | None, tag: str, links: dict[str, RobotLink]) -> str:
         name = "" if element is None else element.get("link", "")
         if name not in links:
             raise InputError(f"{where}, {tag}", "the name of a link", quoted(name), nearest(name, links))
         return name
 
-    def _place(self, links: dict[str, Link], joints: list[tuple[ET.Element, Connection]]) -> list[str]:
+    def _place(self, links: dict[str, RobotLink], joints: list[tuple[ET.Element, Connection]]) -> list[str]:
         """Set the places of links and joints in the ground frame; return the roots."""
         above = dict[str, Connection]()
         for _, c in joints:
@@ -181,12 +181,12 @@ class _Reader(RobotReader):
             parent = waiting.pop()
             for c in by_parent.get(parent, ()):
                 c.at = links[parent].place @ c.at
-                motion = Frame()
+                motion = Pose()
                 if c.kind == "revolute" and c.value:
-                    motion = Frame(rotation=axis_rotation(c.axis, c.value))
+                    motion = Pose(rotation=axis_rotation(c.axis, c.value))
                 elif c.kind == "translational" and c.value:
                     size = sum(x * x for x in c.axis) ** 0.5
-                    motion = Frame(scaled(c.value / size, c.axis))
+                    motion = Pose(scaled(c.value / size, c.axis))
                 links[c.child].place = c.at @ motion
                 c.at = links[c.child].place  # the axis is the same before and after the motion
                 placed.add(c.child)
@@ -209,7 +209,7 @@ class _Reader(RobotReader):
 
     # -- loops -------------------------------------------------------------------------------------------------------
 
-    def _loops(self, links: dict[str, Link]) -> list[Connection]:
+    def _loops(self, links: dict[str, RobotLink]) -> list[Connection]:
         """Return the joints of ``loop_joint`` (two links with places) and ``loop`` (predecessor and successor)."""
         for element in self.tree.findall("coupling"):
             where = f"{self.source}: coupling {quoted(self.name(element))}"
@@ -233,7 +233,7 @@ class _Reader(RobotReader):
         return closing
 
     @staticmethod
-    def _loop_frame(where: str, end: ET.Element | None) -> Frame:
+    def _loop_frame(where: str, end: ET.Element | None) -> Pose:
         origin = None if end is None else end.find("origin")
         return frame_of_origin(where, end if origin is None else origin)
 

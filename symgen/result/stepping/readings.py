@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _TIME, _STEPS = abi.TIME, abi.STEPS
 
 
-class Readings:
+class StepReadings:
     """A run between its steps, as far as it is read and not changed.
 
     Parameters

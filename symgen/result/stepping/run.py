@@ -17,7 +17,7 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.events import in_words
 from symgen.describe.parts.inputs import inputs_of_gaps
 from symgen.result.stepping.advance import Clock, Controller
-from symgen.result.stepping.readings import Readings
+from symgen.result.stepping.readings import StepReadings
 from symgen.result.stepping.saved_state import Saved
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.stops import Foreseen, foreseen_in_run, merged, stops_of
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 _TIME, _STEPS, _DONE = abi.TIME, abi.STEPS, abi.DONE
 
 
-class SteppedRun(Readings):
+class SteppedRun(StepReadings):
     """A simulation that is advanced step by step; `Model.start` makes it.
 
     The division of a run into pieces does not change it: with constant steps bit for bit, as long as pieces end on the

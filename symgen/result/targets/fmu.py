@@ -43,7 +43,7 @@ _RANK = 1e-9
 
 
 @dataclass
-class Variable:
+class ModelVariable:
     """A variable of the model description."""
 
     name: str
@@ -54,7 +54,7 @@ class Variable:
     unit: str = ""
     start: str | None = None
     description: str = ""
-    derivative: Variable | None = None
+    derivative: ModelVariable | None = None
     index: int = 0
 
 
@@ -120,27 +120,27 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
     """Return the variables of the model description and of its structure."""
     mechanism, info = model.mechanism, model.compiled.info
     formulas = {p.name for p in mechanism.parameters if p.formula is not None}
-    parameters, following = list[Variable](), list[Variable]()
+    parameters, following = list[ModelVariable](), list[ModelVariable]()
     for i, parameter in enumerate(values["parameters"]):
         name, unit, value = parameter["name"], parameter["unit"], parameter["value"]
         if parameter["input"]:
-            parameters.append(Variable(name, i, "input", initial="", unit=unit, start=value))
+            parameters.append(ModelVariable(name, i, "input", initial="", unit=unit, start=value))
         elif name in formulas:
-            following.append(Variable(name, i, "calculatedParameter", "fixed", unit=unit))
+            following.append(ModelVariable(name, i, "calculatedParameter", "fixed", unit=unit))
             parameters.append(following[-1])
         else:
-            parameters.append(Variable(name, i, "parameter", "fixed", "exact", unit, value))
-    outputs = [Variable(q.name, _COLUMN + i, "output", unit=q.unit) for i, q in enumerate(model.columns)]
+            parameters.append(ModelVariable(name, i, "parameter", "fixed", "exact", unit, value))
+    outputs = [ModelVariable(q.name, _COLUMN + i, "output", unit=q.unit) for i, q in enumerate(model.columns)]
     names = {v.name for v in (*parameters, *outputs)}
     for i, output in enumerate(mechanism.outputs):
         name = f"output.{output.name}" if output.name in names else output.name
-        outputs.append(Variable(name, _OUTPUT + i, "output", unit=output.unit))
+        outputs.append(ModelVariable(name, _OUTPUT + i, "output", unit=output.unit))
     count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
     what = "independent coordinate or velocity, state or integral"
-    states = [Variable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
-    rates = [Variable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
+    states = [ModelVariable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
+    rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
     marks = [*(f"event.{event.name}" for event in mechanism.events), "event.choice_of_states"] if fmi == 3 else []
-    indicators = [Variable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
+    indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
     variables = [*parameters, *outputs, *states, *rates, *indicators]
     for i, variable in enumerate(variables, 1):
         variable.index = i

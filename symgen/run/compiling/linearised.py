@@ -33,7 +33,7 @@ NAME = "linearised"
 
 
 @dataclass(frozen=True)
-class Evaluated:
+class LinearisedState:
     """All values and derivatives of a descriptor form at one state, by group."""
 
     form: DescriptorForm
@@ -106,7 +106,7 @@ class DescriptorForm:
     def _few(self) -> Few:
         return Few(self.function, OBSERVE)
 
-    def at(self, t: float, y: Array, a: Array, p: Array, w: Array) -> Evaluated:
+    def at(self, t: float, y: Array, a: Array, p: Array, w: Array) -> LinearisedState:
         """Evaluate at a state.
 
         Parameters
@@ -123,7 +123,7 @@ class DescriptorForm:
         out = np.zeros(self.values + len(self.pattern))
         rates = np.concatenate([np.zeros(self.widths["q"]), a])
         self._few(t, y, p, w, rates, out)
-        return Evaluated(self, out)
+        return LinearisedState(self, out)
 
 
 def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...] = ()) -> DescriptorForm:

@@ -62,7 +62,7 @@ class Switch:
     holds: bool = False
 
 
-class Formulas(Protocol):
+class RunFormulas(Protocol):
     """Formulas of a run, evaluated at one state."""
 
     @property
@@ -106,9 +106,9 @@ class BoundedRows:
 
     names: tuple[str, ...]
     dry: int
-    state: Formulas
-    accelerations: Formulas
-    reactions: Formulas | None = None
+    state: RunFormulas
+    accelerations: RunFormulas
+    reactions: RunFormulas | None = None
     pressed: tuple[int, ...] = ()
     changes: bool = True
     losses: tuple[int | None, ...] = ()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Direction:
+class RunDirection:
     """A number that a run is differentiated by.
 
     Attributes
@@ -35,7 +35,7 @@ class Direction:
     key: str
 
 
-def named_directions(run: Prepared, names: Mapping[str, str]) -> tuple[Direction, ...]:
+def named_directions(run: Prepared, names: Mapping[str, str]) -> tuple[RunDirection, ...]:
     """Return the directions called `names`.
 
     Parameters
@@ -51,7 +51,7 @@ def named_directions(run: Prepared, names: Mapping[str, str]) -> tuple[Direction
     InputError
         If a name is unknown, means a number that varies during the run, or comes twice.
     """
-    directions = list[Direction]()
+    directions = list[RunDirection]()
     for name, key in names.items():
         direction = replace(_named(run, key), name=name)
         if any((direction.kind, direction.key) == (other.kind, other.key) for other in directions):
@@ -60,7 +60,7 @@ def named_directions(run: Prepared, names: Mapping[str, str]) -> tuple[Direction
     return tuple(directions)
 
 
-def _named(run: Prepared, name: str) -> Direction:
+def _named(run: Prepared, name: str) -> RunDirection:
     mechanism, (compiled, _) = run.plan.mechanism, run.assembled.of_bodies
     info, where = compiled.info, "sensitivities"
     parameters = {q.name: q.unit for q in info.parameters}
@@ -68,7 +68,7 @@ def _named(run: Prepared, name: str) -> Direction:
     if name in varying:
         raise InputError(where, "numbers that stay the same during the run", f"the input {quoted(name)}, which varies")
     if name in parameters:
-        return Direction(name, parameters[name], "parameter", name)
+        return RunDirection(name, parameters[name], "parameter", name)
     quantities = {q.name: q.unit for q in (*info.coordinates, *info.velocities)}
     joints = {q.name: q.unit for q in info.joint_coordinates}
     joints |= {f"{name}.rate": f"{unit}/s" for name, unit in joints.items()}
@@ -77,10 +77,10 @@ def _named(run: Prepared, name: str) -> Direction:
     euler = {info.coordinates[first + k].name for first, _ in info.spins for k in range(4)}
     for table in (quantities, joints, states):
         if own in table and own not in euler:
-            return Direction(name, table[own], "start", own)
+            return RunDirection(name, table[own], "start", own)
     laws = {key: "" for key, _ in compiled.law.parameters}
     if (key := name.removeprefix("method.")) in laws and key != name:
-        return Direction(name, laws[key], "method", key)
+        return RunDirection(name, laws[key], "method", key)
     candidates = (*parameters, *(q for q in quantities if q not in euler), *joints, *states)
     candidates += tuple(f"method.{key}" for key in laws)
     expected = f"parameters or values of the start of {mechanism.name}"

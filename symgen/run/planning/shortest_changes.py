@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 
 if TYPE_CHECKING:
-    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.directions import RunDirection
 
 Array = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ def shortest(
     names: Sequence[str],
     more: Array,
     scales: Array,
-    directions: Sequence[Direction],
+    directions: Sequence[RunDirection],
 ) -> Array:
     """Return the shortest solution of linear equations in which some unknowns have values, shape (nv, n).
 
@@ -76,7 +76,7 @@ def shortest(
         Scaled change, of which the part that the equations leave free is added.
     scales : Array, shape (nv,)
         Scales of the unknowns.
-    directions : sequence of Direction
+    directions : sequence of RunDirection
         The n directions, for messages.
 
     Raises

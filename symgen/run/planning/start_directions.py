@@ -27,7 +27,7 @@ from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
-    from symgen.run.planning.directions import Direction
+    from symgen.run.planning.directions import RunDirection
     from symgen.run.planning.prepare import Prepared
     from symgen.run.starts.assembly import Start
 
@@ -47,12 +47,12 @@ class StartDirections:
     ----------
     run : Prepared
         The run.
-    directions : tuple of Direction
+    directions : tuple of RunDirection
         What it is differentiated by.
     """
 
     run: Prepared
-    directions: tuple[Direction, ...]
+    directions: tuple[RunDirection, ...]
 
     @property
     def compiled(self) -> CompiledModel:
@@ -365,8 +365,3 @@ class StartDirections:
         result[: own.work] = np.linalg.lstsq(by, rest, rcond=NONE)[0]
         result[own.own_states] = bodies[info.own_states]
         return result
-
-
-def seeds_of(run: Prepared, directions: tuple[Direction, ...]) -> Seeds:
-    """Return the directions of the start of a run."""
-    return StartDirections(run, directions).seeds()

@@ -110,7 +110,11 @@ class RowKernel:
             out.summary[light] = 0.0
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
             out.summary[light, e.LIGHT] = 1.0
-        return Chunk(recipe.in_order(values, behind), np.hstack([out.summary, out.events]), complete)
+        left = recipe.in_order(values, behind)
+        if recipe.over is not None:
+            done = (out.summary[:, e.START] == e.ASSEMBLED) & (out.summary[:, e.CODE] == abi.DONE)
+            left = recipe.over.of(left, recipe.times, done)
+        return Chunk(left, np.hstack([out.summary, out.events]), complete)
 
     def _described(self, model: _Prepared, rows: Rows) -> Instant:
         """Return rows as they are described."""

@@ -27,7 +27,7 @@ def table_lines(sweep: Sweep, as_written: bool = False) -> tuple[list[str], Iter
     """
     ensemble = sweep.ensemble
     grid, units = sweep.as_written() if as_written else (ensemble.grid, sweep.units())
-    varied, times, quantities = grid.values(0, len(sweep)), ensemble.recipe.spec.times, ensemble.recipe.quantities
+    varied, times, quantities = grid.values(0, len(sweep)), ensemble.recipe.kept_times, ensemble.recipe.kept
     labels = of_quantities([q.name for q in quantities], ensemble.grid.axes)
     names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
     events = {name: sweep.summary[:, at] for name, (at, _) in sweep.events.items()}

@@ -33,6 +33,7 @@ from symgen.run.layout.ensemble_abi import SIDE
 from symgen.run.loops.run_spec import RunSpec
 from symgen.run.starts.held import Held
 from symgen.study.ensemble.measures import Measures, stored
+from symgen.study.ensemble.over_time import OverTime
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -163,7 +164,7 @@ class Recipe:
     method_parameters : mapping
         Values of the method's parameters that differ from the defaults.
     quantities : tuple of Signal
-        Selected quantities.
+        Selected quantities, as loops leave them.
     tree : Mechanism or None
         The mechanism with its tree, where runs are in joint coordinates.
     watch : EventPlan or None
@@ -184,6 +185,8 @@ class Recipe:
         Files that workers load before.
     datum : tuple of float
         What coordinates are measured from, with parameters as described (`symgen.describe.facts.lengths.datum_of`).
+    over : OverTime or None
+        What is taken of the quantities over the time of each run; None where their histories are kept.
     """
 
     first: Code
@@ -202,6 +205,17 @@ class Recipe:
     stops: bool = False
     plugins: tuple[str, ...] = ()
     datum: tuple[float, ...] = ()
+    over: OverTime | None = None
+
+    @property
+    def kept(self) -> tuple[Signal, ...]:
+        """What each run leaves: the quantities, or numbers of them over time."""
+        return self.quantities if self.over is None else self.over.quantities
+
+    @property
+    def kept_times(self) -> Array:
+        """Times of what each run leaves: all output times, or the last one [s]."""
+        return self.times if self.over is None else self.times[-1:]
 
     @property
     def times(self) -> Array:
@@ -260,7 +274,7 @@ class Recipe:
         text = json.dumps(
             [
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
-                *(dict(self.method_parameters), [q.name for q in self.quantities], asdict(self.held)),
+                *(dict(self.method_parameters), [q.name for q in self.kept], asdict(self.held)),
                 *(self.strict, self.code, *([self.sides] if self.sides else [])),
                 *(["stops"] if self.stops else []),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.free_numbers import with_numbers
 from symgen.base import arguments
-from symgen.base.errors import InputError, SymgenError, counted, nearest
+from symgen.base.errors import InputError, SymgenError, counted, nearest, quoted
 from symgen.base.files import check_path, need, write_whole
 from symgen.describe.facts.lifted import lifted
 from symgen.result.build import build_result
@@ -124,6 +124,9 @@ def row_sensitivities(sweep: Sweep, by: Sequence[str]) -> RowSensitivities:
     names = tuple(arguments.words("sensitivities", by))
     if not names:
         raise InputError("sensitivities", "names of numbers", "none")
+    if ensemble.recipe.over is not None:
+        got = f"{ensemble.recipe.kept[0].name}"
+        raise InputError("sensitivities", "a sweep that keeps histories or ends of quantities", quoted(got))
     own = lifted("sensitivities", ensemble.model.mechanism, names)
     times = spec.times.tolist()
     common = replace(ensemble.plan.settings, until=spec.until, times=times, output_step=None, verify=False)

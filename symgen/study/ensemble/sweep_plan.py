@@ -6,7 +6,7 @@ import hashlib
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from msgspec import structs
@@ -41,6 +41,7 @@ from symgen.study.ensemble.driving import Driving, read_by_motions
 from symgen.study.ensemble.kernel import kernel_of
 from symgen.study.ensemble.measures import first_integral, make_measures
 from symgen.study.ensemble.names import METHOD, Names, Targets, targets_of
+from symgen.study.ensemble.over_time import over_time, parted
 from symgen.study.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
 from symgen.study.ensemble.row_quantities import choose_quantities
 
@@ -117,7 +118,7 @@ class Ensemble:
     def sizes(self) -> tuple[int, int, int, int, int]:
         """Runs, quantities, output times, runs in a chunk, and numbers that each run leaves of events."""
         recipe = self.recipe
-        return len(self), len(recipe.quantities), len(recipe.spec.times), self.chunk, recipe.further
+        return len(self), len(recipe.kept), len(recipe.kept_times), self.chunk, recipe.further
 
     @cached_property
     def parameters(self) -> dict[str, float]:
@@ -209,7 +210,7 @@ def make_ensemble(
     if size > LARGEST_STRAIGHT:
         raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
     settings = replace(settings, shape="straight")  # loops over rows are those of one mechanism
-    ends = settings.times is None and settings.output_step is None
+    ends = settings.times is None and settings.output_step is None and not any(parted(x)[0] for x in quantities or ())
     if ends:
         end = model.mechanism.defaults.until if settings.until is None else settings.until
         settings = replace(settings, times=(end,))
@@ -252,7 +253,9 @@ def make_ensemble(
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
-    kept = choose_quantities(mechanism, compiled.info, kept_names)
+    over = over_time(kept_names or (), partial(choose_quantities, mechanism, compiled.info))
+    plain = None if kept_names is None else [name for _, name in map(parted, kept_names)]
+    kept = choose_quantities(mechanism, compiled.info, plain)
     integral = first_integral(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
@@ -288,6 +291,7 @@ def make_ensemble(
         sides=tuple(side for side in sides_of(mechanism) if side.held),
         stops=driving.jumps,
         plugins=loaded_files(),
+        over=over,
         datum=tuple(datum_of(mechanism, scalars(parameter_values(mechanism, plan.parameters)))),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run

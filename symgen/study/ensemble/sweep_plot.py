@@ -26,11 +26,11 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     InputError
         If a quantity was not kept.
     """
-    signals = {signal.name: signal for signal in sweep.ensemble.recipe.quantities}
+    signals = {signal.name: signal for signal in sweep.ensemble.recipe.kept}
     tables, model = {name: signal.table for name, signal in signals.items()}, sweep.ensemble.model.name
     names = [*choose(tables, what, model, (*TABLES,))] if what else [*signals]
     grid, own = sweep.as_written()
-    varied, times = grid.values(0, len(sweep)), sweep.ensemble.recipe.spec.times
+    varied, times = grid.values(0, len(sweep)), sweep.ensemble.recipe.kept_times
     over = over or ("t" if len(times) > 1 else next(iter(varied)))
     if over not in ("t", *varied, *signals):
         expected = "t, what varies, or a quantity that was kept"
@@ -74,6 +74,6 @@ def _lines(
         if over in varied:
             along = varied[over][runs]
         else:
-            times = sweep.ensemble.recipe.spec.times
+            times = sweep.ensemble.recipe.kept_times
             along = times if over == "t" else sweep.values[runs[0], [*signals].index(over)]
         yield text, np.asarray(along), runs

@@ -93,7 +93,7 @@ class Sweep:
             facts += [
                 (name, f"{counted(len(x), 'value')} from {x.min():g} to {x.max():g}") for name, x in axis.values.items()
             ]
-        names = [q.name for q in self.ensemble.recipe.quantities]
+        names = [q.name for q in self.ensemble.recipe.kept]
         facts.append(("quantities", ", ".join(names[:8]) + ", ..." * (len(names) > 8)))
         facts += [(status, str(count)) for status, count in self.counts.items() if count]
         return notebook_table((), [*facts, ("seconds", f"{self.seconds:.3g}")])
@@ -163,14 +163,14 @@ class Sweep:
             If it was not kept; says the nearest name.
         """
         shape = self.ensemble.grid.shape
-        for i, q in enumerate(self.ensemble.recipe.quantities):
+        for i, q in enumerate(self.ensemble.recipe.kept):
             if q.name == name:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
             return summary_column(self.summary, name).reshape(shape)
         if name in self.events:
             return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
-        names = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
+        names = [*(q.name for q in self.ensemble.recipe.kept), *NUMBERS, *self.events]
         raise InputError(
             "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), names)
         )
@@ -213,8 +213,8 @@ class Sweep:
                 **facts,
                 "runs": len(self),
                 "axes": {axis.dimension: len(axis) for axis in self.ensemble.grid.axes},
-                "quantities": [q.name for q in self.ensemble.recipe.quantities],
-                "times": len(self.ensemble.recipe.spec.times),
+                "quantities": [q.name for q in self.ensemble.recipe.kept],
+                "times": len(self.ensemble.recipe.kept_times),
                 "events": {
                     name: {
                         "runs": int(np.sum(counts > 0.0)),
@@ -248,7 +248,7 @@ class Sweep:
 
         ensemble = self.ensemble
         shape, dimensions = ensemble.grid.shape, tuple(map(of_dimension, ensemble.grid.axes))
-        quantities = ensemble.recipe.quantities
+        quantities = ensemble.recipe.kept
         variables: dict[str, Any] = {
             label: ((*dimensions, "time"), self[q.name], {"units": q.unit})
             for label, q in zip(
@@ -265,7 +265,7 @@ class Sweep:
         for name, (_, unit) in self.events.items():
             variables[name] = (dimensions, self[name], {"units": unit})
         units = self.units()
-        coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.spec.times, {"units": "s"})}
+        coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.kept_times, {"units": "s"})}
         for axis, dimension in zip(ensemble.grid.axes, dimensions, strict=True):
             for name, values in axis.values.items():
                 coordinates[of_varied(name, axis)] = (dimension, values, {"units": units.get(name) or "1"})

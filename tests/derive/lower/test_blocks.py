@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.checks import RANDOM, close
 from support.graph_values import node_values
+from support.switching import with_switchable
 
 import symgen
 from derive.lower.test_rank import SCHUR, equations_of, laid_out
@@ -19,7 +20,6 @@ from symgen.derive.lower.closing import closed_loops, loop_pairs
 from symgen.derive.lower.plans import cheapest_plan
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.methods._base import multiplier_law
-from symgen.describe.facts.switching import with_switchable
 from symgen.run.compiling.choices import on_tree
 from symgen.run.planning.starts import parameter_values
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from support.emitted import mechanism_of
 from support.locks import LOCKED, parts
+from support.switching import with_switchable
 
 from symgen import Settings, load
 from symgen.base.errors import InputError
 from symgen.compile.native.c99 import c_functions
 from symgen.describe.catalogue import MACHINES, entries
-from symgen.describe.facts.switching import with_switchable
 from symgen.result.targets import TARGETS, Request
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare

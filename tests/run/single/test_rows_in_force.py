@@ -5,6 +5,7 @@ from functools import cache
 import msgspec
 import numpy as np
 import pytest
+from support.switching import with_switchable
 
 import symgen
 from symgen.base.errors import InputError
@@ -12,7 +13,6 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.base.settings import Settings
 from symgen.describe.facts.digest import digest
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.facts.switching import with_switchable
 from symgen.describe.mechanism import Mechanism
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import Prepared, prepare

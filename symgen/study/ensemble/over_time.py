@@ -1,0 +1,121 @@
+"""Numbers of quantities over the time of a run: ``max(ram.effort)``, ``rms(crank.omega)``.
+
+They are taken of the outputs of a run, so that a run leaves one number for each instead of a history.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.result.signals import Signal
+
+Array = NDArray[np.float64]
+
+
+def _mean(t: Array, x: Array) -> Array:
+    span = t[-1] - t[0]
+    return np.trapezoid(x, t, axis=-1) / span if span > 0.0 else x[..., -1]
+
+
+#: What is taken of a quantity over time: functions of times, shape (n,), and of values, shape (..., n).
+FUNCTIONS: Mapping[str, Callable[[Array, Array], Array]] = {
+    "max": lambda t, x: np.max(x, axis=-1),
+    "min": lambda t, x: np.min(x, axis=-1),
+    "range": lambda t, x: np.ptp(x, axis=-1),
+    "mean": _mean,
+    "rms": lambda t, x: np.sqrt(_mean(t, x**2)),
+}
+_CALL = re.compile(r"(\w+)\((.*)\)")
+
+
+def parted(name: str) -> tuple[str, str]:
+    """Return the function and the quantity that a name means, such as ``max`` and ``ram.effort``; no function: the end.
+
+    Raises
+    ------
+    InputError
+        If there is no such function; says the nearest one.
+    """
+    found = _CALL.fullmatch(name)
+    if found is None:
+        return "", name
+    if found[1] not in FUNCTIONS:
+        expected = f"{', '.join(FUNCTIONS)} of a quantity over time"
+        raise InputError(f"quantity {quoted(name)}", expected, quoted(found[1]), nearest(found[1], [*FUNCTIONS]))
+    return found[1], found[2].strip()
+
+
+@dataclass(frozen=True)
+class OverTime:
+    """Numbers that each run leaves instead of histories.
+
+    Attributes
+    ----------
+    quantities : tuple of Signal
+        Names and units of these numbers; their sources and columns are those of the quantities that they are made of.
+    functions : tuple of str
+        Keys of `FUNCTIONS`; empty: the value at the end.
+    places : tuple of int
+        Of each one's quantity among those of the loops.
+    """
+
+    quantities: tuple[Signal, ...]
+    functions: tuple[str, ...]
+    places: tuple[int, ...]
+
+    def of(self, values: Array, times: Array, good: NDArray[np.bool_]) -> Array:
+        """Return the numbers of runs, shape (runs, numbers, 1).
+
+        Parameters
+        ----------
+        values : Array, shape (runs, quantities, times)
+            Quantities at the output times; nan behind the end of a run that an event has ended.
+        times : Array
+            Output times [s].
+        good : Array of bool, shape (runs,)
+            Which runs came to their end; others leave nan.
+        """
+        numbers = np.full((len(values), len(self.places), 1), np.nan)
+        reached = np.sum(~np.isnan(values).all(axis=1), axis=-1)  # a quantity may be undefined at single outputs
+        for count in np.unique(reached[good & (reached > 0)]):
+            rows = np.flatnonzero(good & (reached == count))
+            for i, (function, place) in enumerate(zip(self.functions, self.places, strict=True)):
+                x = values[rows, place, :count]
+                numbers[rows, i, 0] = FUNCTIONS[function](times[:count], x) if function else x[:, -1]
+        return numbers
+
+
+def over_time(names: Sequence[str], choose: Callable[[Sequence[str]], tuple[Signal, ...]]) -> OverTime | None:
+    """Return what names ask for over time, None where all of them are plain quantities.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of quantities, and functions of them.
+    choose : callable
+        Returns the quantities that names mean.
+
+    Raises
+    ------
+    InputError
+        If a name or a function is unknown.
+    """
+    parts = [parted(name) for name in names]
+    if not any(function for function, _ in parts):
+        return None
+    loops = {signal.name: i for i, signal in enumerate(choose([name for _, name in parts]))}
+    quantities, functions, places = list[Signal](), list[str](), list[int]()
+    for function, name in parts:
+        for signal in choose([name]):
+            label = f"{function}({signal.name})" if function else signal.key
+            table = label if function else signal.table
+            quantities.append(Signal(table, label, signal.unit, signal.source, signal.column))
+            functions.append(function)
+            places.append(loops[signal.name])
+    return OverTime(tuple(quantities), tuple(functions), tuple(places))
