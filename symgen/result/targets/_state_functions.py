@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.derive.emit.libraries import ARGUMENTS, Syntax, library_function
-from symgen.derive.lower.functions import FunctionProgram, StateFunctions, lower_function
+from symgen.derive.lower.functions import FunctionProgram, StateFunctions, Values, lower_function
+from symgen.describe.formulas.formula_text import to_text
 from symgen.run.planning.package import Package, write_folder
 from symgen.run.planning.state_model import StateModel
 
@@ -59,14 +61,12 @@ def write_functions(request: Request, library: str, syntax: Syntax, head: str, m
         If the shape is looped, a velocity has no inertia, or a formula reads a table.
     """
     where = f"--target {library}"
-    if request.shape != "straight":
-        raise InputError(where, "the straight shape", request.shape)
     began = time.perf_counter()
-    model = StateModel(where, request.mechanism, request.coordinates, {})
-    if model.mechanism.has_massless and model.kind == "absolute":
-        raise InputError(where, "bodies with mass and inertia, or joint coordinates", "one without")
+    model = state_model(where, request)
     functions, count = StateFunctions(model.mechanism), len(model.mechanism.parameters)
-    programs = dict(_programs(model, functions))
+    programs = {
+        x.name: lower_function(functions, x.base, x.purpose, x.vectors, x.values(functions)) for x in quantities(model)
+    }
     derived = time.perf_counter()
     parts = list[str]()
     for name, program in programs.items():
@@ -79,12 +79,55 @@ def write_functions(request: Request, library: str, syntax: Syntax, head: str, m
     return Package(request.path, files, derived - began, time.perf_counter() - derived)
 
 
-def _programs(model: StateModel, functions: StateFunctions) -> Iterator[tuple[str, FunctionProgram]]:
-    """Yield the functions of a module by name."""
+class StateQuantity(NamedTuple):
+    """A function of a module.
+
+    Attributes
+    ----------
+    name, base : str
+        Its name there, and without the frame's.
+    purpose : str
+        What it is.
+    vectors : str
+        Spaces of its arguments before ``p``.
+    values : callable
+        Returns its nodes.
+    identity : tuple
+        What shapes these besides its name and the mechanism.
+    """
+
+    name: str
+    base: str
+    purpose: str
+    vectors: str
+    values: Callable[[StateFunctions], Values]
+    identity: tuple[object, ...] = ()
+
+
+def state_model(where: str, request: Request) -> StateModel:
+    """Return the mechanism of a request for functions of its state.
+
+    Raises
+    ------
+    InputError
+        If the shape is looped, or a velocity has no inertia.
+    """
+    if request.shape != "straight":
+        raise InputError(where, "the straight shape", request.shape)
+    model = StateModel(where, request.mechanism, request.coordinates, {})
+    if model.mechanism.has_massless and model.kind == "absolute":
+        raise InputError(where, "bodies with mass and inertia, or joint coordinates", "one without")
+    return model
+
+
+def quantities(model: StateModel) -> Iterator[StateQuantity]:
+    """Yield the functions of a mechanism."""
     for name, (vectors, purpose) in (OF_ALL | (OF_ROWS if model.rows else {})).items():
-        solved = model.rows and name in ("forward_dynamics", "inverse_dynamics")
-        values = functions.solved(name, model.kept) if solved else functions.values(name)
-        yield name, lower_function(functions, name, purpose, vectors, values)
+        if model.rows and name in ("forward_dynamics", "inverse_dynamics"):
+            values = partial(StateFunctions.solved, name=name, kept=model.kept)
+            yield StateQuantity(name, name, purpose, vectors, values, model.kept)
+        else:
+            yield StateQuantity(name, name, purpose, vectors, partial(StateFunctions.values, name=name))
     taken = set[str]()
     for body in model.mechanism.bodies:
         origin = (ZERO,) * len(model.mechanism.gravity)
@@ -94,8 +137,9 @@ def _programs(model: StateModel, functions: StateFunctions) -> Iterator[tuple[st
                 place += "_"
             taken.add(place)
             for what, vectors in OF_FRAMES.items():
-                values = functions.frame(body.name, at, what, "world")
-                yield f"{what}_{place}", lower_function(functions, what, f"{what} of {place}", vectors, values)
+                frame = partial(StateFunctions.frame, body=body.name, point=at, what=what, axes="world")
+                purpose, identity = f"{what} of {place}", (body.name, *map(to_text, at))
+                yield StateQuantity(f"{what}_{place}", what, purpose, vectors, frame, identity)
 
 
 def _head(model: StateModel, library: str, programs: dict[str, FunctionProgram]) -> str:
