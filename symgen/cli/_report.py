@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 import click
 
 from symgen.base.errors import InputError
+from symgen.base.plugins import loaded_files
 from symgen.cli import INTERRUPTED, complain
 from symgen.cli._options import differ, output_file, units_option
 
@@ -118,6 +119,9 @@ def command_again() -> str:
                 flag,
                 Path(item).name if flag in _WRITTEN else str(item).removesuffix(".0"),
             ]
+    for file in loaded_files():
+        inside = Path(file).resolve().is_relative_to(Path.cwd())  # other folders are private
+        parts += ["--plugin", str(Path(file).resolve().relative_to(Path.cwd())) if inside else Path(file).name]
     return shlex.join(parts)
 
 

@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from symgen.base.digits import column, digits, scale_of
-from symgen.base.errors import counted, fitting
+from symgen.base.errors import InputError, counted, fitting
 
 if TYPE_CHECKING:
     import numpy as np
@@ -307,9 +307,29 @@ def show_stress(study: Stress) -> None:
         out.print(sentence)
 
 
+def show_contributions(study: Sweep) -> None:
+    """Print what each varied number contributes to the variance of the kept quantities, where enough runs have them."""
+    names = list(study.ensemble.grid.names)[:8]
+    rows = list[tuple[str, ...]]()
+    for q in study.ensemble.recipe.kept[:24]:
+        try:
+            shares = study.contributions(q.name)
+        except InputError:  # too few runs
+            continue
+        if any(shares.values()):
+            rows.append(
+                (q.name, *(f"{100.0 * shares[name]:.1f}" for name in names), f"{100 * sum(shares.values()):.1f}")
+            )
+    if rows:
+        headings = ("quantity", *names, "together")
+        show_rows(console(), headings, rows, headings[:1], "share of the variance [%], by straight lines")
+
+
 def show_sweep(study: Sweep, written: Path | None) -> None:
     """Print the results of an ensemble: axes, statuses, reasons, and final values of the kept quantities."""
     import numpy as np
+
+    from symgen.study.ensemble.samples import PERCENTILES, has_samples
 
     facts, ensemble = study.to_json(), study.ensemble
     steps = f"step {facts['step']:g} s" if facts["rtol"] is None else f"rtol {facts['rtol']:g}"
@@ -332,12 +352,16 @@ def show_sweep(study: Sweep, written: Path | None) -> None:
     ]
     out = console()
     show_facts(out, lines)
-    rows = list[tuple[str, ...]]()
+    rows, sampled = list[tuple[str, ...]](), has_samples(ensemble.grid)
     for i, q in enumerate(ensemble.recipe.kept[:24]):
         last = study.values[:, i, -1]
         last = last[np.isfinite(last)]
         if len(last):
-            rows.append((q.name, q.unit, *column([last.min(), last.mean(), last.max()], q.unit)))
+            middle = np.percentile(last, PERCENTILES) if sampled else [last.mean()]
+            rows.append((q.name, q.unit, *column([last.min(), *middle, last.max()], q.unit)))
     if rows:
-        headings = ("quantity", "unit", "least", "mean", "largest")
+        between = [f"{share:g} %" for share in PERCENTILES] if sampled else ["mean"]
+        headings = ("quantity", "unit", "least", *between, "largest")
         show_rows(out, headings, rows, headings[:2], "at the last output")
+    if sampled:
+        show_contributions(study)

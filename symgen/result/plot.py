@@ -43,7 +43,7 @@ class Plot:
         import matplotlib as mpl
 
         # names of clip paths would be drawn anew for each file
-        with mpl.rc_context({"svg.hashsalt": "symgen"}):
+        with mpl.rc_context({"svg.hashsalt": "symgen", "pdf.fonttype": 42}):  # printers refuse fonts of type 3
             return write_whole(
                 where, lambda file: self.figure.savefig(file, format=kind, dpi=IN_FILE, metadata=metadata)
             )

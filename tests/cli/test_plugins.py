@@ -57,7 +57,8 @@ def test_a_method_runs_and_is_compared_with_three_gains(tmp_path: Path) -> None:
     assert result["status"] == "ok" and result["method"] == "velocity-feedback"
     names = ["lagrange", *(f"velocity-feedback:k={k}" for k in (1, 5, 20))]
     words = ("--integrators", "rk4", "--steps", "5e-3", "--until", "1", "--repeat", "1", "--jobs", "2")
-    rows = run("compare", *own, "--methods", ",".join(names), *words, cwd=tmp_path)["rows"]
+    rows = run("compare", *own, "--methods", ",".join(names), *words, "-o", "report.md", cwd=tmp_path)["rows"]
+    assert "--plugin velocity_feedback.py" in (tmp_path / "report.md").read_text(encoding="utf-8")
     assert [row["variant"] for row in rows] == ["", "k=1", "k=5", "k=20"]
     assert len({row["velocity_violation_max"] for row in rows}) == 4
     for gain, row in zip((1, 5, 20), rows[1:], strict=True):

@@ -94,6 +94,7 @@ def test_plots(result, tmp_path, ending):
     path = result.plot(tmp_path / f"run{ending}", ("q", "v", "energy", "violations", "reactions"))
     head = path.read_bytes()[:200]
     assert {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}[ending] in head
+    assert b"/Type3" not in path.read_bytes()  # printers refuse such fonts
 
 
 def test_an_svg_says_units_and_is_the_same_every_time(result, tmp_path):

@@ -10,6 +10,7 @@ import numpy as np
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.result.plots import LONGEST_LEGEND, empty, label, legend, style
 from symgen.result.signals import TABLES, Signal, choose
+from symgen.study.ensemble.samples import PERCENTILES, is_sample
 
 if TYPE_CHECKING:
     from symgen.study.ensemble.sweep_study import Array, Sweep
@@ -41,13 +42,19 @@ def sweep_figure(sweep: Sweep, what: Sequence[str], over: str) -> Any:
     figure, axes = empty(f"{model}, {len(sweep)} runs{end}{count}", len(shown))
     units = {"t": "s"} | own | {name: signal.unit for name, signal in signals.items() if name not in varied}
     lines = [*_lines(sweep, over, varied, signals, units)]
+    sampled = any(over in axis.values and is_sample(axis) for axis in grid.axes)
     for ax, name in zip(axes, shown, strict=False):
         place = [*signals].index(name)
         for i, (text, along, runs) in enumerate(lines):
             values = sweep.values[runs, place, -1] if over in varied else sweep.values[runs[0], place]
-            ax.plot(along, values, label=text, marker="." if len(along) < 2 else None, **style(i, len(lines)))
+            drawn = style(i, len(lines)) | ({"linestyle": ""} if sampled else {})
+            ax.plot(along, values, label=text, marker="." if sampled or len(along) < 2 else None, **drawn)
+            if sampled:
+                for share, dashes in zip(PERCENTILES, (":", "-", ":"), strict=True):
+                    level = np.nanpercentile(values, share)
+                    ax.axhline(level, linestyle=dashes, color=drawn["color"], linewidth=0.8, label=f"{share:g} %")
         ax.set_ylabel(label(name, signals[name].unit))
-        if 1 < len(lines) <= LONGEST_LEGEND:
+        if (sampled and len(lines) == 1) or 1 < len(lines) <= LONGEST_LEGEND:
             legend(ax)
     if len(lines) > LONGEST_LEGEND:
         ends = f"dark: {lines[0][0]}; light: {lines[-1][0]}"
@@ -62,6 +69,9 @@ def _lines(
     """Yield the lines of each panel: what tells one from the others, where its points are, and its runs."""
     with_it = next((axis.values for axis in sweep.ensemble.grid.axes if over in axis.values), {})
     others = {name: values for name, values in varied.items() if name not in with_it}
+    drawn = {name for axis in sweep.ensemble.grid.axes if is_sample(axis) for name in axis.values}
+    if over in drawn:  # points: other random numbers tell no groups apart
+        others = {name: values for name, values in others.items() if name not in drawn}
     if over in varied:
         groups: dict[tuple[float, ...], list[int]] = {}
         for run in range(len(sweep)):

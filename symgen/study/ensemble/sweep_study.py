@@ -37,6 +37,7 @@ from symgen.study.ensemble.row_quantities import (
     of_quantities,
     of_varied,
 )
+from symgen.study.ensemble.samples import contributions
 from symgen.study.ensemble.verdicts import NOT_RUN, judge_all, summary_column, warnings_all
 
 if TYPE_CHECKING:
@@ -44,7 +45,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.study.ensemble.row_sensitivities import RowSensitivities
-    from symgen.study.ensemble.sweep_plan import Ensemble
+    from symgen.study.ensemble.samples import contributions
+from symgen.study.ensemble.sweep_plan import Ensemble
 
 Array = NDArray[np.float64]
 
@@ -299,6 +301,20 @@ class Sweep:
         from symgen.study.ensemble.row_sensitivities import row_sensitivities
 
         return row_sensitivities(self, by)
+
+    def contributions(self, name: str) -> dict[str, float]:
+        """Return the share of a quantity's variance at the last output that each varied number contributes.
+
+        The shares are those of straight lines through all runs (`symgen.study.ensemble.samples.contributions`); what
+        is missing to 1 is curvature and interplay. In a tolerance study, the largest share names the dimension to hold.
+
+        Raises
+        ------
+        InputError
+            If the quantity was not kept, or too few runs have it.
+        """
+        values = self[name].reshape(len(self), -1)[:, -1]
+        return contributions(self.ensemble.grid.values(0, len(self)), np.asarray(values, dtype=np.float64))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for every run and output time, with what varied, quantities, events and status.
