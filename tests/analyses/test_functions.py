@@ -10,6 +10,8 @@ from support.recursion import Recursion, random_robot, urdf
 from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.files.validate import validate
+from symgen.describe.formats import read_robot
 
 #: Parents and kinds of joints: a chain, slides, forks.
 ROBOTS = {
@@ -364,3 +366,34 @@ def test_light_bodies_are_refused():
     f = free.functions("absolute")
     with pytest.raises(InputError, match="one where bodies are too light"):
         f.forward_dynamics(np.zeros(3), np.zeros(3), np.zeros(3), {"m": 0.0})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("floating", [False, True])
+def test_coordinates_of_joints_and_bodies_have_the_same_accelerations(floating, tmp_path):
+    limbs = random_robot(7, [-1, 0, 1, 0], "rrpr")
+    path = tmp_path / "robot.urdf"
+    path.write_text(urdf(limbs).replace('<link name="base"/>', BASE if floating else '<link name="base"/>'))
+    model = Model(validate(read_robot(path, "urdf", floating=floating).raw, "robot"))
+    joint, bodies = model.functions("joint"), model.functions("absolute")
+    rng = np.random.default_rng(2)
+    start = {x.name.removesuffix(".rate"): rng.uniform(-0.5, 0.5) for x in joint.coordinates if ".j_" in f".{x.name}"}
+    start |= {x.name: rng.uniform(-1.0, 1.0) for x in joint.velocities}
+    run = model.start(coordinates="joint", integrator="rk4", start=start)
+    state, places = run.bodies, [x.name for x in (*bodies.coordinates, *bodies.velocities)]
+    q, v = np.array(run.q), np.array(run.v)
+    whole = np.array([state[name] for name in places])
+    of_bodies = whole[: len(bodies.coordinates)], whole[len(bodies.coordinates) :]
+    assert abs(joint.kinetic_energy(q, v) - bodies.kinetic_energy(*of_bodies)) < 1e-12 * joint.kinetic_energy(q, v)
+    assert abs(0.5 * v @ joint.mass_matrix(q) @ v - joint.kinetic_energy(q, v)) < 1e-12 * joint.kinetic_energy(q, v)
+    a, b = joint.forward_dynamics(q, v, 0.0 * v), bodies.forward_dynamics(*of_bodies, 0.0 * of_bodies[1])
+    for frame in ("limb1", "tool"):
+        carried, own = joint.frame(frame), bodies.frame(frame)
+        assert close(carried.pose(q), own.pose(of_bodies[0]), 1e-12)
+        for one, other in ((carried, own), (carried.local, own.local)):
+            assert close(one.velocity(q, v), other.velocity(*of_bodies), 1e-12)
+            along = one.jacobian(q) @ a + one.jacobian_rate(q, v)
+            assert close(along, other.jacobian(of_bodies[0]) @ b + other.jacobian_rate(*of_bodies), 1e-10)
+
+
+BASE = '<link name="base"><inertial><mass value="4"/><inertia ixx="0.1" iyy="0.2" izz="0.15"/></inertial></link>'
