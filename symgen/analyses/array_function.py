@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.base import arguments
 from symgen.base.errors import InputError
+from symgen.result.stepping.named import Named
 from symgen.run.loops import projection
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ class ArrayFunction:
         #: Names of the arguments; the last one may be left out.
         self.arguments = tuple(_NAMES[x] for x in function.arguments)
         slow = _Converted(function, default, values)
-        slow.block = function.block(default, slow)
+        slow.block = function.block(default, slow, Named)
         entry = slow if slow.block is None else function.entry(slow.block)
         object.__setattr__(self, "__call__", entry)  # a slot: a call costs no method of Python
 

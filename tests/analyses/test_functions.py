@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.recursion import Recursion, random_robot, urdf
 
+from symgen.analyses import array_function
 from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.describe.files.builder import MechanismBuilder
@@ -257,6 +258,17 @@ def test_many_states_and_other_arrays_have_the_same_bits():
     matrix = np.empty((3, 3))
     assert f.mass_matrix(q, f.p, matrix) is matrix and np.array_equal(matrix, f.mass_matrix(q))
     assert f.mass_matrix(q, out=matrix) is matrix
+
+
+def test_states_of_a_stepped_run_are_arguments(monkeypatch):
+    model = load("four-bar")
+    f, run = model.functions("joint"), model.start(coordinates="joint", integrator="rk4", step=1e-3)
+    run.step(0.01)
+    plain = f.bias(np.array(run.q), np.array(run.v))
+    monkeypatch.setattr(array_function._Converted, "__call__", None)  # they are not converted
+    assert np.array_equal(f.bias(run.q, run.v), plain) and type(f.bias(run.q, run.v)) is np.ndarray
+    with pytest.raises(TypeError):
+        f.bias(run.q.tolist(), run.v)
 
 
 def test_numbers_are_arguments():

@@ -34,6 +34,7 @@ from symgen.compile.native.machine import load
     COLUMNS,
     LENGTH,  # its elements
     ARRAY_TYPE,
+    VIEW_TYPE,  # a subclass whose instances are taken as well
     NUMBERS,  # the description of 64-bit numbers
     EMPTY,  # PyArray_Empty
     VECTORCALL,
@@ -42,7 +43,7 @@ from symgen.compile.native.machine import load
     TO_FLOAT,  # PyFloat_FromDouble
     DEFAULT,  # address of the last argument where it is left out
     FIRST,  # lengths of arguments
-) = range(20)
+) = range(21)
 #: Places of functions in NumPy's table for extensions, which never change.
 _ARRAY_TYPE, _EMPTY = 2, 184
 #: Bytes from the beginning of an array to what it says of itself.
@@ -84,6 +85,7 @@ def block_of(
     shape: tuple[int, ...],
     default: NDArray[np.float64],
     otherwise: Callable[..., Any],
+    views: type[np.ndarray[Any, Any]] = np.ndarray,
 ) -> Block:
     """Return the slots of an entry.
 
@@ -102,6 +104,8 @@ def block_of(
         The last argument where it is left out.
     otherwise : callable
         Called with all other arguments, and where a function returns something else.
+    views : type
+        A subclass of arrays, which lives as long as the process: its instances are arguments like others.
     """
     block = np.zeros(FIRST + len(lengths), dtype=np.int64).view(Block)
     numbers = np.dtype(np.float64)
@@ -110,7 +114,8 @@ def block_of(
     assert api[_ARRAY_TYPE] == id(np.ndarray), "the first entries of NumPy's table are known"
     block[:FIRST] = [
         *(address, kernel, sizes.ctypes.data, len(sizes), scratch.ctypes.data, len(scratch), id(otherwise)),
-        *(len(shape), *(*shape, 1, 1)[:2], int(np.prod(shape)), id(np.ndarray), id(numbers), api[_EMPTY]),
+        *(len(shape), *(*shape, 1, 1)[:2], int(np.prod(shape)), id(np.ndarray), id(views), id(numbers)),
+        api[_EMPTY],
         *(_address(getattr(python, name)) for name in ("PyObject_Vectorcall", "Py_IncRef", "Py_DecRef")),
         _address(python.PyFloat_FromDouble),
         default.ctypes.data,
@@ -324,7 +329,9 @@ def _checked(i: int, length: str, flags: int, dimensions: str = "1") -> list[str
         f"  %o{i} = load ptr, ptr %place{i}",
         f"  %type{i}.at = getelementptr i8, ptr %o{i}, i64 8",
         f"  %type{i} = load i64, ptr %type{i}.at",
-        f"  %array{i} = icmp eq i64 %type{i}, %s{ARRAY_TYPE}",
+        f"  %plain{i} = icmp eq i64 %type{i}, %s{ARRAY_TYPE}",
+        f"  %view{i} = icmp eq i64 %type{i}, %s{VIEW_TYPE}",
+        f"  %array{i} = or i1 %plain{i}, %view{i}",
         f"  br i1 %array{i}, label %array{i}.is, label %otherwise",
         f"array{i}.is:",
         f"  %descr{i}.at = getelementptr i8, ptr %o{i}, i64 {_DESCR}",

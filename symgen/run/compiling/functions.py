@@ -70,8 +70,10 @@ class StateFunction:
         """Number of elements of the result."""
         return int(np.prod(self.shape))
 
-    def block(self, default: Array, otherwise: Callable[..., Any]) -> Block | None:
-        """Return the slots of an entry, None where only plain Python can be called."""
+    def block(
+        self, default: Array, otherwise: Callable[..., Any], views: type[np.ndarray[Any, Any]] = np.ndarray
+    ) -> Block | None:
+        """Return the slots of an entry, None where only plain Python can be called; see `block_of`."""
         if not isinstance(self.function, MachineFunction) or not has_entries():
             return None
         vector = types.float64[::1]
@@ -80,7 +82,7 @@ class StateFunction:
         if self.kernel is not None:
             kernel = self.kernel.address(types.int64(types.int64[::1], vector, vector))
         scratch = np.zeros(self.scratch)
-        return block_of(address, kernel, self.sizes, scratch, self.lengths, self.shape, default, otherwise)
+        return block_of(address, kernel, self.sizes, scratch, self.lengths, self.shape, default, otherwise, views)
 
     def entry(self, block: Block) -> Any:
         """Return the built-in function of a block."""
