@@ -96,7 +96,7 @@ class StepDirections:
             raise InputError(WHERE, "a run without events, dry friction, stops and comparisons in formulas", "one with")
         self._prepared, self._loop, self._info = prepared, loop, compiled.info
         info = compiled.info
-        self._places = [*range(info.work), *range(info.ny)[info.own_states]]
+        self._places = np.array([*range(info.work), *range(info.ny)[info.own_states]])
         quantities = (*info.coordinates, *info.velocities, *info.states)
         self._states = tuple(q.name for q in quantities)
         names = [q.name for q in info.parameters]
@@ -112,7 +112,7 @@ class StepDirections:
         seeds = Seeds(y, p)
         self._parts = [seeds.part(first, self._model.lanes) for first in range(0, count, self._model.lanes)]
         self._seeds, self._count = [part.y.ravel() for part in self._parts], count
-        self._known = dict[int, tuple[Array, Array, Array]]()
+        self._known = dict[int, tuple[bytes, Array, Array]]()
 
     @cached_property
     def _simulation(self) -> Simulation:
@@ -145,43 +145,57 @@ class StepDirections:
         t, until = float(before["clock"][abi.TIME]), float(now.clock[abi.TIME])
         if not until > t or before["control"][abi.STEPS] >= now.control[abi.STEPS]:
             raise InputError(WHERE, "a step before", "none")
-        if any(t < stop.t < until for stop in self._loop.spec.stops):
+        if self._loop.spec.stops and any(t < stop.t < until for stop in self._loop.spec.stops):
             raise InputError(WHERE, "a step during which inputs are held", "one in which they jump")
-        after = np.concatenate([self._after(k, before, until) for k in range(len(self._parts))], axis=1)[
-            :, : self._count
-        ]
-        n = len(self._places)
+        lanes, n, count = self._model.lanes, len(self._places), self._count
+        after = np.empty((n, lanes * len(self._parts)))
+        for k in range(len(self._parts)):
+            after[:, k * lanes : (k + 1) * lanes] = self._after(k, until)[self._places]
         outputs, left_out, c = self._outputs
-        a, b = after[self._places, :n], after[self._places, n:]
+        a, b = after[:, :n], after[:, n:count]
         return StepDerivatives(a, b, c(), self._states, self._inputs, outputs, left_out, t, until - t)
 
-    def _after(self, k: int, before: Mapping[str, NDArray[Any]], until: float) -> Array:
+    @cached_property
+    def _into(self) -> tuple[tuple[Array, Array], ...]:
+        """Pairs of arrays, each of the run with directions and from before the step."""
+        state, sizes, before = self._simulation.state, self._model.sizes, self._before
+        own = ((getattr(state, name)[: sizes[name]], before[name][: sizes[name]]) for name in ("y", "w"))
+        return *own, *((getattr(state, name), before[name]) for name in _COUNTS)
+
+    @cached_property
+    def _directions(self) -> tuple[Array, Array, Array]:
+        """The directions behind y and w in the run with directions, and those of y as a matrix."""
+        model, state = self._model, self._simulation.state
+        y, w = model.sizes["y"], model.sizes["w"]
+        return state.y[y : y * (1 + model.lanes)], state.w[w:], model.shadow(state.y, "y")
+
+    def _after(self, k: int, until: float) -> Array:
         """Make the step with some directions; return them behind it, shape (ny, L)."""
-        model, simulation = self._model, self._simulation
-        state, sizes = simulation.state, model.sizes
-        own = sizes["y"]
-        p, slopes = self._numbers(k, before["p"])
-        state.y[:own], state.y[own : own * (1 + model.lanes)] = before["y"][:own], self._seeds[k]
-        state.p[:], state.w[: sizes["w"]], state.w[sizes["w"] :] = p, before["w"], slopes
-        for name in _COUNTS:
-            getattr(state, name)[:] = before[name]
+        simulation, (y, w, slopes) = self._simulation, self._directions
+        state, own = simulation.state, self._model.sizes["y"]
+        state.p[:], w[:] = self._numbers(k, self._before["p"])
+        y[:] = self._seeds[k]
+        for there, before in self._into:
+            there[:] = before
         if state.control[abi.BEGUN] == 1:
             state.control[abi.BEGUN] = abi.AFRESH  # what the scheme keeps of the last rates has no directions
         simulation.span = self._loop.span
         code = simulation.go(until, math.inf)
-        now = self._loop.state.y[:own]
-        if code != abi.DONE or not np.abs(state.y[:own] - now).max() <= SAME * max(1.0, np.abs(now).max()):
+        here, now = state.y[:own], self._loop.state.y[:own]
+        same = here.tobytes() == now.tobytes() or np.abs(here - now).max() <= SAME * max(1.0, np.abs(now).max())
+        if code != abi.DONE or not same:
             raise InputError(WHERE, "a step that is the same once more", "another one")
-        return model.shadow(state.y, "y").copy()
+        return slopes
 
     def _numbers(self, k: int, p: Array) -> tuple[Array, Array]:
         """Return parameters with directions, and the directions of scratch that follow them, kept while they stay."""
         known = self._known.get(k)
-        if known is None or not np.array_equal(known[0], p):
+        numbers = p.tobytes()
+        if known is None or known[0] != numbers:
             model = self._model
             longer = model.parameters(p, self._parts[k].p)
             w = model.scratch(longer, self._loop.state.w)
-            known = self._known[k] = p.copy(), longer, w[model.sizes["w"] :]
+            known = self._known[k] = numbers, longer, w[model.sizes["w"] :]
         return known[1], known[2]
 
     @cached_property
