@@ -16,7 +16,7 @@ from symgen.base.errors import InputError, nearest
 from symgen.base.keywords import RunKeywords, takes
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.files.load import load as load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
