@@ -120,7 +120,7 @@ class StepDirections:
         longer = replace(
             start, y=model.longer(start.y, "y"), p=model.longer(start.p, "p"), w=model.longer(start.w, "w"), saved=None
         )
-        return Simulation(model.whole, self._prepared.plan.integrator, longer, replace(loop.spec, stops=()))
+        return Simulation(model.whole, self._prepared.plan.integrator, longer, replace(loop.spec, seams=()))
 
     @cached_property
     def _before(self) -> Mapping[str, NDArray[Any]]:
@@ -145,7 +145,7 @@ class StepDirections:
         t, until = float(before["clock"][abi.TIME]), float(now.clock[abi.TIME])
         if not until > t or before["control"][abi.STEPS] >= now.control[abi.STEPS]:
             raise InputError(WHERE, "a step before", "none")
-        if self._loop.spec.stops and any(t < stop.t < until for stop in self._loop.spec.stops):
+        if any(t < seam.t < until for seam in self._loop.spec.seams):
             raise InputError(WHERE, "a step during which inputs are held", "one in which they jump")
         lanes, n, count = self._model.lanes, len(self._places), self._count
         after = np.empty((n, lanes * len(self._parts)))
@@ -164,7 +164,7 @@ class StepDirections:
 
     @cached_property
     def _directions(self) -> tuple[Array, Array, Array]:
-        """The directions behind y and w in the run with directions, and those of y as a matrix."""
+        """Directions behind y and w in the run with directions, and the first ones as a matrix."""
         model, state = self._model, self._simulation.state
         y, w = model.sizes["y"], model.sizes["w"]
         return state.y[y : y * (1 + model.lanes)], state.w[w:], model.shadow(state.y, "y")

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest
 from symgen.base.settings import COORDINATES, Settings
-from symgen.describe.bounds.smooth_friction import with_sliding_friction
-from symgen.describe.bounds.stops import without_stops
+from symgen.describe.bounds.modes import one_sided, refuse_bounds, without_bounds
+from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.topology import quantities
@@ -60,7 +60,9 @@ class StateModel:
 
     def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
         coordinates = arguments.one_of("coordinates", coordinates, COORDINATES)
-        self._described = without_stops(with_sliding_friction(where, mechanism))
+        sliding = with_sliding(where, mechanism)
+        self._described = without_bounds(sliding, one_sided(sliding))
+        refuse_bounds(where, self._described)
         self.kind = choose_coordinates(self._described, coordinates, "straight").name
         self.mechanism = on_tree(self._described) if self.kind == "joint" else self._described
         self.coordinates, self.velocities = quantities(self.mechanism)
