@@ -409,3 +409,21 @@ def test_coordinates_of_joints_and_bodies_have_the_same_accelerations(floating, 
 
 
 BASE = '<link name="base"><inertial><mass value="4"/><inertia ixx="0.1" iyy="0.2" izz="0.15"/></inertial></link>'
+
+
+def hinged(**keys) -> Model:
+    builder = MechanismBuilder("door").body(
+        "leaf", mass=2.0, inertia=0.3, points={"hinge": (-0.5, 0.0)}, position=(0.5, 0.0)
+    )
+    return Model(builder.joint("pin", "revolute", between=("ground", "leaf"), at=((0.0, 0.0), "hinge"), **keys).build())
+
+
+def test_dry_friction_slides_and_stops_are_open():
+    plain = hinged().functions("joint")
+    f = hinged(friction={"sliding": 0.3}, stop={"lower": -0.1, "upper": 0.1}).functions("joint")
+    for speed in (-2.0, 0.0, 3.0):
+        q, v = np.array([0.5]), np.array([speed])  # beyond the stop
+        assert close(f.bias(q, v) - plain.bias(q, v), 0.3 * np.sign(v))
+        assert close(f.forward_dynamics(q, v, v), plain.forward_dynamics(q, v, v - 0.3 * np.sign(v)))
+    with pytest.raises(InputError, match="functions: expected dry friction with constant bounds, got friction of pin"):
+        hinged(friction={"coefficient": 0.1, "radius": 0.02}).functions("joint")
