@@ -256,7 +256,7 @@ def rows():
         ({"shape": "auto"}, "shape: expected one of straight, looped, got 'auto'"),
         (
             {"target": "cc"},
-            "target: expected a target, got 'cc'; did you mean 'c'? (known: c, cpu, cuda, fmu, javascript, lanes)",
+            "target: expected a target, got 'cc'; did you mean 'c'? (known: c, c-functions, casadi, cpu, cuda, fmu, ",
         ),
         ({"target": "fmu", "fmi": 4}, "fmi: expected 2 or 3, got 4"),
     ):
@@ -450,6 +450,13 @@ def rows():
     )
     wrong = "coordinates: expected one of absolute, joint, got {}"
     yield from each("equations_in", {"'joints'": "joints", "3": 3}, lambda x, v: x.model.equations_in(v), wrong)
+    wrong = "coordinates: expected one of absolute, joint, auto, got {}"
+    yield from each("functions", {"'joints'": "joints", "3": 3}, lambda x, v: x.model.functions(v), wrong)
+    numbers = "values: expected numbers by name, got {}"
+    yield from each("functions numbers", NO_MAPPING, lambda x, v: x.model.functions("absolute", v), numbers)
+    yield "functions name", lambda x: x.model.functions(parameters={"bob_mas": 1.0}), "did you mean 'bob_mass'?"
+    yield from each("frame", {"3": 3, "None": None}, lambda x, v: x.model.frame(v), "frame: expected ")
+    yield "frame name", lambda x: x.model.frame("bobb"), "expected a body or a point of pendulum"
     yield "equations 3", lambda x: x.model.equations.quantity(3), "quantity: expected one of Phi, D, nu"
     yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
 
@@ -507,7 +514,10 @@ def test_no_function_with_arguments_is_left_out():
     tested = {
         *"load simulate compare sweep Model Settings MechanismBuilder Mechanism.body Mechanism.joint_named".split(),
         *"list_methods list_integrators load_plugin write_report".split(),
-        *(f"Model.{n}" for n in "parameters compile equations_in generate draw assemble simulate start".split()),
+        *(
+            f"Model.{n}"
+            for n in "parameters compile equations_in generate draw assemble simulate start functions frame".split()
+        ),
         *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot".split(),
