@@ -38,7 +38,14 @@ NAVIGATION = {
     ),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),
-    "Analyses": ("docs/equilibrium", "docs/modes", "docs/linearise", "docs/kinematics", "docs/inverse"),
+    "Analyses": (
+        "docs/equilibrium",
+        "docs/modes",
+        "docs/linearise",
+        "docs/kinematics",
+        "docs/inverse",
+        "docs/functions",
+    ),
     "Reference": (
         "docs/file-format/README",
         "docs/edit",

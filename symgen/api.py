@@ -16,7 +16,7 @@ from symgen.base.errors import InputError, nearest
 from symgen.base.keywords import RunKeywords, takes
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.files.load import load as load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
@@ -32,6 +32,8 @@ from symgen.run.single.run import Array
 if TYPE_CHECKING:
     from symgen import compare as _compare
     from symgen import sweep as _sweep
+    from symgen.analyses.frame import Frame
+    from symgen.analyses.functions import Functions
     from symgen.result.result import Result
     from symgen.result.stepping.run import SteppedRun
     from symgen.run.compiling.pipeline import MethodChoice
@@ -142,6 +144,34 @@ class Model(Analysed, Shown):
     def compiled(self, choice: MethodChoice) -> CompiledModel:
         """Return the emitted functions for a choice of method, options and shape, from the cache if it has them."""
         return compile_model(self.mechanism, choice)
+
+    @in_sentences
+    def functions(self, coordinates: str = "auto", parameters: Mapping[str, float] | None = None) -> Functions:
+        """Return the dynamics as compiled functions of the state; see `symgen.analyses.functions.Functions`.
+
+        Parameters
+        ----------
+        coordinates : {"absolute", "joint", "auto"}
+            Coordinates of the state.
+        parameters : mapping, optional
+            Numbers that differ from the described ones: of parameters, inputs, own states and the time ``t``.
+        """
+        from symgen.analyses.functions import Functions
+
+        return Functions(self.mechanism, coordinates, parameters)
+
+    @in_sentences
+    def frame(self, name: str, coordinates: str = "auto", parameters: Mapping[str, float] | None = None) -> Frame:
+        """Return a frame on a body: its pose, velocity and Jacobian as compiled functions.
+
+        Parameters
+        ----------
+        name : str
+            A body, or a point such as ``arm.tip``, or ``tip`` where one body has such a point.
+        coordinates, parameters
+            As for `functions`.
+        """
+        return self.functions(coordinates, parameters).frame(name)
 
     def initial_state(self, parameters: Mapping[str, float]) -> tuple[Array, list[float | None]]:
         """Return q as described (not yet closed) and the described velocities, None where not set.

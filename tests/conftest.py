@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 #: Random inputs of a test that does not say how many it draws; every run draws others.
-EXAMPLES = 30
+EXAMPLES = 15
 
 # no test depends on how fast a machine is or how busy: neither an example's time nor that of drawing it is bounded
 settings.register_profile("any machine", max_examples=EXAMPLES, deadline=None, suppress_health_check=list(HealthCheck))
@@ -52,9 +52,22 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["SYMGEN_CACHE_DIR"] = str(_made[0])
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put the longest tests in front."""
+@pytest.hookimpl(tryfirst=True)  # before tests are chosen by their markers
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Put the longest tests in front; mark cases slow that a test's `fast` does not name."""
     items.sort(key=lambda item: item.name not in LONGEST)
+    named: dict[str, set[str]] = {}
+    for item in items:
+        marker = item.get_closest_marker("fast")
+        if marker is None:
+            continue
+        place, _, case = item.nodeid.removesuffix("]").partition("[")
+        if case not in marker.args:
+            item.add_marker("slow")
+        named.setdefault(place, set(marker.args)).discard(case)
+    for place, unknown in named.items():
+        if unknown and not any("::" in word for word in config.args):  # where one case is asked for, others are absent
+            raise pytest.UsageError(f"{place}: no case is called {', '.join(sorted(unknown))}")
 
 
 def pytest_collection_finish() -> None:

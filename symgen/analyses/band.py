@@ -1,7 +1,7 @@
-"""The band of rests beside an equilibrium: where dry friction holds, in mechanisms with one degree of freedom.
+"""The band of rests beside an equilibrium: where rows with two bounds hold, with one degree of freedom.
 
-An equilibrium is that without friction; every position beside it is one, too, as long as the forces there are within
-the bounds at rest. The coordinate of a joint with friction is held at one value after the other. Where the force that
+An equilibrium is that without such rows; every position beside it is one, too, as long as the forces there are within
+the bounds at rest. The coordinate of a joint with such a row is held at one value after the other. Where the force that
 this takes reaches what all bounds together have along the freedom, the band ends.
 """
 
@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from symgen.analyses.equilibrium import value_of
+from symgen.analyses.one_sided import fault
 from symgen.analyses.settle import Settled, settle
-from symgen.analyses.stopped import fault
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError, counted
+from symgen.describe.bounds.modes import coordinate_of, two_sided
 from symgen.describe.formulas.evaluate import evaluate
-from symgen.describe.mechanism import Friction, Mechanism
+from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -40,10 +41,10 @@ class Band:
     Attributes
     ----------
     values : mapping of str to (float, float)
-        Coordinate -> its values at both ends; infinite where friction holds on as far as was looked. Empty without
-        friction, and where there is no band.
+        Coordinate -> its values at both ends; infinite where rows hold on as far as was looked. Empty without
+        rows, and where there is no band.
     note : str
-        A sentence; empty without friction.
+        A sentence; empty without rows with two bounds.
     """
 
     values: Mapping[str, tuple[float, float]]
@@ -56,40 +57,36 @@ def band_of(mechanism: Mechanism, parameters: Mapping[str, float], rest: Settled
     Parameters
     ----------
     mechanism : Mechanism
-        With its dry friction.
+        With its rows with bounds.
     parameters : mapping
         Values of all parameters.
     rest : Settled
-        An equilibrium without friction.
+        An equilibrium without rows with two bounds.
     """
-    frictions = mechanism.frictions
-    if not frictions:
+    rows = two_sided(mechanism)
+    if not rows:
         return Band({}, "")
-    subject, left_out = rest.subject, "an equilibrium without dry friction, which holds other positions too"
+    words = rows[0].family
+    subject, left_out = rest.subject, f"an equilibrium without {words.noun}, which holds other positions too"
     freedom = subject.split(subject.rows(subject.evaluated(rest.y)))[0].shape[1]
     if freedom != 1:
         return Band({}, f"{left_out}: no band of them with {counted(freedom, 'degree')} of freedom")
-    pressed = ", ".join(friction.name for friction in frictions if friction.pressed)
+    pressed = ", ".join(row.name for row in rows if row.pressed)
     if pressed:
-        return Band({}, f"{left_out}: no band of them, as friction of {pressed} depends on reactions")
-    names = [_coordinate(mechanism, friction) for friction in frictions]
-    bounds = [evaluate(friction.static, parameters, f"friction of {friction.name}") for friction in frictions]
+        return Band({}, f"{left_out}: no band of them, as {words.one} of {pressed} depends on reactions")
+    names = [coordinate_of(mechanism, row) for row in rows]
+    bounds = [evaluate(row.numbers[0][1], parameters, f"{row.family.one} of {row.name}") for row in rows]
     rates = np.abs(_rates(subject, rest.y, names))
-    rates /= [subject.length if friction.unit == "m" else 1.0 for friction in frictions]
+    rates /= [subject.length if row.unit == "m" else 1.0 for row in rows]
     if not rates.max() > 0.0:
-        return Band({}, f"{left_out}: no band of them, as no joint with friction moves there")
+        return Band({}, f"{left_out}: no band of them, as no joint with {words.one} moves there")
     leading = int(np.argmax(rates))
     search = _Search(names[leading], names, bounds, rest)
     low, high = search.end(-1.0), search.end(1.0)
-    unit = frictions[leading].unit
+    unit = rows[leading].unit
     parts = [f"from {low:.9g} {unit}" * (low > -math.inf), f"to {high:.9g} {unit}" * (high < math.inf)]
     where = f"with {names[leading]} {' '.join(filter(None, parts))}" if any(parts) else "wherever it stands"
     return Band({names[leading]: (low, high)}, f"{left_out}: it holds {where}")
-
-
-def _coordinate(mechanism: Mechanism, friction: Friction) -> str:
-    joint = mechanism.joint_named(friction.joint)
-    return next(f"{joint.name}.{label}" for label, measure in joint.coordinates if measure == friction.measure)
 
 
 def _rates(subject: Subject, y: Array, names: Sequence[str]) -> Array:
@@ -110,7 +107,7 @@ class _Search:
     name : str
         The coordinate that is held.
     names, bounds : sequence of str, of float
-        Coordinates with friction, and their bounds.
+        Coordinates with rows, and their bounds.
     rest : Settled
         The equilibrium.
     """
@@ -129,7 +126,7 @@ class _Search:
         return self.rest.subject.length if self.rest.subject.unit(self.name) == "m" else 1.0
 
     def beyond(self, value: float, near: Settled) -> tuple[float, Settled]:
-        """Return the force at a value less what friction has; a positive number also where a stop is in the way."""
+        """Return the force at a value less what rows have; positive also where a one-sided row is in the way."""
         held = settle(near.subject, near.y, [(self.name, value)])
         if fault(held.subject, held.y, held.lam[: held.subject.m]):
             return 1.0, held

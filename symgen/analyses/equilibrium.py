@@ -23,9 +23,9 @@ from symgen.analyses.algebra import (
     symmetric,
 )
 from symgen.analyses.edges import edges
+from symgen.analyses.one_sided import fault
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, at_balance, settle
-from symgen.analyses.stopped import fault
 from symgen.analyses.subject import Subject
 from symgen.base.errors import AnalysisError, InputError, counted
 
@@ -77,10 +77,10 @@ class Equilibrium:
     lam : Array, shape (m,)
         The multipliers.
     notes : tuple of str
-        The stops in force, and forces that have no derivative there: stability and frequencies ignore that.
+        The one-sided rows in force, and forces that have no derivative there: stability and frequencies ignore that.
     band : dict of str to (float, float)
-        With one degree of freedom and dry friction of constant bound, a coordinate and its values between which
-        friction holds.
+        With one degree of freedom and rows with two constant bounds, a coordinate and its values between which
+        these hold.
     """
 
     q: dict[str, float]

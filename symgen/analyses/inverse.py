@@ -16,15 +16,15 @@ from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
 from symgen.base.digits import cleaned
 from symgen.base.errors import InputError, counted
-from symgen.describe.bounds.smooth_friction import with_sliding_friction
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
+from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.inputs import are_words_of_data
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
-from symgen.run.breaks.stops import stops_of
+from symgen.run.breaks.seams import seams_of
 from symgen.run.planning.inputs import put_inputs
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
-    mechanism = with_sliding_friction(WHERE, mechanism)
+    mechanism = with_sliding(WHERE, mechanism)
     refuse_bounds(WHERE, mechanism)
     names = arguments.words(WHERE, actuators)
     if len(set(names)) < len(names):
@@ -247,10 +247,10 @@ def _of_record(
     settings = placed.settings
     if placed.driven is not None:  # inputs that jump elsewhere are what they are during the motion
         numbers = parameter_values(placed.mechanism, settings.parameters)
-        stops = stops_of(placed.driven, numbers, end, float(record.t[0]))
-        if any(stop.values for stop in stops[1:] if stop.t < record.t[-1]):  # at a kink no number becomes another
+        seams = seams_of(placed.driven, numbers, end, float(record.t[0]))
+        if any(seam.values for seam in seams[1:] if seam.t < record.t[-1]):  # at a kink no number becomes another
             raise InputError("inverse: inputs", "inputs without jumps", ", ".join(placed.words))
-        now = stops[0].values if stops else {}
+        now = seams[0].values if seams else {}
         settings = replace(settings, parameters={**settings.parameters, **now})
     loose, actuators = actuated(placed.mechanism, names)
     balanced = balance(loose, actuators, settings, record, weights)

@@ -17,13 +17,14 @@ from symgen.analyses.equilibrium import Equilibrium, judged, rest_of, scanned_re
 from symgen.analyses.linearise import LinearSystem, eigenvectors, linear_system
 from symgen.analyses.modes import Modes, modes_about
 from symgen.analyses.moving_drivers import note_on_moving_drivers, refuse_moving_drivers
+from symgen.analyses.one_sided import refuse_fault
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, named_states
-from symgen.analyses.stopped import refuse_fault
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
+from symgen.describe.bounds.modes import two_sided
 from symgen.describe.formulas.evaluate import parameter_values
 
 if TYPE_CHECKING:
@@ -158,7 +159,7 @@ def _refuse_moving_drivers(rest: Settled) -> None:
 
 
 def _refuse_mode(subject: Subject, y: Array) -> None:
-    """Refuse a state in motion at which a stop cannot be in its mode."""
+    """Refuse a state in motion at which a one-sided row cannot be in its mode."""
     if subject.mode:
         refuse_fault(subject, y, tangent(subject, y).lam)
 
@@ -233,13 +234,13 @@ def rest_from(mechanism: Mechanism, settings: Settings) -> Equilibrium:
 def _annotated(
     mechanism: Mechanism, settings: Settings, rests: tuple[Equilibrium, ...], settled: Iterable[Settled]
 ) -> tuple[Equilibrium, ...]:
-    """Return equilibria with a note on drivers that move, and with the bands in which dry friction holds."""
+    """Return equilibria with a note on drivers that move, and with the bands in which rows with two bounds hold."""
     settled = tuple(settled)
     rests = tuple(
         replace(rest, notes=(*note_on_moving_drivers(x.mechanism, x.compiled, x.p, x.t), *rest.notes))
         for rest, x in zip(rests, (each.subject for each in settled), strict=True)
     )
-    if not mechanism.frictions:
+    if not two_sided(mechanism):
         return rests
     values = parameter_values(mechanism, settings.parameters)
     bands = [band_of(mechanism, values, each) for each in settled]

@@ -14,12 +14,11 @@ from symgen.analyses.algebra import coordinate_differences
 from symgen.base.errors import AssemblyError, InputError, nearest
 from symgen.base.vocabulary.expressions import readings
 from symgen.base.vocabulary.measures import GROUND, Integral
-from symgen.describe.bounds.friction import without_friction
-from symgen.describe.bounds.stops import without_stops
+from symgen.describe.bounds.modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
-from symgen.run.breaks.stops import stops_of
+from symgen.run.breaks.seams import seams_of
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.planning.dead_centre import DRIVER, jacobian_at
@@ -58,9 +57,9 @@ class PrescribedRun:
     compiled, start : CompiledModel, Start
         Its code, and its consistent start at t = 0.
     held : tuple of (float, Array)
-        Parameters of earlier stops, see `symgen.run.single.outcome.Motion`.
+        Parameters of earlier seams, see `symgen.run.single.outcome.Motion`.
     p : Array
-        Parameters of the last stop.
+        Parameters of the last seam.
     inputs : mapping
         Inputs in words, or their numbers.
     notes : tuple of str
@@ -94,8 +93,8 @@ def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def instantaneous(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism without what a run alone determines: integrals, events, velocities, dry friction, stops."""
-    mechanism = without_stops(without_friction(mechanism))
+    """Return a mechanism without what a run alone determines: integrals, events, velocities, rows with bounds."""
+    mechanism = without_bounds(mechanism)
     outputs = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
     bodies = list[AnyBody]()
     for body in mechanism.bodies:
@@ -139,16 +138,16 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     near, words = branch_near(ready.plan, branch) if branch else (None, ())
     run = replace(ready, near=near).run()
     compiled, start = run.compiled, run.start
-    held, p, stops = list[tuple[float, Array]](), start.p, placed.stops[1:]
+    held, p, seams = list[tuple[float, Array]](), start.p, placed.seams[1:]
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     if first < 0.0 and placed.driven is not None:  # the start is at 0, others hold before
         values = parameter_values(placed.mechanism, placed.settings.parameters)
-        stops = stops_of(placed.driven, values, end, first)
-    for stop in stops:
-        if stop.t > first:
-            held.append((stop.t, p))
+        seams = seams_of(placed.driven, values, end, first)
+    for seam in seams:
+        if seam.t > first:
+            held.append((seam.t, p))
         p = p.copy()
-        for name, value in stop.values.items():
+        for name, value in seam.values.items():
             p[numbers[name]] = value
         compiled.prepare(p)
     return PrescribedRun(driven, compiled, start, tuple(held), p, dict(placed.words), (*words, *start.notes))

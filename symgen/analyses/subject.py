@@ -11,12 +11,11 @@ from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import null_space_split
-from symgen.analyses.stopped import closed_stops, mode_of, with_rows
+from symgen.analyses.one_sided import in_force, mode_of, with_rows
 from symgen.base.errors import InputError, nearest
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.friction import without_friction
-from symgen.describe.bounds.stops import without_stops
+from symgen.describe.bounds.modes import one_sided, without_bounds
 from symgen.describe.facts.digest import digest
 from symgen.run.compiling.linearised import DescriptorForm, LinearisedState, compile_linearised
 from symgen.run.compiling.side import compile_side
@@ -29,7 +28,8 @@ from symgen.run.planning.prepare import prepare
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from symgen.describe.mechanism import EndStop, Mechanism
+    from symgen.describe.bounded import BoundedRow
+    from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import CompiledModel
 
 Array = NDArray[np.float64]
@@ -115,8 +115,8 @@ class Subject(Yardsticks):
         Parameters that the form is differentiated by besides the inputs.
     inputs : tuple of str
         Inputs of the file: a mechanism in which formulas stand for them has switches as well.
-    shut, opened : tuple of EndStop
-        Stops that are closed at the start, which are rows of `mechanism`, and open ones.
+    shut, opened : tuple of BoundedRow
+        One-sided rows that are in force at the start, which are rows of `mechanism`, and those that are off.
     """
 
     mechanism: Mechanism
@@ -129,12 +129,12 @@ class Subject(Yardsticks):
     closed: bool = True
     by: tuple[str, ...] = ()
     inputs: tuple[str, ...] = ()
-    shut: tuple[EndStop, ...] = ()
-    opened: tuple[EndStop, ...] = ()
+    shut: tuple[BoundedRow, ...] = ()
+    opened: tuple[BoundedRow, ...] = ()
 
     @property
     def mode(self) -> tuple[str, ...]:
-        """A sentence on the stops in force; none where there are no stops."""
+        """A sentence on the one-sided rows in force; none where there are no such rows."""
         return mode_of(self.shut, self.opened)
 
     @property
@@ -307,7 +307,7 @@ class Subject(Yardsticks):
 
 
 def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
-    """Make a mechanism with its start ready to be analysed, without dry friction, with stops as they are at the start.
+    """Make a mechanism with its start ready to be analysed; of rows with bounds, one-sided ones are as at the start.
 
     Parameters
     ----------
@@ -324,14 +324,14 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
         If a setting is wrong, or a name of `by` is no parameter.
     """
     settings = _unbounded(mechanism, settings)
-    mechanism, stops = without_stops(without_friction(mechanism)), mechanism.stops
+    mechanism, pushing = without_bounds(mechanism), one_sided(mechanism)
     placed, inputs = inputs_at_start(mechanism, settings), mechanism.inputs
     settings = placed.settings
     if settings.shape == "auto":
         looped = mechanism.body_coordinates > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
     run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
-    shut = closed_stops(run.mechanism, run.compiled, run.start, stops)
+    shut = in_force(run.mechanism, run.compiled, run.start, pushing)
     if shut:
         placed = replace(placed, mechanism=with_rows(placed.mechanism, shut))
         run = prepare(placed.mechanism, settings, Purpose.DESCRIBED)
@@ -351,13 +351,13 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
         varied = replaced(varied, parameters=tuple(plain))
     form = compile_linearised(varied, compiled, (*inputs, *by))
     p, places = start.p.copy(), {q.name: i for i, q in enumerate(compiled.info.parameters)}
-    for stop in placed.stops[1:]:
-        if stop.t <= start.t * (1.0 + HERE):
-            p[[places[name] for name in stop.values]] = list(stop.values.values())
+    for seam in placed.seams[1:]:
+        if seam.t <= start.t * (1.0 + HERE):
+            p[[places[name] for name in seam.values]] = list(seam.values.values())
     p[[places[name] for name, _ in placed.mechanism.input_formulas]] = 0.0
     compiled.prepare(p)
     subject = Subject(mechanism, compiled, form, start.t, start.y.copy(), p, start.w.copy(), closed, by, inputs)
-    return replace(subject, shut=shut, opened=tuple(stop for stop in stops if stop not in shut))
+    return replace(subject, shut=shut, opened=tuple(row for row in pushing if row not in shut))
 
 
 def _unbounded(mechanism: Mechanism, settings: Settings) -> Settings:

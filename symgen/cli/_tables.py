@@ -243,7 +243,7 @@ _HEADINGS = (
 )
 
 
-#: Columns of dry friction and stops.
+#: Columns of bounded rows.
 _CONTACT = "creep [m/s]", "transitions", "impacts", "energy lost [J]"
 
 

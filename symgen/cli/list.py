@@ -15,12 +15,14 @@ from symgen.cli._options import examples, json_option
 WIDE = 120
 
 
-KINDS = ("methods", "integrators", "joints", "forces")
+#: Where the registries of kinds are.
+_ROOMS = {"methods": "derive", "integrators": "run", "joints": "describe", "forces": "describe"}
+KINDS = tuple(_ROOMS)
 
 
 def registry(kinds: str) -> Registry[Any]:
     """Return the registry of a kind of kinds, such as ``methods``."""
-    registry: Registry[Any] = getattr(import_module(f"symgen.{kinds}"), kinds.upper())
+    registry: Registry[Any] = getattr(import_module(f"symgen.{_ROOMS[kinds]}.{kinds}"), kinds.upper())
     return registry
 
 

@@ -13,6 +13,7 @@ from symgen.base.units import Unit, known
 from symgen.base.vocabulary.expressions import ZERO, Expr
 from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Flexure, Marker, Measure, Row
 from symgen.base.vocabulary.rotations import IDENTITY, Orientation
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.tables import Table
 
 T = TypeVar("T")
@@ -287,87 +288,6 @@ class Rotor(msgspec.Struct, frozen=True):
     axes: tuple[Direction, ...] = ()
 
 
-class Friction(msgspec.Struct, frozen=True):
-    """Dry friction along a coordinate of a joint.
-
-    At rest the force is what keeps it at rest, up to `static`; in motion it is `sliding` against the rate. Where
-    `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^2).
-
-    Parameters
-    ----------
-    name : str
-        Of the joint where it has one coordinate, else ``JOINT.COORDINATE``.
-    joint : str
-        The joint.
-    measure : Measure
-        The coordinate.
-    unit : str
-        Unit of the coordinate.
-    sliding, static : Expr
-        Bounds [N or N m], or these over the size of the joint's reaction [1 or m].
-    viscous : Expr
-        Force over rate [N s/m or N m s].
-    stribeck_speed : Expr or None
-        A rate [m/s or rad/s].
-    pressed : tuple of str
-        Rows of the joint whose forces are its reaction; none where the bounds do not depend on it.
-    across : tuple of tuple of Measure
-        Of a reaction along fixed axes, the cosines of these with each direction across the joint's axis; none where
-        the forces themselves are the components.
-    speed : Expr or None
-        Where the friction is regularised, the rate of tanh(rate / speed) in place of the sign [m/s or rad/s].
-    """
-
-    name: str
-    joint: str
-    measure: Measure
-    unit: str
-    sliding: Expr
-    static: Expr
-    viscous: Expr = ZERO
-    stribeck_speed: Expr | None = None
-    pressed: tuple[str, ...] = ()
-    across: tuple[tuple[Measure, ...], ...] = ()
-    speed: Expr | None = None
-
-    @property
-    def row(self) -> str:
-        """Name of the row that is in force at rest."""
-        return f"{self.name}.friction"
-
-
-class EndStop(msgspec.Struct, frozen=True):
-    """A stop: a gap that does not become negative, and a force that only pushes.
-
-    Parameters
-    ----------
-    name : str
-        ``JOINT.lower``, ``JOINT.COORDINATE.upper`` and the like, or the name in the section of stops.
-    owner : str
-        The joint; the stop itself where a formula is its gap.
-    measure : Measure
-        The gap is ``measure - value``.
-    value : Expr
-        A number or an expression of parameters.
-    unit : str
-        Unit of the gap.
-    restitution : Expr
-        Rate after an impact over that before, with the other sign; from 0 to 1.
-    """
-
-    name: str
-    owner: str
-    measure: Measure
-    value: Expr
-    unit: str
-    restitution: Expr = ZERO
-
-    @property
-    def row(self) -> str:
-        """Name of the row that is in force where the stop is closed."""
-        return f"{self.name}.stop"
-
-
 class Force(msgspec.Struct, frozen=True, omit_defaults=True, repr_omit_defaults=True):
     """A force element of any kind, resolved to efforts along measures and to beam elements."""
 
@@ -473,8 +393,7 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     rotors: tuple[Rotor, ...] = ()
     beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
     switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
-    frictions: tuple[Friction, ...] = ()
-    stops: tuple[EndStop, ...] = ()
+    bounded: tuple[BoundedRow, ...] = ()  # their rows stand behind those of joints; one-sided ones are last
 
     def __repr__(self) -> str:
         counted = (
@@ -490,11 +409,6 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     def inputs(self) -> tuple[str, ...]:
         """Names of the inputs, which stand behind the other parameters."""
         return tuple(p.name for p in self.parameters if p.input)
-
-    @property
-    def bounded(self) -> tuple[Friction | EndStop, ...]:
-        """Dry friction and stops in the order of their rows, which stand behind the rows of joints."""
-        return (*self.frictions, *self.stops)
 
     @property
     def has_modes(self) -> bool:

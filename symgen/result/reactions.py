@@ -74,7 +74,7 @@ class Acting:
         constant = np.ones(len(self.states))
         for row, column, number, slot in self.info.jacobian:
             joint = self.info.rows[row].joint
-            if joint not in by_joint:  # a stop whose gap is a formula
+            if joint not in by_joint:  # a row of its own, whose measure is a formula
                 continue
             value = constant * (number or 0.0) if slot is None else entries[:, slot]
             by_joint[joint].append((row, column, value))

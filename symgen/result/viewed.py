@@ -14,6 +14,7 @@ from symgen.base.digits import cleaned
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.methods import METHODS
+from symgen.describe.bounds.keys import nouns
 from symgen.describe.formulas.evaluate import independent_values, parameter_values
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.parts.events import DOES
@@ -238,7 +239,7 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
         if action in DOES and name not in own:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
     if mechanism.bounded:
-        return None, f"{NONE}: there is dry friction or a stop, and pages do not choose their modes"
+        return None, f"{NONE}: there is {nouns('some', ' or ')}, and pages do not choose their modes"
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step

@@ -33,6 +33,7 @@ def largest_difference(model, quantity, by, **settings):
     return max(abs(one.by[name] - other.by[name]) / abs(other.by[name]) for name in by)
 
 
+@pytest.mark.fast("absolute-direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinates):
@@ -55,11 +56,13 @@ def test_the_rod_on_a_pin(tmp_path, quantity):
     assert largest_difference(rod, quantity, (*ROD_BY, "rod.omega"), until=1.0, **TIGHT) < 1e-11
 
 
+@pytest.mark.slow
 def test_the_integral_of_idas(tmp_path):
     energy = model(tmp_path, SLIDER_CRANK).gradient("G", by=("k", "c"), way="adjoint", rtol=1e-12, atol=1e-12)
     assert energy.by == pytest.approx(G_BY, rel=1e-11)
 
 
+@pytest.mark.fast("heun-options1-lagrange", "dop853-options2-direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize(
     ("integrator", "options"),
@@ -78,6 +81,7 @@ def test_schemes(four_bar, method, integrator, options):
     )
 
 
+@pytest.mark.fast("absolute-direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_motion_in_space(method, coordinates):
@@ -98,6 +102,7 @@ def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
         four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
 
 
+@pytest.mark.slow
 def test_whichever_costs_less_is_taken(four_bar):
     settings = {"until": 0.2, "integrator": "rk4", "step": 1e-2}
     assert four_bar.gradient("crank.theta", by=tuple(BY_NAME), **settings).way == "forward"
@@ -126,6 +131,7 @@ def test_what_has_no_adjoint_is_refused(four_bar, settings, expected):
         four_bar.gradient("crank.theta", by=("a", "b"), **usual | settings)
 
 
+@pytest.mark.fast("adjoint")
 @pytest.mark.parametrize("way", ["adjoint", "auto"])
 def test_events_that_change_the_state_are_for_forward_directions(tmp_path, way):
     ball, settings = model(tmp_path, BALL), {"until": 1.0, **TIGHT}
@@ -138,6 +144,7 @@ def test_events_that_change_the_state_are_for_forward_directions(tmp_path, way):
     assert many.by["h0"] == pytest.approx(1.365029880359517, rel=1e-11)
 
 
+@pytest.mark.slow
 def test_many_angles_that_count_turns_are_for_forward_directions():
     with pytest.raises(InputError, match="adjoint: expected at most 5 angles that count turns, got 7; forward"):
         symgen.load("chain:8").gradient(
@@ -187,6 +194,7 @@ free_angle = 12.0
 """
 
 
+@pytest.mark.fast("direct-correction-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_angles_that_count_turns(tmp_path, method, coordinates):

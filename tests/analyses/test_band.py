@@ -91,6 +91,7 @@ def four_bar(**frictions: dict[str, Any]) -> symgen.Model:
     return symgen.load(validate(raw, source))
 
 
+@pytest.mark.slow
 def test_four_pins_hold_together() -> None:
     model = four_bar(**{name: {"sliding": 4.0} for name in "ABCD"})
     rest = model.equilibrium(start={"crank.theta": -2.07596285039})

@@ -67,6 +67,7 @@ def shot(force):
     return run(brentq(lambda moment: run(moment)[3], -10.0, 10.0, xtol=1e-14))[:2]
 
 
+@pytest.mark.slow
 def test_frame_under_a_large_load_converges_with_fourth_order():
     force, errors = (-3.0, 1.0), []
     expected = shot(force)
@@ -78,6 +79,7 @@ def test_frame_under_a_large_load_converges_with_fourth_order():
     assert np.all((slopes > 3.8) & (slopes < 4.3))
 
 
+@pytest.mark.slow
 def test_frame_in_space_gives_way_as_the_integral_of_its_strains():
     """Unequal bending stiffnesses, a side of the section for each segment; linear theory, by Gauss' rule."""
     force, x, w = np.array([3.0, -2.0, 4.0]), *np.polynomial.legendre.leggauss(4)
@@ -127,6 +129,7 @@ def test_masses_of_a_frame_are_those_of_its_rods(space):
     np.testing.assert_allclose(found[compared], expected[compared], atol=1e-14)
 
 
+@pytest.mark.fast("planar")
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_frame_vibrates_as_beams_with_a_rigid_joint(space):
     line = CORNER if space == "planar" else BENT[:3].tolist()
@@ -144,6 +147,7 @@ def test_frame_vibrates_as_beams_with_a_rigid_joint(space):
     np.testing.assert_allclose(found, joined, rtol=1e-8)
 
 
+@pytest.mark.fast("planar")
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_points_on_a_straight_line_change_nothing(space):
     """Elements of the same lengths as those of a beam with a start and an end."""
@@ -160,6 +164,7 @@ def test_points_on_a_straight_line_change_nothing(space):
             assert abs(x - shapes[1][name]) <= 1e-12, name
 
 
+@pytest.mark.slow
 def test_vertices_may_depend_on_parameters_in_space():
     """A frame on a body that is turned; the same with numbers in place of the parameter."""
 

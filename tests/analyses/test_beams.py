@@ -27,6 +27,7 @@ def place(equilibrium, axes="xy"):
     return np.array([equilibrium.q[f"rod.end.{axis}"] for axis in axes])
 
 
+@pytest.mark.slow
 def test_elastica_converges_with_fourth_order():
     errors = []
     for n in (4, 8, 16):
@@ -59,6 +60,7 @@ def test_end_moment_rolls_a_beam_to_a_circle():
     assert abs(rest.q["rod.end.theta"] - 2.0 * np.pi) <= 1e-13
 
 
+@pytest.mark.slow
 def test_catenary():
     """A cable of 1.2 m between two points 1 m apart, E A = 1000 N, 9.81 N/m: tension and sag in closed form."""
     arc = brentq(lambda a: 0.5 * a / np.sin(0.5 * a) - 1.2, 0.5, 4.0)
@@ -73,6 +75,7 @@ def test_catenary():
     assert abs(rest.q["rod.16.y"] + 0.29782572912288) <= 2e-6
 
 
+@pytest.mark.fast("8-9e-05")
 @pytest.mark.parametrize(("elements", "bound"), [(8, 9e-5), (16, 4e-6)])
 def test_frequencies_of_a_cantilever(elements, bound):
     found = np.sqrt(cantilever(elements, rotary=1e-9).modes().omega_squared[:3])
@@ -80,6 +83,7 @@ def test_frequencies_of_a_cantilever(elements, bound):
     assert np.abs(found / FREE - 1.0).max() <= {8: 8e-3, 16: 2.5e-4}[elements]
 
 
+@pytest.mark.slow
 def test_frequencies_fall_under_a_dead_load_and_vanish_where_the_beam_buckles():
     model = cantilever(16, parameters={"P": np.pi**2 / 8}, forces={"tip": at_end("-P", 0.0)})
     found = np.sqrt(model.modes(at="equilibrium").omega_squared[:3])
@@ -94,6 +98,7 @@ def test_frequencies_fall_under_a_dead_load_and_vanish_where_the_beam_buckles():
     assert squares[0] > 0.0 > squares[1]
 
 
+@pytest.mark.slow
 def test_rotation_stiffens_a_beam():
     """Centrifugal loads in the rotating frame: along the beam for flapping, in its plane for lagging."""
     for across in ("0*y", "Om**2*y"):
@@ -103,6 +108,7 @@ def test_rotation_stiffens_a_beam():
             assert abs(np.sqrt(square) / (flap if across.startswith("0") else lag) - 1.0) <= 2e-4, (speed, across)
 
 
+@pytest.mark.slow
 def test_flutter_under_a_follower_force():
     """Beck's column: two frequencies meet at P = 20.050953618974 E I / L^2, where both are 11.015557640923."""
     follower = at_end("-P", 0.0, frame="body")
@@ -162,6 +168,7 @@ BEND = {300.0: (58.7791224897, 22.2447809454, 40.1918916701), 600.0: (47.1504385
 PRINCETON = (0.4792889914, -0.0140627917, -0.1525127250)
 
 
+@pytest.mark.slow
 def test_beams_in_space_bend_and_twist():
     model = bend(4)
     for load, expected in BEND.items():

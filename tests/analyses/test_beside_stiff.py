@@ -23,6 +23,7 @@ def beside(stiffness, mass=0.01):
     return block, rail, {**spring, "stiffness": stiffness, "free_length": 1.0}
 
 
+@pytest.mark.fast("{}-1000000000000.0", "{'coordinates': 'joint'}-100.0", "{'shape': 'looped'}-1000000000000.0")
 @pytest.mark.parametrize("stiffness", STIFF)
 @pytest.mark.parametrize("way", WAYS, ids=str)
 def test_a_rod_beside_a_stiff_spring(stiffness, way):
@@ -163,6 +164,7 @@ def test_a_beam_bends_however_little_its_sections_resist_turning():
         assert_allclose(found[:3], bending_squares(rotary)[:3], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_beam_with_a_dashpot():
     """Of x = -s F (C + s M) x those with large 1 / s; beside it a mass that drag holds in one direction."""
     model = beam(

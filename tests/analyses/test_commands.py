@@ -47,6 +47,7 @@ def test_one_sentence_where_all_freedom_is_driven(cli, at):
     assert (code, out.strip(), err) == (0, "no degree of freedom is left: there is nothing to linearise", "")
 
 
+@pytest.mark.slow
 def test_tables_are_readable(cli, tmp_path):
     code, out, _ = cli("equilibrium", "four-bar", "--start", "crank.theta=4.0")
     assert code == 0 and out.startswith("stable; omega^2 [1/s^2]: 8.35") and "crank.theta" in out
@@ -116,6 +117,7 @@ KIND = Analysis(
 '''
 
 
+@pytest.mark.slow
 def test_an_analysis_with_its_command_is_one_file(tmp_path):
     (tmp_path / "mass.py").write_text(MASS, encoding="utf-8")
     found = "import sys, symgen.analyses.kinds as kinds; kinds.__path__.append(sys.argv.pop(1))\n"

@@ -34,6 +34,7 @@ def test_drag_by_speed_does_not_damp_at_rest(drag):
     assert_allclose(found.eigenvalues, [10j, -10j], rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["radau5", "sdirk"])
 def test_implicit_steps_fall_where_nothing_touches(integrator):
     """Newton's matrices held what is no number, so that runs ended at their start."""

@@ -28,6 +28,16 @@ STARTS = {
 }
 
 
+@pytest.mark.fast(
+    "absolute-revolute",
+    "absolute-slot and rail",
+    "absolute-twice",
+    "absolute-ball",
+    "absolute-distances in space",
+    "joint-distance",
+    "joint-massless",
+    "joint-revolute in space",
+)
 @pytest.mark.parametrize("kind", rods.KINDS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_rod_hangs(kind, coordinates):
@@ -63,6 +73,7 @@ def test_both_equilibria_of_a_four_bar(doubled, coordinates):
         assert found.not_unique == (("D", "D2", "link") if doubled else ())
 
 
+@pytest.mark.fast("joint-slope", "joint-zigzag", "joint-roof")
 @pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_links_hang_as_a_catenary(start, coordinates):
@@ -89,6 +100,7 @@ def test_the_catenary_has_the_least_energy():
     assert_allclose([found.q[f"l{i}.theta"] for i in range(10)], least, atol=1e-6)  # what SLSQP reaches
 
 
+@pytest.mark.fast("1.0-straight", "0.001-looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("unit", [1.0, 1e-3])
 def test_redundant_joints_share_a_load_as_in_a_run(unit, shape):

@@ -57,6 +57,7 @@ def test_what_can_be_multiplied_together_is_named_before_a_fit(four_bar, measure
         four_bar.identify(measured, free=("k", "rest", "damping", "m1", "m2", "m3"), parameters=WRONG, **FINE)
 
 
+@pytest.mark.slow
 def test_intervals_cover_the_truth(four_bar, measured):
     rng, inside, count = np.random.default_rng(0), 0, 24
     for _ in range(count):

@@ -53,6 +53,16 @@ def model():
     return of_text(FILE)
 
 
+@pytest.mark.fast(
+    "number-absolute",
+    "formula-absolute",
+    "data-absolute",
+    "state-absolute",
+    "before a jump-absolute",
+    "at a jump-absolute",
+    "behind a jump-joint",
+    "at a sample that is held-absolute",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", GIVEN)
 def test_inputs_change_beside_what_they_are_given(model, name, coordinates):

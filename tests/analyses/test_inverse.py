@@ -148,6 +148,7 @@ def test_a_rotor_in_space_gives_its_torque_back():
         assert np.abs(found.reactions["pin.Fz"] - run.reactions["pin.Fz"]).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_inputs_forces_and_joints_of_a_recorded_run(pendulum, tmp_path):
     pushed = "4*sin(3*t)"
     run = pendulum.simulate(until=1.0, step=1e-3, output_step=0.05, inputs={"push": pushed})
@@ -327,6 +328,7 @@ def test_too_few_times_for_integrals_are_said(linkage, capsys):
     assert "integrals" not in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_driver_that_repeats_another_exerts_nothing_beside_it(tmp_path):
     """M = I theta'' + m g x; runs' elements, files, sweeps, kinematics and inverse dynamics gave a KeyError."""
     rod = {"mass": 2.0, "inertia": 0.3, "position": [0.5, 0.0], "angle": 0.2, "angular_velocity": 0.7}

@@ -275,6 +275,7 @@ def test_a_slider_drives_a_crank_over_both_dead_centres():
         assert np.abs(np.array([p.t for p in found.passages]) - ends).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_random_linkages_go_as_far_as_circles_meet():
     random, tried = np.random.default_rng(5), 0
     while tried < 10:
@@ -301,6 +302,7 @@ def test_random_linkages_go_as_far_as_circles_meet():
                 assert abs(found.passages[-1].t - end) < 1e-9
 
 
+@pytest.mark.fast("far", "more often than asked for", "resting long")
 @pytest.mark.parametrize(
     ("start", "far", "turns", "power"),
     [(0.7, 2.4, 1.0, 4), (0.7, 2.4, 6.0, 2), (0.7, 2.4, 1.0, 60), (2.8, 0.1, 1.0, 2)],

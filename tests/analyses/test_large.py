@@ -67,6 +67,7 @@ def test_redundant_rows_are_the_same_by_sparse_matrices():
         assert sparse.multipliers[name] == pytest.approx(value, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_large_mechanisms_of_one_freedom_have_its_frequency():
     """Too large for dense matrices, with fewer frequencies than are asked for otherwise; beside straight code."""
     looped, straight = (symgen.load("n-four-bar:20").equilibrium(shape=shape) for shape in ("looped", "straight"))

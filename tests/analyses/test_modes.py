@@ -20,6 +20,7 @@ from symgen.analyses.algebra import eigenvalues_of
 from symgen.base.errors import InputError
 
 
+@pytest.mark.fast("2", "10")
 @pytest.mark.parametrize("n", [2, 10, 40])
 def test_a_hanging_chain_has_the_zeros_of_laguerre_s_polynomial(n):
     found = rods.chain(n).modes()
@@ -212,6 +213,7 @@ def test_a_motion_has_the_system_of_the_instant_if_it_is_asked_for():
     assert_allclose(found.A, [[0.0, 1.0], [14.715 * math.sin(own.y[0, -1]), 0.0]], rtol=1e-9, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("at", "zeros"), [("equilibrium", 2), ("steady", 1)])
 def test_what_a_cyclic_coordinate_leaves_free_is_exactly_zero(at, zeros):
     """A double zero with one vector: rounding would part it into a pair of 4e-7."""
@@ -229,6 +231,7 @@ def test_zeros_are_a_decision_of_rank():
         assert np.isclose(sorted(values.real)[0], -40.0) and np.isclose(sorted(values.real)[-1], 3.0)
 
 
+@pytest.mark.fast("0.177-joint", "0.3-absolute", "0.3333333333333333-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("far", [0.177, 0.3, 1.0 / 3.0])
 def test_a_joint_that_holds_nothing_takes_no_freedom(coordinates, far):

@@ -94,7 +94,8 @@ RATES = (
 )
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.fast("1", "2", "6", "7")
+@pytest.mark.parametrize("seed", range(8))
 def test_random_states_along_driven_chains(seed):
     """States by SciPy along the motion in closed form; efforts are those of a run, which integrates everything."""
     rng = np.random.default_rng(seed)
@@ -132,7 +133,8 @@ def test_random_states_along_driven_chains(seed):
         np.testing.assert_allclose(needed[name], moved.efforts[name], atol=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.fast("1", "3", "6")
+@pytest.mark.parametrize("seed", range(8))
 def test_random_states_in_recorded_motions(seed):
     """A motor's torque is a formula of time in the run; the motion needs just that."""
     raw = make(seed)

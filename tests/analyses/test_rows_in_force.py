@@ -39,6 +39,7 @@ def test_efforts_of_a_motion_are_those_of_the_closed_mechanism():
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.fast("joint")
 @pytest.mark.parametrize("how", [{}, {"coordinates": "joint"}, {"target": "lanes"}], ids=["cpu", "joint", "lanes"])
 def test_rows_of_a_sweep_are_those_of_the_closed_mechanism(how):
     switched, whole = models()

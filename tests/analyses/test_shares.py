@@ -53,6 +53,7 @@ def test_modes_of_one_eigenvalue_are_named(stiffness, damping, groups):
         assert sums == pytest.approx({f"m{i}": float(k == of_one) for i, k in enumerate(stiffness)}, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_shares_of_the_governor_at_rest_are_said_to_be_not_unique(cli):
     """Both arms hang alike: one frequency, and two shapes of many."""
     code, out, _ = cli("modes", "flyball-governor")

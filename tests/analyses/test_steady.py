@@ -37,6 +37,7 @@ def test_a_bicycle_rides(v):
     assert_allclose(found.B[2:, 0], np.linalg.inv(mass)[:, 1], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_weave_and_capsize_speeds(tmp_path):
     asked = {"at": "start", "states": ["lean", "steer"]}
     found = symgen.load("bicycle").locus(("speed", np.linspace(4.0, 6.5, 6)), **asked)
@@ -186,6 +187,7 @@ def test_what_spins_about_no_joint_s_axis_is_not_taken_to_be_at_rest(name):
             found()
 
 
+@pytest.mark.slow
 def test_states_of_a_steady_motion_are_found():
     """Lean, steer and speed, and what depends on them alone; eigenvalues are those of the paper, and zeros."""
     for at in ("steady", "start"):

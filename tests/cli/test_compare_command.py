@@ -22,6 +22,7 @@ SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--s
 WITHIN = ("--methods", "velocity-projection,direct-correction", *SMALL[2:])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
 def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):
     path = tmp_path / f"report.{ending}"
@@ -38,6 +39,7 @@ def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):
     assert len((tmp_path / "rows.csv").read_text().splitlines()) == 5
 
 
+@pytest.mark.slow
 def test_json_stays_alone_on_standard_output(cli, tmp_path):
     arguments = (*SMALL[:4], "--steps", "0.01", "--until", "0.5", "--repeat", "1")
     code, out, _ = cli("compare", "pendulum", *arguments, "-o", tmp_path / "report.html", "--json")
@@ -47,6 +49,7 @@ def test_json_stays_alone_on_standard_output(cli, tmp_path):
     assert all(row["run_seconds_spread"] is None and row["cost_ratio_spread"] is None for row in found["rows"])
 
 
+@pytest.mark.slow
 def test_one_run_has_no_spread(cli, tmp_path):
     report = tmp_path / "report.html"
     for repeat, single in (("1", True), ("2", False)):
@@ -113,6 +116,7 @@ def rows_of(path: Path) -> int:
     return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGINT])
 def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_path, cli, how):
     journal = tmp_path / "rows.journal"
@@ -138,6 +142,7 @@ def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_
     assert rows_of(journal) == 5
 
 
+@pytest.mark.slow
 def test_why_there_is_no_reference_is_kept_for_those_who_go_on(cli, tmp_path, monkeypatch):
     def none(*arguments):
         raise SimulationError("nothing is near enough")

@@ -84,6 +84,7 @@ def test_tables_of_the_command_show_no_rounding(command: str, capsys: pytest.Cap
     assert re.search(r"\d\.\d{10}", text) and json.loads(text)
 
 
+@pytest.mark.fast("driven-four-bar-crank.omega,crank.alpha")
 @pytest.mark.parametrize(
     ("model", "quantities"), [("stewart-platform", "q"), ("driven-four-bar", "crank.omega,crank.alpha")]
 )

@@ -40,6 +40,7 @@ def test_inspect_shows_the_tree(cli):
     assert code == 0 and "coupler on crank by B" in out and "loops are closed by C" in out
 
 
+@pytest.mark.slow
 def test_a_comparison_of_both(cli, tmp_path):
     journal = tmp_path / "rows.journal"
     words = ("compare", "four-bar", *QUICK, "--coordinates", "absolute,joint", "--resume", journal)

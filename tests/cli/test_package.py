@@ -118,6 +118,7 @@ def test_all_methods_that_suit_a_mechanism(tmp_path):
     assert main(["generate", "pendulum", "--all", "--method", "ggl", "-o", str(tmp_path / "other")]) == 2
 
 
+@pytest.mark.fast("augmented-lagrangian")
 @pytest.mark.parametrize("method", ["coordinate-partitioning", "null-space", "augmented-lagrangian"])
 def test_a_package_gives_the_numbers_of_runs_by_other_methods(method, alone, tmp_path):
     agrees("four-bar", alone, tmp_path, method=method)
@@ -211,6 +212,7 @@ def options_of(folder, method):
     return json.loads((folder / "model.json").read_text())["methods"][method]["options"]
 
 
+@pytest.mark.fast("none")
 @pytest.mark.parametrize(
     ("link", "solver"),
     [("mass = 0\ninertia = 0", "augmented"), ("mass = 1e-12\ninertia = 1e-14", "elimination")],
@@ -252,6 +254,7 @@ def test_inspect_tells_the_solver_that_runs_take_for_light_bodies(tmp_path, caps
     assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "elimination"
 
 
+@pytest.mark.fast("numpy", "version-1.0")
 @pytest.mark.parametrize("name", ["json", "numpy", "version-1.0"])
 def test_a_package_runs_whatever_its_folder_is_called(name, alone, tmp_path):
     assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(tmp_path / name)]) == 0
@@ -302,6 +305,7 @@ def test_the_method_that_a_package_starts_is_in_it(coordinates, tmp_path):
     assert about["run"]["method"] in about["methods"] and (folder / "direct_correction.py").exists()
 
 
+@pytest.mark.fast("options0-model.py", "options1-direct_correction.py", "options2-model.json", "options3-machine.py")
 @pytest.mark.parametrize(
     ("options", "name"),
     [

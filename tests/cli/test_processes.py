@@ -116,6 +116,7 @@ def test_an_interrupted_run_writes_what_it_has(tmp_path):
     assert float(lines[-1].split(",")[0]) == found["final"]["t"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
 def test_an_interrupted_study_prints_its_rows(tmp_path):
     words = ("--methods", "lagrange", "--integrators", "rk4", "--steps", "1e-2,1e-7", "--until", "50")
@@ -130,12 +131,14 @@ def test_an_interrupted_study_prints_its_rows(tmp_path):
 # -- pipes and terminals -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_closed_pipe_is_no_error():
     command = f"{sys.executable} -c 'from symgen.cli import main; raise SystemExit(main())' inspect n-four-bar:8"
     found = subprocess.run(["bash", "-c", f"{command} | head -1"], capture_output=True, text=True, timeout=600)
     assert found.stderr == "" and "n-four-bar-8" in found.stdout
 
 
+@pytest.mark.slow
 def test_a_long_run_shows_progress_on_a_terminal_only():
     """Standard error is a terminal, standard output a pipe: the bar is drawn, and JSON stays alone."""
     leader, follower = pty.openpty()

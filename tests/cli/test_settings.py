@@ -139,6 +139,7 @@ def test_limits_can_be_set_for_studies_and_sweeps(limit):
         symgen.compare("four-bar", "lagrange", "rk4", 1e-2, until=1.0, repeat=1, **{limit: -1.0})
 
 
+@pytest.mark.slow
 def test_steps_are_bounded_by_every_command_that_runs(capsys):
     for words in (
         ["run", "four-bar", "--integrator", "dopri5"],
@@ -154,6 +155,7 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
     assert "step: expected at most max_attempts = 5 steps, got 100" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_adaptive_steps_are_no_longer_than_max_step(tmp_path):
     """By a setting, by the file; constant steps are what they were."""
     text = '[mechanism]\nname = "free"\n[run]\nuntil = 2.0\nmax_step = 0.05\n'

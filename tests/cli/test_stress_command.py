@@ -11,6 +11,7 @@ from symgen.study.stress.stress_rows import Stress, StressRow
 FEW = ("stress", "pendulum", "--cases", "gravity", "--methods", "lagrange,auto", "--quick", "--jobs", "1")
 
 
+@pytest.mark.slow
 def test_tables_json_csv_and_reports(cli, tmp_path):
     journal = tmp_path / "journal.jsonl"
     code, out, err = cli(*FEW, "--resume", journal)

@@ -125,6 +125,7 @@ def check(found: dict[tuple[str, ...], click.Command], words: list[str]) -> None
             load(word)
 
 
+@pytest.mark.fast("list->&- 2>&-")
 @pytest.mark.parametrize(
     ("words", "closing"),
     [("generate pendulum --method lagrange -o emitted", "| head -c 5"), ("list", ">&-"), ("list", ">&- 2>&-")],

@@ -43,6 +43,7 @@ def neutral():
     return [*whole[:2], whole[2] + angles, *whole[3:]]
 
 
+@pytest.mark.slow
 def test_names_of_columns_are_one_for_one_or_refused(neutral):
     rng, refused, accepted = random.Random(7), 0, 0
     heads = {part for form in FORMS.values() for part in form.split(".") if "{" not in part} - {"rate"}

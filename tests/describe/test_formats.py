@@ -141,6 +141,7 @@ def test_a_joint_that_mimics_with_an_offset_starts_where_its_leader_leaves_it(tm
     assert not any("moved" in note for note in run.notes)
 
 
+@pytest.mark.fast("loop")
 @pytest.mark.parametrize("tag", ["loop_joint", "loop"])
 def test_two_dialects_close_a_loop(tmp_path: Path, tag: str) -> None:
     ends = {
@@ -185,6 +186,7 @@ MJCF = """<mujoco model="gripper"><compiler angle="radian"/><option timestep="1e
 </mujoco>"""
 
 
+@pytest.mark.slow
 def test_mjcf_moves_as_in_mujoco(tmp_path: Path) -> None:
     read = imported(tmp_path, MJCF, "gripper.xml")
     assert read.format == "mjcf" and read.raw["bodies"]["slider"]["points"] == {"tip": [0.1, 0.0, 0.0]}
@@ -236,6 +238,7 @@ def test_what_mujoco_advises_its_authors_is_no_warning(tmp_path: Path) -> None:
     assert imported(tmp_path, MJCF.replace("<compiler", '<compiler settotalmass="3"'), "old.xml").raw["bodies"]
 
 
+@pytest.mark.slow
 def test_a_loop_with_a_limit_and_friction_is_where_mujoco_tends_to(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -7,7 +7,7 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.bounds.friction import mode_events, without_friction
+from symgen.describe.bounds.modes import mode_events, without_bounds
 from symgen.describe.facts.digest import canonical, digest, identity
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
@@ -44,26 +44,26 @@ def quill(friction: object) -> Mechanism:
 
 
 def test_a_joint_has_bounds_of_its_only_coordinate() -> None:
-    (friction,) = four_bar({"sliding": 4.0}).frictions
+    (friction,) = four_bar({"sliding": 4.0}).bounded
     assert (friction.name, friction.joint, friction.row, friction.unit) == ("A", "A", "A.friction", "rad")
     assert friction.static == friction.sliding
     assert [event.name for event in mode_events(four_bar({"sliding": 4.0}))] == ["A.slip", "A.reverse"]
 
 
 def test_a_joint_has_bounds_of_each_coordinate() -> None:
-    names = [f.name for f in quill({"angle": {"sliding": 0.2}, "displacement": {"sliding": 3.0}}).frictions]
+    names = [f.name for f in quill({"angle": {"sliding": 0.2}, "displacement": {"sliding": 3.0}}).bounded]
     assert names == ["bearing.angle", "bearing.displacement"]
-    assert [f.unit for f in quill({"displacement": {"sliding": 3.0}}).frictions] == ["m"]
+    assert [f.unit for f in quill({"displacement": {"sliding": 3.0}}).bounded] == ["m"]
 
 
 def test_a_file_without_friction_is_the_same_as_before() -> None:
     plain, dry = four_bar(GONE), four_bar({"sliding": 4.0})
-    assert without_friction(dry) == plain
-    assert without_friction(plain) is plain
+    assert without_bounds(dry) == plain
+    assert without_bounds(plain) is plain
     assert "friction" not in canonical(plain)
     assert digest(dry) != digest(plain)
     assert identity(dry) != identity(plain)
-    more = msgspec.structs.replace(plain, frictions=())
+    more = msgspec.structs.replace(plain, bounded=())
     assert identity(more) == identity(plain)
 
 

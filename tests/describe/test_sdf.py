@@ -50,6 +50,7 @@ BAR = f"""<sdf version="1.9"><world name="w"><gravity>0 0 -9.81</gravity><model 
 </model></world></sdf>"""
 
 
+@pytest.mark.slow
 def test_a_native_loop_moves_as_the_same_one_in_urdf(tmp_path: Path) -> None:
     bodies = {"crank": (1.0, 0.01, 0.02, 0.03), "rod": (2.0, 0.02, 0.02, 0.01), "rocker": (1.5, 0.03, 0.01, 0.01)}
     links = "".join(
@@ -84,6 +85,7 @@ def test_a_native_loop_moves_as_the_same_one_in_urdf(tmp_path: Path) -> None:
             assert np.abs(runs[0][f"{name}.{axis}"] - runs[1][f"{body}.{axis}"]).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_a_cross_moves_as_two_hinges_in_mjcf(tmp_path: Path) -> None:
     sdf = f"""<sdf version="1.10"><model name="whip">
       <link name="arm"><pose>0.1 0.2 1 0.3 0.2 0.1</pose>{inertial(1.2, "0.05 0 -0.3 0 0 0", 0.02, 0.03, 0.01)}</link>

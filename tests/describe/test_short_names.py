@@ -102,6 +102,14 @@ def same_motion(names: dict[str, str], settings: dict[str, str]) -> None:
         np.testing.assert_array_equal(getattr(found, table).values, getattr(expected, table).values)
 
 
+@pytest.mark.fast(
+    "cart=s rod=rate-{'shape': 'looped'}",
+    "cart=rate rail=s-{'shape': 'looped'}",
+    "rail=rate spring=s point=rate-{'shape': 'straight'}",
+    "rail=rate spring=s point=rate-{'shape': 'looped'}",
+    "pin=s drive=rate point=s-{'shape': 'looped'}",
+    "out=s event=rate spring=rate-{'shape': 'looped'}",
+)
 @pytest.mark.parametrize("settings", [{"shape": "straight"}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str)
 @pytest.mark.parametrize(
     "names",

@@ -6,7 +6,7 @@ import pytest
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.describe.bounds.stops import stop_events, without_stops
+from symgen.describe.bounds.modes import mode_events, without_bounds
 from symgen.describe.facts.digest import canonical, identity
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
@@ -27,18 +27,18 @@ def four_bar(stop: object = None, gap: object = None, **more: object) -> Mechani
 
 def test_a_stop_has_rows_events_and_outputs() -> None:
     mechanism = four_bar({"lower": -1.0, "upper": 2.0, "restitution": 0.5}, {"gap": "2.0 - C.angle"})
-    assert [stop.name for stop in mechanism.stops] == ["A.lower", "A.upper", "rope"]
-    assert [stop.row for stop in mechanism.stops] == ["A.lower.stop", "A.upper.stop", "rope.stop"]
-    assert [stop.unit for stop in mechanism.stops] == ["rad"] * 3
-    names = [event.name for event in stop_events(mechanism)]
+    assert [stop.name for stop in mechanism.bounded] == ["A.lower", "A.upper", "rope"]
+    assert [stop.row for stop in mechanism.bounded] == ["A.lower.stop", "A.upper.stop", "rope.stop"]
+    assert [stop.unit for stop in mechanism.bounded] == ["rad"] * 3
+    names = [event.name for event in mode_events(mechanism)]
     assert names == [f"{name}.{word}" for name in ("A.lower", "A.upper", "rope") for word in ("hit", "leave")]
     assert [output.name for output in mechanism.outputs][-2:] == ["rope.mode", "rope.force"]
 
 
 def test_a_file_without_stops_is_the_same_as_before() -> None:
     plain = four_bar()
-    assert without_stops(four_bar({"lower": -1.0})) == plain
-    assert without_stops(plain) is plain
+    assert without_bounds(four_bar({"lower": -1.0})) == plain
+    assert without_bounds(plain) is plain
     assert "stops" not in canonical(plain)
     assert identity(plain) != identity(four_bar({"lower": -1.0}))
     assert canonical(four_bar({"lower": -1.0})) != canonical(four_bar({"lower": -1.1}))

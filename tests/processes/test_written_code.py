@@ -19,6 +19,7 @@ def final(words, folder):
     return json.loads(out)["final"]
 
 
+@pytest.mark.slow
 def test_c_by_the_compiler_of_the_page(tmp_path):
     shell(command_of(PAGE, "symgen generate four-bar --target c"), tmp_path)
     _, said = shell(command_of(PAGE, "cc -std=c99 -O2 four-bar-c"), tmp_path)
@@ -40,6 +41,7 @@ def value_of(found, name):
     raise AssertionError(f"{name} is not in {found}")
 
 
+@pytest.mark.slow
 def test_an_fmu_in_fmpy_as_the_page_has_it(tmp_path):
     (tmp_path / "simulated.py").write_text(block_of(PAGE, "rows = simulate_fmu("))
     out, _ = shell(f"{sys.executable} simulated.py", tmp_path)
@@ -47,6 +49,7 @@ def test_an_fmu_in_fmpy_as_the_page_has_it(tmp_path):
     assert float(out) == pytest.approx(value_of(own, "crank.theta"), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_an_fmu_by_the_command_and_its_library_by_the_compiler_of_the_page(tmp_path):
     shell(command_of(PAGE, "symgen generate four-bar --target fmu --output four-bar.fmu"), tmp_path)
     with zipfile.ZipFile(tmp_path / "four-bar.fmu") as archive:

@@ -5,7 +5,7 @@ import ast
 import os
 import re
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -125,6 +125,30 @@ def test_the_errors_of_the_wrong_file_that_a_page_shows(
     assert cli("check", "slips.toml") == (2, "", errors)
 
 
+@pytest.mark.fast(
+    "README.md",
+    "docs/architecture.md",
+    "docs/drawing.md",
+    "docs/howto/controllers.md",
+    "docs/howto/gymnasium.md",
+    "docs/howto/own-integrator.md",
+    "docs/howto/own-joint.md",
+    "docs/howto/own-mechanism.md",
+    "docs/howto/own-method.md",
+    "docs/howto/stiff-mechanisms.md",
+    "docs/howto/stops.md",
+    "docs/internals.md",
+    "docs/inverse.md",
+    "docs/joint-coordinates.md",
+    "docs/linearise.md",
+    "docs/modes.md",
+    "docs/player.md",
+    "docs/stress.md",
+    "docs/tutorial-space.md",
+    "docs/tutorials/modes.md",
+    "docs/tutorials/scissor-lift.md",
+    "docs/tutorials/wiper.md",
+)
 @pytest.mark.parametrize("page", with_language("python"))
 def test_every_snippet_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The snippets of a page share their names, as a reader would type them one after the other."""
@@ -147,9 +171,14 @@ def test_every_file_shown_is_valid(page: Path) -> None:
         validate(parse_toml(block.text, name(page)), name(page))
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
-def test_links_lead_somewhere(page: Path) -> None:
-    for target in _LINK.findall(page.read_text(encoding="utf-8")):
+def each_target(pattern: re.Pattern[str]) -> Iterator[tuple[Path, str]]:
+    """Yield every page with every target that a pattern finds in it."""
+    for page in PAGES:
+        yield from ((page, target) for target in pattern.findall(page.read_text(encoding="utf-8")))
+
+
+def test_links_lead_somewhere() -> None:
+    for page, target in each_target(_LINK):
         if target.startswith(("https://", "http://")):
             continue
         path, _, anchor = target.partition("#")
@@ -160,9 +189,8 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert anchor in anchors(file), f"{name(page)} links to {target}, which has no such heading"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
-def test_pictures_are_there(page: Path) -> None:
-    for target in _PICTURE.findall(page.read_text(encoding="utf-8")):
+def test_pictures_are_there() -> None:
+    for page, target in each_target(_PICTURE):
         file = (page.parent / target).resolve()
         assert file.is_file() and file.is_relative_to(ROOT), f"{name(page)} shows {target}, which does not exist"
         largest = gallery.LARGEST_OF_README if file.parent == gallery.PICTURES else gallery.LARGEST

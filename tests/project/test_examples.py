@@ -90,6 +90,7 @@ def test_the_file_that_a_script_prints_runs(tmp_path: Path) -> None:
     assert result["status"] == "ok", result["reason"]
 
 
+@pytest.mark.fast("equations_to_code.ipynb")
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.name)
 def test_a_notebook_shows_what_is_kept_in_it(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Checks are assertions in its cells. With SYMGEN_UPDATE_NOTEBOOKS=1 what its cells show is kept anew."""

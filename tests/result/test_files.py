@@ -89,6 +89,7 @@ def test_an_interrupted_start_can_be_saved(result, tmp_path):
         assert empty.save(tmp_path / f"empty{ending}").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 def test_plots(result, tmp_path, ending):
     path = result.plot(tmp_path / f"run{ending}", ("q", "v", "energy", "violations", "reactions"))
@@ -153,6 +154,7 @@ SIZES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SIZES)
 def test_tables_of_other_sizes_are_refused(saved, tmp_path, name):
     table, changed, sentence = SIZES[name]

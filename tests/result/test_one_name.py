@@ -31,6 +31,16 @@ def of_page(page):
     return {name for group in data["motions"][0]["groups"] for name in group["names"]}, data["note"]
 
 
+@pytest.mark.fast(
+    "driven-four-bar",
+    "four-bar",
+    "free-rigid-body",
+    "heavy-top",
+    "rolling-disc",
+    "slider-crank",
+    "spherical-double-pendulum",
+    "cart-pole",
+)
 @pytest.mark.parametrize("name", NAMES)
 def test_every_name_of_a_mechanism_of_the_catalogue(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)

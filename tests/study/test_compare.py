@@ -76,6 +76,7 @@ def test_a_failed_run_stays_a_row():
     assert not study.failed
 
 
+@pytest.mark.slow
 def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     """The standard method at the settings of the source: one that stopped would leave all rows without a ratio."""
     arguments = ["slider-crank", ["lagrange", "direct-correction"], ["rk4"], [1e-3]]
@@ -147,6 +148,7 @@ def test_an_integrator_told_to_keep_its_steps_runs_at_those_asked_for():
     assert study.rows[0].error > 10.0 * study.rows[1].error > 0.0
 
 
+@pytest.mark.slow
 def test_rows_warn_of_what_single_runs_warn_of():
     study = symgen.compare("pendulum", ["baumgarte", "lagrange"], ["euler"], [0.5, 0.1], until=1.0, repeat=1)
     for row in study.rows:
@@ -201,6 +203,7 @@ def test_progress_counts_rows_and_compilation(tmp_path):
     assert again[-1] == ("baumgarte, euler", 8.0 + 2.0 * share, 9.0 + 2.0 * share)
 
 
+@pytest.mark.slow
 def test_rows_as_a_file_and_as_a_frame(study, tmp_path):
     with study.save(tmp_path / "rows.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))

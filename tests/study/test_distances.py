@@ -36,6 +36,7 @@ def test_errors_of_a_pendulum_are_those_from_its_energy():
     assert study.speed == pytest.approx(down.max(), rel=1e-9)
 
 
+@pytest.mark.fast("four-bar-1.0-0.01")
 @pytest.mark.parametrize(("name", "until", "step"), [("four-bar", 1.0, 1e-2), ("spatial-slider-crank", 0.3, 2e-3)])
 def test_errors_are_distances_to_a_run_with_tight_tolerances(name, until, step):
     study, row, run, fine = compared(name, until, step)
@@ -66,6 +67,7 @@ def test_velocities_of_points_are_the_slopes_of_their_places():
     assert still == pytest.approx(points.distances(after, before) / (2.0 * h), rel=1e-5)
 
 
+@pytest.mark.slow
 def test_only_determined_reactions_are_compared():
     """Bricard's mechanism has one row too many, and every joint takes part in it."""
     study = symgen.compare("bricard", ["direct-correction"], ["dop853"], rtols=[1e-6], until=0.2, repeat=1)

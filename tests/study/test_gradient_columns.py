@@ -33,6 +33,7 @@ def study(journal):
         return symgen.compare("four-bar", journal=records, **RUNS)
 
 
+@pytest.mark.fast("direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_errors_of_derivatives_fall_at_the_order_of_the_scheme(study, method):
     coarse, fine = (row.gradient_error for row in study.rows if (row.method, row.integrator) == (method, "rk4"))
@@ -60,6 +61,7 @@ def test_adjoint_and_differences_beside(study):
     assert all(1e-12 < row.differences_error < 1e-2 for row in study.rows if row.integrator == "radau5" and row.error)
 
 
+@pytest.mark.slow
 def test_journals_tables_and_reports(study, journal):
     with Journal(journal) as records:
         again = symgen.compare("four-bar", journal=records, **RUNS)

@@ -52,6 +52,7 @@ def regular(joints, forces):
     raise AssertionError("no seed gives independent rows")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("joints", "forces"), GROUPS, ids=lambda kinds: "-".join(kinds) or "none")
 def test_rows_and_accelerations_are_those_emitted(joints, forces):
     mechanism, emitted, found, rng, (t, q, v) = regular(joints, forces)

@@ -53,6 +53,7 @@ def wait_for(condition, seconds=600.0):
         time.sleep(0.01)
 
 
+@pytest.mark.fast("1")
 @pytest.mark.parametrize("processes", [1, 2])
 def test_killed_in_the_middle_and_resumed(tmp_path, processes):
     process = start(tmp_path, processes)

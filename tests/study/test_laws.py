@@ -92,6 +92,7 @@ restitution = 0.6
     assert abs(row.dissipated - 5.0 * (1.0 - 0.36)) < 1e-9 and row.error < 1e-9
 
 
+@pytest.mark.slow
 def test_the_command_and_its_report_have_laws(cli, tmp_path: Path) -> None:
     file = tmp_path / "load.toml"
     file.write_text(LOAD.replace("FRICTION", "friction = { sliding = 25.0 }"), encoding="utf-8")

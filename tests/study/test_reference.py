@@ -97,6 +97,7 @@ def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
     assert energy[-1] < -0.4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("windows", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(windows):
     """Ten passages in 10 s, against the equation of the regular branch, which knows no singular position."""
@@ -152,6 +153,7 @@ def test_redundant_rows_do_no_harm():
     assert one.rate(0.0, y)[5] == pytest.approx(-0.5 * 9.81 / (0.1 + 0.25))
 
 
+@pytest.mark.fast("four-bar-1.0-scipy-bdf", "four-bar-1.0-scipy-lsoda")
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
     ("name", "until"),
@@ -261,6 +263,7 @@ def swung(times, passages):
     return found
 
 
+@pytest.mark.fast("scipy-dop853", "scipy-bdf", "scipy-lsoda")
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
     """100 N for 3 ms: solvers do not see it, or take its ends for positions at which accelerations are unknown."""
@@ -279,6 +282,7 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
 
 
+@pytest.mark.fast("scipy-bdf-0.001-None", "scipy-lsoda-0.001-None", "of stress studies-0.001-None")
 @pytest.mark.parametrize(
     ("solver", "w", "max_step"),
     [*((solver, 1e-3, None) for solver in (*SOLVERS, "of stress studies")), ("scipy-dop853", 3e-4, 6e-4)],
@@ -298,6 +302,7 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-11 and found.estimated_error < 1e-7
 
 
+@pytest.mark.fast("scipy-radau")
 @pytest.mark.parametrize(
     "solver",
     ["scipy-dop853", "scipy-radau", *(pytest.param(f"scipy-{x}", marks=pytest.mark.slow) for x in ("bdf", "lsoda"))],

@@ -9,6 +9,7 @@ from symgen.study.references.motion import CompiledEquations
 from symgen.study.stress.study import stress
 
 
+@pytest.mark.fast("engine")
 @pytest.mark.parametrize("name", ["cam-follower", "engine", "scissor-lift"])
 def test_both_forms_of_the_equations_are_the_same(name):
     """Tables are read, and the second slope of a kink is zero beside it."""
@@ -21,6 +22,7 @@ def test_both_forms_of_the_equations_are_the_same(name):
             np.testing.assert_allclose(a, b, rtol=1e-9, atol=1e-9 * max(1.0, np.abs(a).max(initial=0.0)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cam-follower", "scissor-lift"])
 def test_stress_judges_tables_and_kinks(name):
     study = stress(name, ["gravity"], ["lagrange"], quick=True, jobs=1)

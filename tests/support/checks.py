@@ -8,7 +8,7 @@ from hypothesis import Phase, settings
 
 #: Random inputs are drawn anew by every run; a failure prints the case. SYMGEN_EXAMPLES asks for more of them.
 RANDOM = settings(
-    max_examples=int(os.environ.get("SYMGEN_EXAMPLES", "8")),
+    max_examples=int(os.environ.get("SYMGEN_EXAMPLES", "4")),
     database=None,
     phases=[Phase.explicit, Phase.generate, Phase.shrink],
 )

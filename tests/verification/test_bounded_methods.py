@@ -15,6 +15,7 @@ def wrong(lines: list[Line]) -> list[Line]:
     return [line for line in bad if line.outcome != "failed" or "energy" not in line.reason]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", ["backlash", "pushed", "lifted"])
 def test_stops_are_left(file: str) -> None:
     methods = ["lagrange", "direct-correction", "penalty", "invariant-stabilization", "braun-goldfarb"]

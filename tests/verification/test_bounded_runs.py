@@ -23,6 +23,7 @@ FEW = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed", "runs"), FEW)
 def test_random_mechanisms(kind: str, seed: int, runs: tuple[str, ...]) -> None:
     against, verdicts = examined(drawn(kind, seed), runs, 0.3)
@@ -32,6 +33,13 @@ def test_random_mechanisms(kind: str, seed: int, runs: tuple[str, ...]) -> None:
     assert "right" in {v.outcome for v in verdicts}
 
 
+@pytest.mark.fast(
+    "chain-stop-and-slip-lagrange",
+    "chain-three-of-both-lagrange",
+    "chain-stop-and-brake-lagrange",
+    "chain-slip-at-a-stop-lagrange",
+    "chain-two-stops-lagrange",
+)
 @pytest.mark.parametrize("run", ["dop853", "lagrange"])
 @pytest.mark.parametrize("name", HARD)
 def test_hard_chains(name: str, run: str) -> None:
@@ -44,6 +52,7 @@ def test_hard_chains(name: str, run: str) -> None:
     assert verdict.outcome in ("right", "coarse"), verdict
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), [("chain", 31), pytest.param("spatial-chain", 1, marks=pytest.mark.slow)])
 def test_short_sticks_are_found_in_long_steps(kind: str, seed: int) -> None:
     """Rest of 40 ms between two slips lay inside one step of `picard`: off by 2e-3, and `ok`."""
@@ -52,6 +61,7 @@ def test_short_sticks_are_found_in_long_steps(kind: str, seed: int) -> None:
     assert verdict.outcome == "right", verdict
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("run", ["dop853", "lagrange", ROWS])
 @pytest.mark.parametrize("seed", [pytest.param(25, marks=pytest.mark.slow), 28])
 def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest(seed: int, run: str) -> None:

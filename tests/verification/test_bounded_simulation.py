@@ -147,6 +147,7 @@ def three_rods() -> Tree:
     return Tree(links, [], DOWN)
 
 
+@pytest.mark.slow
 def test_a_joint_that_leaves_its_stop_and_slips() -> None:
     """Times and angles of another simulation of the same chain."""
     rows = [

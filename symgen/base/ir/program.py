@@ -91,10 +91,10 @@ SECTIONS = (
 
 #: Numbers in the section ``modes`` of each row that may be off: 1 where it is in force and 0 where it is off; the value
 #: that its measure is held at, beyond the described one; the sign of its rate or effort where it is off; its largest
-#: effort where it is in force; the effort of dry friction that rests though its row is off.
+#: effort where it is in force; the effort of a row with bounds that rests though it is off.
 MODES = ("held", "constant", "sign", "limit", "effort")
 MODE_NUMBERS = len(MODES)
-#: Where friction depends on a reaction, the square of its jamming number is in the section ``jamming``.
+#: Where bounds depend on a reaction, the square of its jamming number is in the section ``jamming``.
 JAMMING = "jamming"
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.

@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from symgen.base.ir.program import COUNTERS, STATUS
+from symgen.base.ir.program import COUNTERS, JAMMING, STATUS
 from symgen.derive.emit.module import ModulePiece, Origins, module_source
+from symgen.describe.bounds.by_reaction import JAMMING_MEANS
 
 #: Meaning of the sections of ``w``, for headers.
 MEANINGS = {
@@ -43,7 +44,7 @@ MEANINGS = {
     "row_chosen": "rows in the order of the factorisation Q R",
     "row_corner": "diagonal of R",
     "row_factor": "factors of the reflections that make Q",
-    "jamming": "squares of the parts of a reaction that friction by the reaction itself brings about",
+    JAMMING: JAMMING_MEANS,
     "mass_entry": "entries of M that depend on positions",
     "body_entry": "entries of the metric of bodies' own velocities",
     "moved": "sum of the corrections in this step",

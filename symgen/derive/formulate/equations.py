@@ -98,7 +98,7 @@ class DriverPower:
 
 @dataclass(frozen=True)
 class Drag:
-    """Sliding friction by a reaction: a force ``sign coefficient |N|`` against the rate of a coordinate.
+    """An effort that a reaction bounds, in motion: a force ``sign coefficient |N|`` against the rate of a coordinate.
 
     Attributes
     ----------
@@ -108,6 +108,8 @@ class Drag:
         Nodes of the sign, 0 at rest, of the force over |N| [1 or m], and of the rate.
     pressed : tuple of tuple of (int, int)
         Of each component of N the rows in it, and nodes by which their multipliers count.
+    noun : str
+        What it is.
     """
 
     row: int
@@ -115,6 +117,7 @@ class Drag:
     coefficient: int
     rate: int
     pressed: tuple[tuple[tuple[int, int], ...], ...]
+    noun: str
 
 
 @dataclass(frozen=True)
@@ -164,7 +167,7 @@ class Equations(Counted):
     state_rates : tuple of int
         Nodes of their rates; as inputs of the graph the states are ``z``, numbered from 1.
     drags : tuple of Drag
-        Sliding friction by reactions; no part of `forces` and `power`.
+        Efforts by reactions, in motion; no part of `forces` and `power`.
     """
 
     name: str

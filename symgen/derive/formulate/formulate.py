@@ -27,10 +27,11 @@ from symgen.derive.formulate.flexure import exertions
 from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes, exertion
 from symgen.derive.formulate.of_time import time_function
 from symgen.derive.formulate.tree import energies_on_tree
-from symgen.describe.bounds.friction import coefficient_of, effort_in_motion, first_modes, sign_of_rate
-from symgen.describe.bounds.stops import probing_effort
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import first_modes, number_of
 from symgen.describe.facts.repeats import without_repeats
-from symgen.describe.mechanism import EndStop, Friction, Mechanism, Rotor, SpatialBody
+from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
 from symgen.describe.parts.topology import UNITS, quantities
 
 
@@ -102,7 +103,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         metric=() if model.tree is None else model.tree.metric(),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         state_rates=rates,
-        drags=tuple(_drag(model, friction, rows, repeats) for friction in mechanism.frictions if friction.pressed),
+        drags=tuple(_drag(model, row, rows, repeats) for row in held_by_reactions(mechanism)),
     )
 
 
@@ -160,36 +161,33 @@ def _row(model: ModelNodes, joint: str, row: Row) -> ConstraintRow:
     return ConstraintRow(name, joint, row.unit, phi, ordered, nu, gamma, size, stiffness, axes=axes)
 
 
-def _bounded_row(model: ModelNodes, bounded: Friction | EndStop, first: int) -> ConstraintRow:
-    """Return the row of a coordinate with dry friction, in force at rest, or of a stop, in force where it is closed."""
-    if isinstance(bounded, EndStop):
-        owner, row = bounded.owner, Holonomic("stop", bounded.measure, bounded.value, bounded.unit)
-    else:
-        owner, row = bounded.joint, Holonomic("friction", bounded.measure, unit=bounded.unit)
-    return replace(_switched(model, _row(model, owner, row), first), name=bounded.row, bounded=True)
+def _bounded_row(model: ModelNodes, bounded: BoundedRow, first: int) -> ConstraintRow:
+    """Return a row whose force has bounds, in force at times."""
+    row = _row(model, bounded.owner, bounded.held)
+    return replace(_switched(model, row, first), name=bounded.row, bounded=True)
 
 
 def _drag(
-    model: ModelNodes, friction: Friction, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
+    model: ModelNodes, bounded: BoundedRow, rows: Sequence[ConstraintRow], repeats: Iterable[tuple[str, str]]
 ) -> Drag:
-    """Return friction by the reaction of a joint."""
+    """Return the effort by the reaction of a joint."""
     places = {row.name: i for i, row in enumerate(rows)}
     for pair in repeats:
-        if set(pair) & set(friction.pressed):
-            expected = "a joint whose reaction is determined, for friction by it"
-            raise InputError(f"joints.{friction.joint}.friction", expected, f"rows {' and '.join(pair)}, the same")
-    rate = model.measure(friction.measure).rate(model.graph, model.velocities)
-    with finite_numbers(f"joints.{friction.joint}.friction"):
+        if set(pair) & set(bounded.pressed):
+            expected = f"a joint whose reaction is determined, for {bounded.family.one} by it"
+            raise InputError(bounded.where, expected, f"rows {' and '.join(pair)}, the same")
+    rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
+    with finite_numbers(bounded.where):
         sign, coefficient = (
-            model.expression(sign_of_rate(friction)),
-            model.expression(coefficient_of(friction), rate=rate),
+            model.expression(number_of(bounded, "sign")),
+            model.expression(bounded.coefficient, rate=rate),
         )
-    rows_of = tuple(places[name] for name in friction.pressed)
+    rows_of = tuple(places[name] for name in bounded.pressed)
     pressed: tuple[tuple[tuple[int, int], ...], ...] = tuple(((row, model.graph.one),) for row in rows_of)
-    if friction.across:
-        cosines = [[model.measure(cosine).value for cosine in line] for line in friction.across]
+    if bounded.across:
+        cosines = [[model.measure(cosine).value for cosine in line] for line in bounded.across]
         pressed = tuple(tuple(zip(rows_of, line, strict=True)) for line in cosines)
-    return Drag(places[friction.row], sign, coefficient, rate, pressed)
+    return Drag(places[bounded.row], sign, coefficient, rate, pressed, bounded.family.one)
 
 
 def _switched(model: ModelNodes, row: ConstraintRow, first: int) -> ConstraintRow:
@@ -225,11 +223,9 @@ def _forces(model: ModelNodes) -> tuple[list[int], int, int]:
                     forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
                 power = g.add(power, exerted.power)
                 potential = g.add(potential, exerted.energy)
-    efforts = [(f"joints.{x.joint}.friction", effort_in_motion(x)) for x in model.mechanism.frictions]
-    efforts += [(f"stop {x.name}", probing_effort(x)) for x in model.mechanism.stops]
-    for where, effort in efforts:
-        with finite_numbers(where):
-            exerted = exertion(model, effort)
+    for bounded in model.mechanism.bounded:
+        with finite_numbers(bounded.where):
+            exerted = exertion(model, bounded.effort)
             for i, entry in sorted(exerted.row.items()):
                 forces[i] = g.add(forces[i], g.mul(entry, exerted.total))
             power = g.add(power, exerted.power)

@@ -41,7 +41,8 @@ from symgen.derive.formulate.of_time import potential_of
 from symgen.derive.formulate.tree import Tree
 from symgen.derive.formulate.tree_plane import PlanarTree
 from symgen.derive.formulate.tree_space import SpatialTree
-from symgen.describe.bounds.friction import jamming_names, mode_names
+from symgen.describe.bounds.by_reaction import jamming_names
+from symgen.describe.bounds.modes import mode_names
 from symgen.describe.formulas.graph import Formulas
 from symgen.describe.mechanism import is_speed
 

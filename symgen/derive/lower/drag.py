@@ -1,6 +1,6 @@
-"""Friction by reactions: the forces c with ``c = coefficient |N(c)|``, where N is linear in them.
+"""Drags, which depend on reactions: the forces c with ``c = coefficient |N(c)|``, where N is linear in them.
 
-The reaction of an element is ``N = N0 - sum of c_j n_j``: N0 without this friction, n_j of a unit force of element j
+The reaction of an element is ``N = N0 - sum of c_j n_j``: N0 without drags, n_j of a unit force of element j
 along its coordinate, one solution with the factor of the equations. A coefficient has the sign of the element's rate.
 For one element the equation is quadratic and has one root of each sign where coefficient |n| < 1. For several it is
 solved by Newton's iteration, which doubles the digits.
@@ -14,7 +14,7 @@ from symgen.base.ir.graph import Graph
 from symgen.base.ir.numerics import TINY
 from symgen.derive.lower.replay import Nodes
 
-#: Iterations for several elements, from reactions without this friction.
+#: Iterations for several elements, from reactions without drags.
 _ITERATIONS = 5
 #: Where a last correction shows whether more are needed: iterations before it, and its largest part of the forces.
 _FEWER, _CONVERGED = 2, 1e-10
@@ -36,7 +36,7 @@ def drag_forces(
     parts : sequence of sequence of tuple of int
         For each element the vectors n_j of all of them.
     brief : bool
-        Whether as few iterations are enough as usual friction needs; else there is no such node.
+        Whether as few iterations are enough as usual drags need; else there is no such node.
     """
     if len(coefficients) == 1:
         return [_only(g, coefficients[0], alone[0], parts[0][0])], None

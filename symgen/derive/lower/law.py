@@ -79,7 +79,7 @@ def lower_law(
         expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
         raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
     if any(row.held is not None for row in equations.rows):
-        refuse_bounds(method, options, implicit, bool(equations.drags))
+        refuse_bounds(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
     eliminates = _eliminates(recorded)
@@ -111,7 +111,7 @@ def lower_law(
     if loose is not None:
         held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
         free = replace(law_block(hoister, *loose), name=FREE_RHS)
-        converged = ", or friction not found" if len(equations.drags) > 1 else ""
+        converged = f", or {equations.drags[0].noun} not found" if len(equations.drags) > 1 else ""
         blocks = [held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force"), *blocks[1:]]
     unknowns, level = 0, ""
     pattern: tuple[tuple[int, int], ...] = ()
@@ -144,7 +144,7 @@ def lower_law(
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
 
 
-def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pressed: bool) -> None:
+def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
     """Refuse methods that do not take rows with bounds: those that read D of all rows.
 
     Parameters
@@ -155,8 +155,8 @@ def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pr
         Its structural options, complete.
     implicit : bool
         Whether a descriptor form is wanted.
-    pressed : bool
-        Whether friction depends on reactions, which is for methods that find multipliers at once.
+    pressed : str
+        What depends on reactions, which is for methods that find multipliers at once; empty where nothing does.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pr
         expected = "one that eliminates multipliers or solves for them, where rows may be off"
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
     if pressed and law.form != "direct":
-        expected = "one that finds multipliers at once, where friction depends on reactions"
+        expected = f"one that finds multipliers at once, where {pressed} depends on reactions"
         raise InputError(f"method '{method.name}'", expected, "one that iterates", "--method lagrange")
 
 
@@ -184,7 +184,7 @@ def _without_bounded_rows(
 
 
 def _compute(scalars: ScalarNodes, part: Part, ends: Sequence[int]) -> None:
-    """Evaluate operations, and friction by reactions in a right-hand side that eliminates no multipliers."""
+    """Evaluate operations, and drags in a right-hand side that eliminates no multipliers."""
     scalars.compute(ends)
     if scalars.pushing:
         scalars.settle_drags(dict(part.outputs)["multipliers"], (index for _, index in part.outputs))

@@ -70,7 +70,7 @@ class ScalarNodes(OfMass):
         return self.by_factor(f, gamma, self._schur) if self.plan.schur else self.saddle.solve(f, gamma)
 
     def _dragged(self, f: Nodes, gamma: Nodes) -> tuple[Nodes, Nodes]:
-        """Return v' and lambda with friction by reactions; leave its power and the squares of jamming numbers."""
+        """Return v' and lambda with drags; leave its power and the squares of jamming numbers."""
         g, drags = self.graph, self.equations.drags
         given, effects = (*f, *gamma), list[Nodes]()
         for drag in drags:
@@ -87,7 +87,7 @@ class ScalarNodes(OfMass):
         return self._completed(given, rest)
 
     def _drag_forces(self, alone: Sequence[Nodes], parts: Sequence[Sequence[Nodes]]) -> list[int]:
-        """Return friction by reactions; leave its power and the squares of jamming numbers."""
+        """Return the forces of drags; leave its power and the squares of jamming numbers."""
         g, drags = self.graph, self.equations.drags
         signed = [g.mul(drag.sign, drag.coefficient) for drag in drags]
         forces, doubtful = drag_forces(g, signed, alone, parts, self.brief)
@@ -99,7 +99,7 @@ class ScalarNodes(OfMass):
         return forces
 
     def settle_drags(self, multipliers: int, ends: Iterable[int]) -> None:
-        """Put friction by reactions in place of its unknowns in f, in the values of some operations.
+        """Put drags in place of its unknowns in f, in the values of some operations.
 
         Multipliers are linear in f: their derivatives are those of unit forces.
         """

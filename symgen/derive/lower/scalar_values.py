@@ -55,10 +55,10 @@ class NodeValues(Replay):
         self.v = tuple(g.input("v", i) for i in range(e.nv))
         self.flags: list[int] = []
         self.stored: dict[str, Outputs] = {}
-        #: Of friction by reactions: its power, the squares of its jamming numbers, and the multipliers of unknowns.
+        #: Of drags: their power, the squares of their jamming numbers, and the multipliers of unknowns.
         self.drag_power, self.jamming = self.graph.zero, list[int]()
         self.pressing: Nodes = ()
-        #: Whether friction by reactions is an unknown of f, one number an element.
+        #: Whether drags are unknowns of f, one number an element.
         self.pushing = False
 
     def following(self, operations: tuple[FormulaStep, ...]) -> Self:
@@ -84,7 +84,7 @@ class NodeValues(Replay):
         return self._forces() if name == "f" else quantities[name]
 
     def _forces(self) -> Nodes:
-        """Return f; where multipliers or this friction are unknowns, with friction by reactions."""
+        """Return f; where multipliers or drags are unknowns, with drags."""
         g, forces, pressed = self.graph, list(self.equations.forces), self._pressed_forces()
         if self.pushing:
             pressed = ((drag, g.input("drag", i)) for i, drag in enumerate(self.equations.drags))
@@ -94,14 +94,14 @@ class NodeValues(Replay):
         return tuple(forces)
 
     def _pressed_forces(self) -> Iterator[tuple[Drag, int]]:
-        """Yield friction by reactions of the unknown multipliers, as forces along the coordinates."""
+        """Yield drags by the unknown multipliers, as forces along the coordinates."""
         g = self.graph
         for drag in self.equations.drags if self.pressing else ():
             size = length(g, self.reaction(drag, self.pressing))
             yield drag, g.mul(drag.sign, g.mul(drag.coefficient, size))
 
     def reaction(self, drag: Drag, multipliers: Nodes) -> Nodes:
-        """Return the components of a reaction that friction depends on."""
+        """Return the components of a reaction that a drag depends on."""
         g = self.graph
         return tuple(g.total(g.mul(node, multipliers[row]) for row, node in line) for line in drag.pressed)
 

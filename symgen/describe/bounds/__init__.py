@@ -1,6 +1,6 @@
 """Rows whose force has bounds: dry friction, stops, and the smooth friction that stands in for it.
 
-In: tables `friction` and `stop` of joints.
-Out: frozen bounds of the mechanism's coordinates.
+In: keys of joints and sections of files, one file a kind in `kinds`.
+Out: frozen rows with their bounds, events, outputs and words (`symgen.describe.bounded`).
 Imports: msgspec; `parts`, `formulas`.
 """

@@ -24,6 +24,7 @@ from symgen.describe.drawing.joint_parts import DRIVE, turned_about
 from symgen.describe.drawing.pen import PLAIN, BodyPoint, Pen, across
 from symgen.describe.drawing.scene import GROUNDED, INK, Array, BodyFrame, Item, Line, Look, Mark, Poses
 from symgen.describe.mechanism import Force
+from symgen.describe.parts.kinds import FORCES
 
 PUSH = Look("#a0522d", "", 1.8)
 COIL = Look(INK, "", 1.2)
@@ -43,7 +44,7 @@ def force_item(pen: Pen, force: Force) -> Item:
         marks = [pen.stretch(_kind(pen, force), a, b, COIL), pen.dot(a, 0.2), pen.dot(b, 0.2)]
     elif force.kind == "bushing":
         marks = [pen.dot(place, 0.9, Look(INK, "#9aa7b5", 1.0, 0.4)) for place in numbers.markers(force)[:1]]
-    elif force.kind == "friction":  # its joint is drawn
+    elif force.kind not in FORCES:  # of a row with bounds, whose joint is drawn
         marks = []
     elif turned and force.kind in ("torsional-spring-damper", "torque"):
         marks = _turning(pen, force)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import msgspec
 
+from symgen.describe.bounds.modes import families_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.describe.tables import Table
@@ -51,10 +52,8 @@ def canonical(mechanism: Mechanism) -> str:
         parts.append(["rotors", [_text(rotor) for rotor in mechanism.rotors]])
     if mechanism.switchable:
         parts.append(["switchable", sorted(mechanism.switchable)])
-    if mechanism.frictions:
-        parts.append(["frictions", [_text(friction) for friction in mechanism.frictions]])
-    if mechanism.stops:
-        parts.append(["stops", [_text(stop) for stop in mechanism.stops]])
+    for family, rows in families_of(mechanism).items():
+        parts.append([family.part, [_text(row) for row in rows]])
     if mechanism.topology is not None:
         parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
@@ -75,9 +74,10 @@ def identity(mechanism: Mechanism) -> str:
     """
     import hashlib
 
-    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"")
+    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"", bounded=())
     # the text of structs, which older folders of sweeps and journals were named by
-    text = msgspec.Struct.__repr__(plain)
+    text = msgspec.Struct.__repr__(plain).replace(", bounded=()", "").removesuffix(")")
+    text += "".join(f", {family.part}={rows!r}" for family, rows in families_of(mechanism).items()) + ")"
     for absent in (
         ", shapes=()",
         ", input_formulas=()",
@@ -85,11 +85,9 @@ def identity(mechanism: Mechanism) -> str:
         ", rotors=()",
         ", beams=b''",
         ", switchable=()",
-        ", frictions=()",
         ", pressed=()",
         ", across=()",
         ", speed=None",
-        ", stops=()",
         ", shown=''",
     ):
         text = text.replace(absent, "")

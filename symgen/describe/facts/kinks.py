@@ -30,6 +30,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.functions import ELEMENTARY
 from symgen.base.vocabulary.measures import Effort, FormulaMeasure, FormulaSpeed, Holonomic
+from symgen.describe.bounds.modes import one_sided, two_sided
 from symgen.describe.formulas.readings import integrated
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.parts.inputs import MOST_KNOTS, Jump, compared, replaced
@@ -64,12 +65,12 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     whatever their pieces are: of a cubic one the third derivative jumps. Where comparisons and `sign` are passed,
     formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
     """
-    return _jumps_in(mechanism, (*integrated(mechanism), mechanism.frictions, tuple(e.when for e in events)))
+    return _jumps_in(mechanism, (*integrated(mechanism), two_sided(mechanism), tuple(e.when for e in events)))
 
 
 def jumps_of_gaps(mechanism: Mechanism) -> tuple[Jump, ...]:
-    """Return the jumps and kinks in time of the gaps of stops, whose rates jump there."""
-    return sum(_jumps_in(mechanism, (mechanism.stops,)), ())
+    """Return the jumps and kinks in time of the gaps of one-sided rows, whose rates jump there."""
+    return sum(_jumps_in(mechanism, (one_sided(mechanism),)), ())
 
 
 def _jumps_in(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Jump, ...], tuple[Jump, ...]]:
@@ -95,7 +96,7 @@ def changes_in_time(mechanism: Mechanism) -> bool:
 
 
 def _tables(mechanism: Mechanism) -> dict[str, Table]:
-    """Return the tables at whose points runs stop."""
+    """Return the tables at whose points runs halt."""
     return {table.name: table for table in mechanism.tables if len(table.x) <= MOST_KNOTS}
 
 

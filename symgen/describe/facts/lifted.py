@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.bounds.keys import sections_of_files
 from symgen.describe.files.origins import Origin, origin_of
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.names import LONGEST
@@ -18,7 +19,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.key_units import unit_of_key
 
 #: Sections whose numbers have paths; those of parameters, inputs and starts have names.
-SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", "stops")
+SECTIONS = ("mechanism", "bodies", "beams", "joints", "forces", "states", *sections_of_files())
 #: Keys and indices from the file to a number.
 Path = tuple[str | int, ...]
 

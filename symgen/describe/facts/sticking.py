@@ -1,10 +1,12 @@
-"""What to write in place of formulas that jump with the state: the key ``friction`` where they read a velocity."""
+"""What to write in place of formulas that jump with the state: a key of joints where they read a velocity."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, names_in, readings
+from symgen.describe.bounds.advice import advice, advice_at_large
+from symgen.describe.bounds.modes import two_sided
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Joint, Mechanism
@@ -15,7 +17,7 @@ _SMOOTH = "a steep smooth one in its place, such as tanh(v/1e-3), has motions th
 def advice_on_jumps(mechanism: Mechanism) -> str:
     """Return what to write in place of formulas of the state that jump; empty without such formulas.
 
-    Friction by the sign of a velocity leads to the key ``friction`` of the joint that reports the coordinate of this
+    An effort by the sign of a velocity leads to the key of the joint that reports the coordinate of this
     velocity, or else of a joint that moves with it.
     """
     jumping = [x.argument for x in discontinuities_of(mechanism) if x.jumps]
@@ -27,11 +29,8 @@ def advice_on_jumps(mechanism: Mechanism) -> str:
         for read in alone:
             for joint, label in _coordinates(mechanism):
                 if of_velocity(joint, label, read):
-                    return _key(joint, label, read.name)
-    return (
-        "dry friction that sticks is the key friction of a joint with that coordinate, in place of the sign of "
-        f"{to_text(velocities[0][0])}: 'friction = {{ sliding = BOUND }}', BOUND in N or N m"
-    )
+                    return advice(joint, label, read.name)
+    return advice_at_large(to_text(velocities[0][0]))
 
 
 def _velocity(mechanism: Mechanism, argument: Expr) -> tuple[Expr, Reading | Name] | None:
@@ -51,8 +50,8 @@ def _is_alone(argument: Expr) -> bool:
 
 
 def _coordinates(mechanism: Mechanism) -> Iterator[tuple[Joint, str]]:
-    """Yield joints and their coordinates that may have friction and have none."""
-    rough = {friction.joint for friction in mechanism.frictions}
+    """Yield joints and their coordinates that may have a row with two bounds and have none."""
+    rough = {row.owner for row in two_sided(mechanism)}
     for joint in mechanism.joints:
         if joint.kind != "driver" and joint.name not in rough:
             yield from ((joint, label) for label, _ in joint.coordinates)
@@ -67,13 +66,3 @@ def _turns_or_slides(joint: Joint, label: str, read: Reading | Name) -> bool:
     """Return whether a velocity is one of a body of a joint, angular or not as its coordinate is."""
     body, _, speed = read.name.partition(".")
     return body in joint.bodies and (joint.unit(label) == "rad") == speed.rpartition(".")[2].startswith(("omega", "w"))
-
-
-def _key(joint: Joint, label: str, text: str) -> str:
-    """Return the sentence on the key of a joint."""
-    key = "friction" if len(joint.coordinates) == 1 else f"friction.{label}"
-    unit = "N m" if joint.unit(label) == "rad" else "N"
-    return (
-        f"for dry friction, which sticks, write '{key} = {{ sliding = BOUND }}' in [joints.{joint.name}], BOUND in "
-        f"{unit}, in place of the formula with the sign of {text}"
-    )

@@ -19,9 +19,9 @@ from symgen.describe.files.builder_keys import (
     RunKeys,
     TableKeys,
 )
+from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.sections import NAMED, SECTIONS
 
 
 class MechanismBuilder:

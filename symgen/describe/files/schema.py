@@ -9,9 +9,8 @@ from typing import Any
 import msgspec
 
 from symgen.describe.beams.beam_sections import BeamSection
-from symgen.describe.bounds.stops import GapSection
+from symgen.describe.bounds.keys import keys_of_any_joint, sections_of_files
 from symgen.describe.parts.events import EventSection
-from symgen.describe.parts.fields import OF_ANY_JOINT
 from symgen.describe.parts.kinds import FORCES, JOINTS
 from symgen.describe.parts.sections import (
     BodySection,
@@ -48,10 +47,10 @@ def schema() -> dict[str, Any]:
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
             "beams": _named(_table(BeamSection)),
-            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, **OF_ANY_JOINT)}),
+            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, **keys_of_any_joint())}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
-            "stops": _named(_table(GapSection)),
+            **{section: _named(_table(kind.table)) for section, kind in sections_of_files().items()},
             "events": _named(_table(EventSection)),
         },
     }

@@ -13,18 +13,19 @@ from symgen.base.memory import uncollected
 from symgen.base.units import unit_of
 from symgen.base.vocabulary.expressions import ONE, call
 from symgen.base.vocabulary.measures import GROUND, Marker
-from symgen.describe.bounds.friction import check_frictions, read_friction, with_friction_outputs
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.checks import check_bounds
+from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint, sections_of_files
 from symgen.describe.bounds.losses import losses
-from symgen.describe.bounds.smooth_friction import with_smooth_friction
-from symgen.describe.bounds.stops import check_stops, read_gap, read_limits, with_stop_outputs
+from symgen.describe.bounds.modes import with_bounded_outputs
+from symgen.describe.bounds.smooth import with_smooth
 from symgen.describe.files.origins import errors_in, keep_origin
+from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
-    EndStop,
     Force,
-    Friction,
     Hold,
     Joint,
     Mechanism,
@@ -40,7 +41,6 @@ from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.columns import check_columns
 from symgen.describe.parts.events import read_event
 from symgen.describe.parts.fields import (
-    OF_ANY_JOINT,
     Flag,
     JointStart,
     OutputFunction,
@@ -56,8 +56,6 @@ from symgen.describe.parts.own_units import check_single
 from symgen.describe.parts.parameters import Parameters
 from symgen.describe.parts.scope import Context, Scope
 from symgen.describe.parts.sections import (
-    NAMED,
-    SECTIONS,
     MechanismSection,
     OutputSection,
     StateSection,
@@ -116,8 +114,8 @@ class _Validator:
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
-        self._frictions: dict[str, tuple[Friction, ...]] = {}
-        self._limits: dict[str, tuple[EndStop, ...]] = {}
+        self._bounded: dict[str, tuple[BoundedRow, ...]] = {}  # rows with bounds of joints
+        self._keys = tuple(keys_of_any_joint())
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
 
@@ -189,12 +187,8 @@ class _Validator:
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         holds, shapes = self.holds_and_shapes(bodies)
         holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
-        frictions = [friction for joint in joints for friction in self._frictions.get(joint.name, ())]
-        stops = (
-            *(stop for joint in joints for stop in self._limits.get(joint.name, ())),
-            *self.each("stops", lambda name, value: read_gap(self.scope("stops", name), value)),
-        )
-        self.context = msgspec.structs.replace(self.context, losses=losses((*frictions, *stops)))
+        bounded = self.bounded(joints)
+        self.context = msgspec.structs.replace(self.context, losses=losses(bounded))
         defaults = self.defaults(line(head.source))
         states = self.each("states", self.state)
         outputs = self.each("outputs", self.output)
@@ -212,8 +206,7 @@ class _Validator:
             forces=forces,
             defaults=defaults,
             rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
-            frictions=tuple(friction for friction in frictions if friction.speed is None),
-            stops=stops,
+            bounded=tuple(row for row in bounded if not row.smooth),
             states=states,
             outputs=outputs,
             seats=tuple(self._seats.items()),
@@ -224,11 +217,9 @@ class _Validator:
             events=events,
         )
         with self.errors.apart():
-            smooth = [friction for friction in frictions if friction.speed is not None]
-            mechanism = with_smooth_friction(with_stop_outputs(with_friction_outputs(mechanism)), smooth)
+            mechanism = with_smooth(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
             check_columns(mechanism, self.source)
-            check_frictions(mechanism, self.source)
-            check_stops(mechanism, self.source)
+            check_bounds(mechanism, self.source)
             holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
 
@@ -255,10 +246,17 @@ class _Validator:
             if right:
                 yield name, value
 
+    def bounded(self, joints: Sequence[Joint]) -> tuple[BoundedRow, ...]:
+        """Return the rows with bounds, those whose force has two bounds first."""
+        rows = [row for joint in joints for row in self._bounded.get(joint.name, ())]
+        for section, kind in sections_of_files().items():
+            rows += self.each(section, lambda name, value: kind.read(self.scope(section, name), value))  # noqa: B023
+        return tuple(sorted(rows, key=lambda row: row.one_sided))
+
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
         for group in (
-            ("bodies", "beams", "joints", "forces", "stops"),
+            ("bodies", "beams", "joints", "forces", *sections_of_files()),
             ("parameters", "inputs", "states", "tables"),
             ("states", "outputs"),
         ):
@@ -381,11 +379,11 @@ class _Validator:
     def read_joint(self, name: str) -> Joint:
         """Return the joint `name`, and note what else its table says."""
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type", *OF_ANY_JOINT)
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", *self._keys)
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.context, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read_table(struct, table, self.where(path), ("type", *OF_ANY_JOINT))
+        section = read_table(struct, table, self.where(path), ("type", *self._keys))
         joint = section.build(scope)
         scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
         at = getattr(section, "at", None)
@@ -401,12 +399,9 @@ class _Validator:
                 raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
             self._cuts.append(name)
         self.rotor(scope, joint, self.raw["joints"][name])
-        if "friction" in self.raw["joints"][name]:
-            self._frictions[name] = read_friction(scope, joint, self.raw["joints"][name]["friction"])
-            if any(friction.pressed for friction in self._frictions[name]) and name not in self._cuts:
-                self._cuts.append(name)  # its reaction is a multiplier
-        if "stop" in self.raw["joints"][name]:
-            self._limits[name] = read_limits(scope, joint, self.raw["joints"][name]["stop"])
+        self._bounded[name] = tuple(rows_of_joint(scope, joint, self.raw["joints"][name]))
+        if any(row.pressed for row in self._bounded[name]) and name not in self._cuts:
+            self._cuts.append(name)  # its reaction is a multiplier
         return joint
 
     def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:

@@ -14,7 +14,7 @@
 | ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
 | ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
-| ``pin.dissipated``, ``pin.lower.dissipated`` | energy lost in dry friction, and at a stop | outputs |
+| ``pin.dissipated``, ``pin.lower.dissipated`` | energy that a row with bounds takes | outputs |
 
 `symgen.describe.formulas.readings` makes columns of results from the same table.
 """
@@ -217,7 +217,7 @@ class Readings:
         return self._context.losses if self._order == OUTPUT else {}
 
     def owners(self) -> Iterator[str]:
-        """Yield the names of all bodies, joints, forces and stops with readings."""
+        """Yield the names of all bodies, joints, forces and rows with bounds that have readings."""
         yield from self._context.bodies
         yield from self._context.joint_names
         yield from self._context.forces

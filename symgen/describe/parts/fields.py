@@ -106,14 +106,6 @@ Held = Annotated[
 JointStart = Annotated[
     dict[str, float | str], Meta(description="a table of the joint's coordinates at the start, such as { angle = 0.5 }")
 ]
-FrictionTable = Annotated[
-    dict[str, float | str | dict[str, float | str]],
-    Meta(description="a table of bounds such as { sliding = 4.0 }, or one for each coordinate"),
-]
-StopTable = Annotated[
-    dict[str, float | str | dict[str, float | str]],
-    Meta(description="a table of limits such as { lower = -1.0, upper = 2.0 }, or one for each coordinate"),
-]
 Condition = Annotated[
     str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
 ]
@@ -135,11 +127,9 @@ Scalars = Annotated[
 BodyNames = Annotated[tuple[str, ...], Meta(description="names of bodies", min_length=1)]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
-#: Keys, with their types, that joints of any kind may have besides their own.
+#: Keys, with their types, that joints of any kind may have besides their own and those of rows with bounds.
 OF_ANY_JOINT: Mapping[str, Any] = {
     **{"start": JointStart, "cut": Flag, "rotor_inertia": Scalar, "gear_ratio": Scalar},
-    "friction": FrictionTable,
-    "stop": StopTable,
 }
 
 T = TypeVar("T")

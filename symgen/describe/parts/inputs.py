@@ -156,14 +156,14 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
     if not changed:
         return DrivenMechanism(mechanism, numbers, samples, curves, (), words, mechanism)
     parts = {part: put(getattr(with_tables, part), changed) for part in _READING}
-    parts["stops"] = put(with_tables.stops, formulas)  # what jumps in them is found there
+    parts["bounded"] = put(with_tables.bounded, formulas)  # what jumps in them is found there
     parameters, put_in = (*with_tables.parameters, *switches), tuple(changed.items())
     whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, input_formulas=put_in)
     return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), words, with_tables)
 
 
 def _check_gaps(mechanism: Mechanism, samples: Mapping[str, Data], formulas: Mapping[str, Expr]) -> None:
-    """Refuse inputs by which gaps of stops would jump, or depend on more than the time.
+    """Refuse inputs by which gaps would jump, or depend on more than the time.
 
     Raises
     ------
@@ -180,12 +180,12 @@ def _check_gaps(mechanism: Mechanism, samples: Mapping[str, Data], formulas: Map
             raise InputError(f"input '{name}'", expected, "a formula of the state", hint)
 
 
-def inputs_of_gaps(mechanism: Mechanism) -> set[str]:
-    """Return the inputs that gaps of stops read."""
-    found = set[str]()
-    for stop in mechanism.stops:
-        if isinstance(stop.measure, FormulaMeasure):
-            found |= {*names_in(stop.measure.of)} & {*mechanism.inputs}
+def inputs_of_gaps(mechanism: Mechanism) -> dict[str, str]:
+    """Return the inputs that gaps read, each with what such a row is."""
+    found = dict[str, str]()
+    for row in mechanism.bounded:
+        if isinstance(row.measure, FormulaMeasure):
+            found |= {name: row.family.one for name in names_in(row.measure.of) if name in mechanism.inputs}
     return found
 
 
@@ -273,7 +273,7 @@ class _Switching:
         return self.switches[e]
 
 
-#: Maximum number of points of a table at which a run stops; a longer one is evaluated as it is.
+#: Maximum number of points of a table at which a run halts; a longer one is evaluated as it is.
 MOST_KNOTS = 100_000
 
 

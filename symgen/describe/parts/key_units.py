@@ -66,20 +66,21 @@ def quantity_of(path: str, key: str, kind: str, coordinates: Mapping[str, str]) 
     Parameters
     ----------
     path, key : str
-        The table, such as ``joints.knee``, and the key in it, such as ``friction.angle.sliding``.
+        The table, such as ``joints.knee``, and the key in it, such as ``start.angle.rate``.
     kind : str
         Type of a joint or force.
     coordinates : mapping of str to str
         Coordinates of the joint with their units, where the table is one of a joint that has been resolved.
     """
     section, parts = path.partition(".")[0], re.sub(r"\[\d+\]", "", key).split(".")
-    if section == "joints" and parts[0] in ("friction", "stop", "start") and coordinates:
+    inner = len(parts) > 1 and parts[-1] in _ALONG  # of a row with bounds
+    if section == "joints" and (parts[0] == "start" or inner) and coordinates:
         return _along(parts, coordinates)
     if section in _FURTHER and parts[-1] in _FURTHER[section] and (section == "beams" or parts[0] not in _OF_BODIES):
         return _FURTHER[section][parts[-1]]
     if section == "states" and key == "start":
         return next(iter(coordinates.values()), "")
-    if section == "stops" and key == "restitution":
+    if key == "restitution":
         return "1"
     return unit_of_key(section, parts[0], kind)
 

@@ -44,7 +44,7 @@ class Context(msgspec.Struct, frozen=True, dict=True):
     forces: Mapping[str, Force] = {}  # empty while forces are resolved
     inputs: tuple[str, ...] = ()
     state_names: tuple[str, ...] = ()
-    losses: Mapping[str, Reading] = {}  # energy lost in dry friction and at stops, which outputs may read
+    losses: Mapping[str, Reading] = {}  # energy lost at rows with bounds, which outputs may read
 
     @classmethod
     def of(cls, mechanism: Mechanism, source: str = "") -> Context:

@@ -314,21 +314,3 @@ class SpatialBodySection(AnyBodySection, frozen=True, kw_only=True, forbid_unkno
     inertia_axes: OrientationSection | None = None
     orientation: OrientationSection | None = None
     angular_velocity: Vector | None = None
-
-
-#: Sections whose entries are named tables -> name of one entry.
-NAMED = {
-    "parameters": "parameter",
-    "inputs": "input",
-    "tables": "table",
-    "bodies": "body",
-    "beams": "beam",
-    "joints": "joint",
-    "forces": "force",
-    "states": "state",
-    "stops": "stop",
-    "outputs": "output",
-    "events": "event",
-}
-#: All sections of a file.
-SECTIONS = ("mechanism", "run", *NAMED)

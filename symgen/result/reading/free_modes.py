@@ -1,4 +1,4 @@
-"""Numbers of rows that may be off where no row with bounds is in force: friction slides, and stops are open."""
+"""Numbers of rows that may be off where no row with bounds is in force."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 
-from symgen.describe.bounds.friction import number_of
+from symgen.describe.bounds.modes import coordinate_of, number_of, two_sided
 
 if TYPE_CHECKING:
     from symgen.result.reading.symbolic_equations import SymbolicEquations
@@ -24,7 +24,7 @@ def free_modes(equations: SymbolicEquations, libraries: Sequence[Any]) -> Callab
     libraries : sequence
         As `sympy.lambdify` takes them.
     """
-    rates = _rates_of_friction(equations)
+    rates = _rates_in_motion(equations)
     in_force = _held_by_joints(equations)
     still = [float(name in in_force) for name in equations.modes]
     if not rates:
@@ -46,12 +46,10 @@ def _held_by_joints(equations: SymbolicEquations) -> set[str]:
     return {f"{row.name}.held" for row in equations.derived.rows if row.held is not None and not row.bounded}
 
 
-def _rates_of_friction(equations: SymbolicEquations) -> Mapping[str, Any]:
-    """Return the rates of coordinates with dry friction, by the names of the numbers with their signs."""
+def _rates_in_motion(equations: SymbolicEquations) -> Mapping[str, Any]:
+    """Return the rates of coordinates along rows with two bounds, by the names of the numbers with their signs."""
     mechanism = equations.mechanism
-    rates = dict[str, Any]()
-    for friction in mechanism.frictions:
-        joint = mechanism.joint_named(friction.joint)
-        name = next(f"{joint.name}.{label}" for label, measure in joint.coordinates if measure == friction.measure)
-        rates[number_of(friction, "sign").name] = equations.joint_rates[name]
-    return rates
+    return {
+        number_of(row, "sign").name: equations.joint_rates[coordinate_of(mechanism, row)]
+        for row in two_sided(mechanism)
+    }

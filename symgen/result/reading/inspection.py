@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -16,9 +15,10 @@ from symgen.base.files import check_path, write_whole
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.looped.instances import instances
 from symgen.derive.lower.model import lower_model
+from symgen.describe.bounds.keys import lines_of_rows
+from symgen.describe.bounds.modes import families_of, unit_of_effort
 from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Parameter
 from symgen.describe.parts.topology import state_names
 from symgen.result.player.motion_page import PAGES
@@ -37,6 +37,7 @@ from symgen.run.planning.prepare import Prepared, prepare
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.derive.formulate.equations import Equations
+    from symgen.describe.bounded import BoundedRow
     from symgen.describe.mechanism import Mechanism, Topology
 
 
@@ -191,8 +192,7 @@ def equation_facts(whole: Mechanism, settings: Settings, with_method: bool) -> d
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
-        **({"friction": _frictions(mechanism, jamming_numbers(run))} if mechanism.frictions else {}),
-        **({"stops": _stops(mechanism)} if mechanism.stops else {}),
+        **_bounded(run, mechanism),
         "dropped_rows": list(equations.dropped_rows),
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
@@ -335,33 +335,19 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
     }
 
 
-def _frictions(mechanism: Mechanism, jamming: Mapping[str, float]) -> list[dict[str, Any]]:
-    """Return the dry friction of a mechanism: rows with bounds."""
-    return [
-        {
-            "name": x.name,
-            "row": x.row,
-            "unit": f"N{' m' if x.unit == 'rad' else ''}",
-            "reaction": list(x.pressed),
-            "jamming_number": jamming.get(x.name),
-            **{key: to_text(getattr(x, key)) for key in ("static", "sliding", "viscous")},
-            "stribeck_speed": None if x.stribeck_speed is None else to_text(x.stribeck_speed),
-        }
-        for x in mechanism.frictions
-    ]
+def _bounded(run: Prepared, mechanism: Mechanism) -> dict[str, list[dict[str, Any]]]:
+    """Return the rows with bounds of a mechanism by their families."""
+    jamming = jamming_numbers(run)
+    return {
+        family.fact: [_facts_of_row(row, jamming.get(row.name)) for row in rows]
+        for family, rows in families_of(mechanism).items()
+    }
 
 
-def _stops(mechanism: Mechanism) -> list[dict[str, Any]]:
-    """Return the stops of a mechanism: rows whose force only pushes."""
-    return [
-        {
-            "name": x.name,
-            "row": x.row,
-            "unit": "N m" if x.unit == "rad" else "N",
-            "restitution": to_text(x.restitution),
-        }
-        for x in mechanism.stops
-    ]
+def _facts_of_row(row: BoundedRow, jamming: float | None) -> dict[str, Any]:
+    """Return what is said of a row with bounds."""
+    reaction = {} if row.one_sided else {"reaction": list(row.pressed), "jamming_number": jamming}
+    return {"name": row.name, "row": row.row, "unit": unit_of_effort(row), **reaction, **row.facts()}
 
 
 def as_text(facts: dict[str, Any]) -> str:
@@ -393,16 +379,7 @@ def as_text(facts: dict[str, Any]) -> str:
         ]
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
-    for x in facts.get("friction", ()):
-        viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
-        stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
-        unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
-        at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
-        jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
-        lines.append(f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}{jam}")
-    for x in facts.get("stops", ()):
-        closed = f"row {x['row']} in force where it is closed, pushing [{x['unit']}]"
-        lines.append(f"stop {x['name']}: {closed}; restitution {x['restitution']}")
+    lines += lines_of_rows(facts)
     section("Coordinates q and velocities v")
     lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
     lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]

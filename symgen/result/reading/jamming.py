@@ -1,4 +1,4 @@
-"""Jamming numbers of dry friction by reactions at the start of a run."""
+"""Jamming numbers of efforts by reactions at the start of a run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def jamming_numbers(run: Prepared) -> dict[str, float]:
-    """Return the part of each reaction that its own friction brings about at the start, as if all joints moved.
+    """Return the part of each reaction that its own effort brings about at the start, as if all joints moved.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def jamming_numbers(run: Prepared) -> dict[str, float]:
     Returns
     -------
     dict of str to float
-        By the names of coordinates whose friction depends on a reaction; empty without any.
+        By the names of rows whose bounds depend on a reaction; empty without any.
     """
     compiled, start = run.compiled, run.start
     if JAMMING not in compiled.info.sections:
@@ -35,4 +35,4 @@ def jamming_numbers(run: Prepared) -> dict[str, float]:
     counters = np.zeros(len(COUNTERS), dtype=np.int64)
     rate_function(compiled)(start.t, start.y.copy(), start.p, w, counters, np.zeros_like(start.y))
     numbers = np.sqrt(compiled.section(w, JAMMING)).tolist()
-    return dict(zip((x.name for x in run.mechanism.frictions if x.pressed), numbers, strict=True))
+    return dict(zip((row.name for row in run.mechanism.bounded if row.pressed), numbers, strict=True))

@@ -60,15 +60,15 @@ class RowWords:
 
 
 def row_words(mechanism: Mechanism) -> dict[str, RowWords]:
-    """Return what each row holds, by the row's name; rows of friction and of stops are in force at times."""
+    """Return what each row holds, by the row's name; rows with bounds are in force at times."""
     writer = _Writer(mechanism)
     texts = {f"{joint.name}.{row.label}": writer.row(row) for joint in mechanism.joints for row in joint.rows}
-    for friction in mechanism.frictions:
-        words = f"while it sticks, {writer.noun(friction.measure)} does not change"
-        texts[friction.row] = RowWords(words, "")
-    for stop in mechanism.stops:
-        held = writer.holonomic(Holonomic("", stop.measure, stop.value))
-        texts[stop.row] = RowWords(f"while it is closed, {held.words}", held.vectors)
+    for bounded in mechanism.bounded:
+        if bounded.one_sided:
+            held = writer.holonomic(bounded.held)
+        else:
+            held = RowWords(writer.noun(bounded.measure), "")
+        texts[bounded.row] = RowWords(bounded.family.held.format(held.words), held.vectors)
     return texts
 
 

@@ -102,7 +102,7 @@ class SymbolicEquations:
     )
     states = _Lazy[Mapping[str, sp.Symbol]]("Symbols of the states of the file, by name.", lambda e: e._symbols("z"))
     modes = _Lazy[Mapping[str, sp.Symbol]](
-        "Symbols of the numbers of rows that may be off (dry friction, stops), by name: ``A.friction.sign`` is the "
+        "Symbols of the numbers of rows that may be off (those with bounds too), by name: ``ROW.sign`` is the "
         "sign of the rate in motion, 0 at rest; ``held`` is 1 where the row is in force.",
         lambda e: e._symbols("modes"),
     )
@@ -224,7 +224,7 @@ class SymbolicEquations:
         callable
             Takes the time [s] and sequences of q, v, `parameters`, `turned`, `states` and `modes`; gives what `names`
             say, a tuple where they are several. By default parameters have their values in the file, `turned` and
-            `states` are 0, dry friction slides in the direction of v, stops are open, and joints hold.
+            `states` are 0, rows with bounds are off, their signs those of the rates in v, and joints hold.
         """
         import numpy as np
 

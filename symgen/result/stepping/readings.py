@@ -20,6 +20,7 @@ from symgen.run.single.events import EventRecord, record_of
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity
     from symgen.result.result import Result
+    from symgen.result.stepping.derivatives import StepDerivatives, StepDirections
     from symgen.run.planning.prepare import Prepared
 
 # looked up at every step
@@ -45,6 +46,7 @@ class StepReadings:
         self._compiled, self._tree, self._restarts = prepared.compiled, prepared.tree, Restarts(prepared)
         self._free, self._hidden, self._version = free, hidden, 0
         self._loop = prepared.simulation()
+        self._directions: StepDirections | None = None
         state = self._loop.state
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._advance, self._history, self._shown = Advance(self._loop), History(self._loop), (-1.0, -1, -1)
@@ -137,6 +139,24 @@ class StepReadings:
             return meter()
 
         return values
+
+    def derivatives(self) -> StepDerivatives:
+        """Return the derivatives of the last step, with its scheme, constraints and corrections: A, B and C.
+
+        They are of the last call of `step`, or of its last part where Ctrl-C was listened for in between; `t` and `dt`
+        of the result say which.
+
+        Raises
+        ------
+        InputError
+            If no step was made, inputs jumped during it, or the scheme, the shape of the code or an event has none.
+        """
+        from symgen.result.stepping.derivatives import StepDirections
+
+        self._advance.recover()
+        if self._directions is None:
+            self._directions = StepDirections(self._prepared, self._loop)
+        return self._directions.last()
 
     @property
     def _prepared(self) -> Prepared:

@@ -20,7 +20,7 @@ from symgen.result.stepping.advance import Clock, Controller
 from symgen.result.stepping.readings import StepReadings
 from symgen.result.stepping.saved_state import Saved
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.stops import Foreseen, foreseen_in_run, merged, stops_of
+from symgen.run.breaks.seams import Foreseen, foreseen_in_run, merged, seams_of
 from symgen.run.layout import abi
 from symgen.run.single.changes import begin_with_step
 from symgen.run.single.events import EventRecord
@@ -70,7 +70,7 @@ class SteppedRun(StepReadings):
         self._changed = dict(plan.parameters)
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         self._clocks, self._calling = list[Clock](), False
-        self._jumps, self._driven = plan.inputs.stops, plan.inputs.driven
+        self._jumps, self._driven = plan.inputs.seams, plan.inputs.driven
         self._foreseen, self._horizon = self._breaks(), plan.spec.until
         self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
@@ -245,8 +245,11 @@ class SteppedRun(StepReadings):
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
             for name, value in values.items()
         }
-        if held := sorted(numbers.keys() & inputs_of_gaps(self._mechanism)):
-            raise InputError(f"set: '{held[0]}'", "an input that moves no stop", f"'{held[0]}', which a gap reads")
+        of_gaps = inputs_of_gaps(self._mechanism)
+        if held := sorted(numbers.keys() & of_gaps):
+            raise InputError(
+                f"set: '{held[0]}'", f"an input that moves no {of_gaps[held[0]]}", f"'{held[0]}', which a gap reads"
+            )
         self._advance.recover()
         loop = self._loop
         if self._adaptive:
@@ -361,8 +364,8 @@ class SteppedRun(StepReadings):
         """Return the run's specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
-            self._jumps = stops_of(driven, values, spec.until)
-        return replace(spec, stops=merged(self._jumps, self._foreseen.stops(values, self._horizon)))
+            self._jumps = seams_of(driven, values, spec.until)
+        return replace(spec, seams=merged(self._jumps, self._foreseen.seams(values, self._horizon)))
 
     def _breaks(self) -> Foreseen:
         """Return the discontinuities of formulas at which steps end."""

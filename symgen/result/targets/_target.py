@@ -84,7 +84,7 @@ class Target:
     ending : str
         Suffix of the mechanism's name in the default path.
     bounded : bool
-        Whether its code may have dry friction and stops, whose modes are those that callers write.
+        Whether its code may have bounded rows, whose modes are those that callers write.
     """
 
     write: Callable[[Request], Package]

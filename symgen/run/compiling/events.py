@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.interpolation import Interpolation
 from symgen.base.vocabulary.expressions import ZERO, Expr
-from symgen.describe.bounds.friction import bound_in_motion, components, mode_events, rate_of
+from symgen.describe.bounds.by_reaction import components, held_by_reactions
 from symgen.describe.bounds.losses import places_of_losses
-from symgen.describe.bounds.stops import gap_of, stop_events
+from symgen.describe.bounds.modes import mode_events, one_sided, rate_of, two_sided
 from symgen.describe.facts.kinks import KINKS, Discontinuity, changes_in_time, changing_rows, discontinuities_of
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
@@ -48,7 +48,7 @@ def compile_events(
         In either, rows that change are examined there.
     """
     passed = tuple(x for x in discontinuities_of(mechanism) if rtol is not None or x.holds)
-    events = (*events, *mode_events(mechanism), *stop_events(mechanism))
+    events = (*events, *mode_events(mechanism))
     if not (events or passed):
         return None
     functions = [(f"{event.name}: {event.text}", event.when) for event in events]
@@ -72,29 +72,26 @@ def compile_events(
 
 def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows | None:
     """Return the rows whose forces have bounds, or None."""
-    every, frictions, stops = mechanism.bounded, mechanism.frictions, mechanism.stops
+    every, held, pushing = mechanism.bounded, two_sided(mechanism), one_sided(mechanism)
     if not every:
         return None
-    state: list[tuple[str, Expr]] = [(f.name, rate_of(f, 0)) for f in frictions]
-    state += [(f"gap of {s.name}", gap_of(s)) for s in stops]
-    state += [(f"rate of {x.name}", rate_of(x)) for x in every]
-    state += [(f"bound of {f.name} at rest", f.static) for f in frictions]
-    state += [(f"bound of {f.name} in motion", bound_in_motion(f)) for f in frictions]
-    state += [(f"restitution of {s.name}", s.restitution) for s in stops]
-    rates = [(f"second derivative of {x.name}", rate_of(x, 2)) for x in every]
-    pressed = tuple(i for i, f in enumerate(frictions) if f.pressed)
-    forces = list[tuple[str, Expr]]()
-    for i in pressed:
-        forces += zip(
-            (f"{frictions[i].name}, reaction {k}" for k in range(2)), (*components(frictions[i]), ZERO), strict=False
-        )
+    state = [row.place for row in every]
+    state += [(f"rate of {row.name}", rate_of(row)) for row in every]
+    state += [row.numbers[k] for k in range(2) for row in held]  # bounds at rest, then those in motion
+    state += [row.numbers[0] for row in pushing]
+    rates = [(f"second derivative of {row.name}", rate_of(row, 2)) for row in every]
+    pressed, forces = held_by_reactions(mechanism), list[tuple[str, Expr]]()
+    for row in pressed:
+        forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*components(row), ZERO), strict=False)
     return BoundedRows(
-        tuple(x.name for x in every),
-        len(frictions),
-        compile_side(mechanism, compiled, "friction", "Rows with bounds", state),
+        tuple(row.name for row in every),
+        tuple(row.family.one for row in every),
+        tuple(row.family.noun for row in every),
+        len(held),
+        compile_side(mechanism, compiled, "bounded", "Rows with bounds", state),
         compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),
-        compile_side(mechanism, compiled, "reactions", "Reactions at dry friction", forces) if pressed else None,
-        pressed,
+        compile_side(mechanism, compiled, "reactions", "Reactions at rows with bounds", forces) if pressed else None,
+        tuple(i for i, row in enumerate(every) if row.pressed),
         changes_in_time(mechanism),
         tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
     )

@@ -31,6 +31,8 @@ from symgen.compile.store.modules import load_module
 from symgen.compile.store.sources import CODE, reached_digest
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import families_of
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
@@ -118,11 +120,12 @@ def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) ->
     """
     if not mechanism.has_massless:
         return choice
-    if any(friction.pressed for friction in mechanism.frictions):
+    if pressed := held_by_reactions(mechanism):
         name = next(body.name for body in mechanism.bodies if body.massless)
-        expected = "a mass and moments of inertia above 0, as friction depends on the reaction of a joint"
-        hint = "'friction = { sliding = BOUND }' has a bound of its own"
-        raise InputError(f"bodies.{name}", expected, "one that is 0", hint)
+        expected = (
+            f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"
+        )
+        raise InputError(f"bodies.{name}", expected, "one that is 0", pressed[0].family.apart)
     if choice.method.needs_regular_mass(choice.options):
         raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
     return choice.with_options(solver="augmented") if free and "solver" in choice.options else choice
@@ -154,14 +157,13 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, rotors on joints dry friction or stops, or if rows may be off.
+        If the file has states of its own, rotors on joints or rows with bounds, or if rows may be off.
     """
     for what, some in (
         ("states of its own", mechanism.states),
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
-        ("dry friction", mechanism.frictions),
-        ("stops", mechanism.stops),
+        *((family.noun, rows) for family, rows in families_of(mechanism).items()),
     ):
         if some:
             raise InputError("shape", f"straight code where a file has {what}", "looped")

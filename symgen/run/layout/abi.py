@@ -74,7 +74,7 @@ N_COUNTERS = len(COUNTERS)
     ORDER,  # of the error estimate, plus one
     MARKED,  # attempts at `MARK`
     MASKED,  # rows left out because they always depend on others
-    PASSED,  # stops that have been passed
+    PASSED,  # seams that have been passed
 ) = range(20)
 N_CONTROL = 20
 #: Value of ``control[BEGUN]`` if the rates have changed at the present state: the scheme begins anew.

@@ -57,7 +57,7 @@ END, OUTPUTS, ENERGY_START = map(SUMMARY.index, ("end", "outputs", "energy_start
 
 #: Code of a run with an impossible reset, in addition to those of single runs (`symgen.run.layout.abi`).
 IMPOSSIBLE = 50
-#: Code of a run at a state at which modes of friction or stops are not determined.
+#: Code of a run at a state at which modes of bounded rows are not determined.
 NO_MODES = 51
 
 # -- after that row, if the run has events -----------------------------------------------------------------------------

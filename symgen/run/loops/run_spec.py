@@ -1,4 +1,4 @@
-"""Specification of a run for its loop: times, tolerances, limits, inputs between stops and switching functions."""
+"""Specification of a run for its loop: times, tolerances, limits, inputs between seams and switching functions."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ MAX_ATTEMPTS = 1e8
 
 
 @dataclass(frozen=True)
-class Stop:
-    """A time at which a step of a run ends, and the values of inputs from then on.
+class Seam:
+    """A seam of two pieces of a run: the time at which a step ends, and the values of inputs from then on.
 
     Attributes
     ----------
@@ -29,9 +29,9 @@ class Stop:
     values : mapping of str to float
         Inputs that change; at the first one all that vary.
     skips : bool
-        Whether a run goes on at the next stop, without a step between the two.
+        Whether a run goes on at the next seam, without a step between the two.
     strikes : bool
-        Whether rates of gaps jump there, so that closed end stops may strike.
+        Whether rates of gaps jump there, so that there may be impacts.
     """
 
     t: float
@@ -82,17 +82,19 @@ class ChangingRows(Protocol):
 
 @dataclass(frozen=True)
 class BoundedRows:
-    """Rows whose forces have bounds: of coordinates with dry friction, then of stops (`symgen.run.single.transitions`).
+    """Rows whose forces have bounds, two of them first, then one-sided ones (`symgen.run.single.transitions`).
 
     Attributes
     ----------
     names : tuple of str
         Their names.
+    kinds, nouns : tuple of str
+        What each is, and what all of its family are.
     dry : int
-        Number of coordinates with dry friction.
+        Number of those with two bounds.
     state, accelerations : callable
-        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, of friction bounds at rest and bounds at the
-        beginning of a motion, of stops restitutions; second derivatives of coordinates and gaps. Bounds by reactions
+        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
+        of a motion, of one-sided rows restitutions; second derivatives of coordinates and gaps. Bounds by reactions
         are over these.
     reactions : callable or None
         ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
@@ -101,10 +103,12 @@ class BoundedRows:
     changes : bool
         Whether anything but the motion and inputs changes over time.
     losses : tuple of int or None
-        Of each stop, the place in the state of the energy that it has taken; None where no output reads it.
+        Of each one-sided row, the place in the state of the energy that it has taken; None where no output reads it.
     """
 
     names: tuple[str, ...]
+    kinds: tuple[str, ...]
+    nouns: tuple[str, ...]
     dry: int
     state: RunFormulas
     accelerations: RunFormulas
@@ -196,7 +200,7 @@ class RunSpec:
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
         Time in which a motion that begins at rest is taken to cross the mechanism [s]; until `until` by default.
-    stops : tuple of Stop
+    seams : tuple of Seam
         Times at which inputs jump, and their values from then on; the first one has the values at the start.
     events : Watched or None
         Switching functions: events, and ends of adaptive steps.
@@ -220,7 +224,7 @@ class RunSpec:
     max_evaluations: int | None = None
     max_attempts: float = MAX_ATTEMPTS
     duration: float | None = None
-    stops: tuple[Stop, ...] = ()
+    seams: tuple[Seam, ...] = ()
     events: Watched | None = None
     in_place: str = ""
 

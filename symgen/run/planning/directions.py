@@ -64,7 +64,7 @@ def _named(run: Prepared, name: str) -> RunDirection:
     mechanism, (compiled, _) = run.plan.mechanism, run.assembled.of_bodies
     info, where = compiled.info, "sensitivities"
     parameters = {q.name: q.unit for q in info.parameters}
-    varying = {input for stop in run.plan.stops for input in stop.values}
+    varying = {input for seam in run.plan.seams for input in seam.values}
     if name in varying:
         raise InputError(where, "numbers that stay the same during the run", f"the input {quoted(name)}, which varies")
     if name in parameters:

@@ -10,8 +10,8 @@ from symgen.base.errors import InputError
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.describe.parts.inputs import DrivenMechanism, driven
-from symgen.run.breaks.stops import stops_of
-from symgen.run.loops.run_spec import Stop
+from symgen.run.breaks.seams import seams_of
+from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -27,7 +27,7 @@ class Inputs:
         With formulas and data in the places of inputs, and the largest step of the run.
     settings : Settings
         Without inputs; their values at the start are among the parameters.
-    stops : tuple of Stop
+    seams : tuple of Seam
         Parts of the run between jumps of inputs; empty where none jumps.
     words : mapping of str to str or float
         Each input as a text, or as its number.
@@ -37,7 +37,7 @@ class Inputs:
 
     mechanism: Mechanism
     settings: Settings
-    stops: tuple[Stop, ...]
+    seams: tuple[Seam, ...]
     words: Mapping[str, str | float]
     driven: DrivenMechanism | None = None
 
@@ -50,7 +50,7 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     mechanism, settings : Mechanism, Settings
         The description and the settings of a run.
     behind : float
-        Jumps are searched for this fraction of the run beyond its end, see `stops_of`.
+        Jumps are searched for this fraction of the run beyond its end, see `seams_of`.
 
     Raises
     ------
@@ -69,8 +69,8 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     parameters = {**settings.parameters, **sources.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
     values = parameter_values(sources.mechanism, parameters)
-    stops = stops_of(sources, values, until, behind=behind)
-    parameters |= stops[0].values if stops else {}
+    seams = seams_of(sources, values, until, behind=behind)
+    parameters |= seams[0].values if seams else {}
     # defaults of inputs may follow other parameters, so numbers are read from the values
     words = {name: x if isinstance(x, str) else values[name] for name, x in sources.descriptions.items()}
-    return Inputs(sources.mechanism, replace(settings, parameters=parameters, inputs={}), stops, words, sources)
+    return Inputs(sources.mechanism, replace(settings, parameters=parameters, inputs={}), seams, words, sources)

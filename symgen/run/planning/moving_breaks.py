@@ -1,7 +1,7 @@
 """Breaks in time that move with a number that a run is differentiated by.
 
 At a kink that moves, steps end on both sides: a stage at its very time would belong to neither. A jump that moves
-changes the motion by itself, which a run between two stops does not see: it is refused.
+changes the motion by itself, which a run between two seams does not see: it is refused.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.run.breaks.stops import beside, foreseen, times_between
+from symgen.run.breaks.seams import beside, foreseen, times_between
 
 if TYPE_CHECKING:
     from symgen.describe.parts.inputs import Jump
@@ -55,7 +55,7 @@ def with_moving_kinks(run: Prepared, start: StartDirections) -> Prepared:
     if not run.spec.adaptive:  # whose steps end on both sides of each anyway
         return run
     times = times_between(kinks, mechanism, values, until)[0]
-    return run.with_spec(stops=beside(run.spec.stops, times, until))
+    return run.with_spec(seams=beside(run.spec.seams, times, until))
 
 
 def _moving(jumps: Sequence[Jump], start: StartDirections) -> tuple[Jump, ...]:

@@ -23,6 +23,8 @@ from symgen.derive.emit.module import render
 from symgen.derive.lower.law import refuse_bounds
 from symgen.derive.lower.looped.law import is_loopable
 from symgen.derive.methods import METHODS
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.keys import nouns
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.events import DOES
 from symgen.run.breaks.motions import refuse_jumps
@@ -169,7 +171,7 @@ def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) 
     """Whether a method can be emitted for a mechanism in a shape and for a target."""
     if mechanism.bounded:
         try:
-            pressed = any(friction.pressed for friction in mechanism.frictions)
+            pressed = next((row.family.one for row in held_by_reactions(mechanism)), "")
             refuse_bounds(choice.method, choice.options, choice.implicit, pressed)
         except InputError:
             return False
@@ -195,7 +197,7 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
     if usual.solver_is_free and solver != usual.choice.options["solver"]:
         plans = [replace(p, choice=p.choice.with_options(solver=solver)) if p.solver_is_free else p for p in plans]
     if usual.mechanism.bounded:
-        return list(plans), None, "modes of dry friction and stops are chosen by who calls this code"
+        return list(plans), None, f"modes of {nouns()} are chosen by who calls this code"
     try:
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:

@@ -14,7 +14,7 @@ from symgen.base.errors import InputError, quoted
 from symgen.base.settings import Settings
 from symgen.derive.lower.windings import follows_places
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.facts.digest import digest
 from symgen.describe.facts.kinks import longest_step
 from symgen.describe.facts.lengths import longest_body
@@ -23,12 +23,12 @@ from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.events import RECORD, STOP, events_of, watched
 from symgen.describe.parts.holds import holds_of
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.stops import foreseen_in_run, merged
+from symgen.run.breaks.seams import foreseen_in_run, merged
 from symgen.run.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
 from symgen.run.compiling.pipeline import MethodChoice, for_masses
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import adapts
-from symgen.run.loops.run_spec import MAX_ATTEMPTS, RunSpec, Stop
+from symgen.run.loops.run_spec import MAX_ATTEMPTS, RunSpec, Seam
 from symgen.run.planning.automatic import usual_integrator
 from symgen.run.planning.options import split_options
 from symgen.run.planning.outputs import output_times
@@ -92,7 +92,7 @@ class Plan:
         Parameters of the method that differ from its defaults.
     spec : RunSpec
         Steps, tolerances, limits and outputs.
-    stops : tuple of Stop
+    seams : tuple of Seam
         Parts of the run between times at which steps end.
     warnings : tuple of str
         Warnings that hold for all values of parameters.
@@ -124,7 +124,7 @@ class Plan:
     integrator: Integrator
     method_parameters: Mapping[str, float]
     spec: RunSpec
-    stops: tuple[Stop, ...]
+    seams: tuple[Seam, ...]
     warnings: tuple[str, ...]
     missed: tuple[str, ...]
     notes: tuple[str, ...]
@@ -262,7 +262,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         integrator=integrator,
         method_parameters=method_parameters,
         spec=spec,
-        stops=merged(inputs.stops, times.stops(values, until)),
+        seams=merged(inputs.seams, times.seams(values, until)),
         warnings=tuple(warnings),
         missed=tuple(times.missed(values, until)),
         notes=notes,
@@ -341,7 +341,7 @@ def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
 
 
 def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
-    """Refuse events where runs do not look for them, dry friction and stops too; what is only recorded changes nothing.
+    """Refuse events where runs do not look for them, bounded rows too; what is only recorded changes nothing.
 
     Raises
     ------

@@ -330,7 +330,7 @@ def begin(plan: Plan, assembled: Assembled) -> Prepared:
     from symgen.run.compiling.events import compile_events
 
     rtol = plan.spec.rtol if plan.spec.adaptive else None
-    return run.with_spec(stops=plan.stops, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))
+    return run.with_spec(seams=plan.seams, events=compile_events(run.mechanism, run.compiled, plan.events, rtol))
 
 
 def noted(plan: Plan, assembled: Assembled) -> Assembled:

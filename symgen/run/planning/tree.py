@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.derive.lower.windings import winding_order
-from symgen.describe.bounds.friction import mode_events
-from symgen.describe.bounds.stops import stop_events
+from symgen.describe.bounds.modes import mode_events
 from symgen.describe.mechanism import Topology
 from symgen.describe.parts.topology import state_measures
 from symgen.run.compiling.carrying import carrying_of
@@ -166,7 +165,7 @@ class TreeRun:
     @cached_property
     def _watched(self) -> tuple[Event, ...]:
         """Events of the run, and of rows whose forces have bounds."""
-        return (*self.events, *mode_events(self.whole), *stop_events(self.whole))
+        return (*self.events, *mode_events(self.whole))
 
     def _effects_on_bodies(self) -> Effects:
         from symgen.run.compiling.events import effects_of

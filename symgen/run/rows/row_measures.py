@@ -11,7 +11,7 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import SPAN
 from symgen.run.layout.start_records import record_type
-from symgen.run.loops.stopping import STOPS, parameters_at, select_row
+from symgen.run.loops.seams import SEAMS, parameters_at, select_row
 
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
@@ -37,8 +37,8 @@ LEFT = record_type(
 )
 Left: Any = LEFT.constructor
 
-#: What changes the parameters of runs: `symgen.run.loops.stopping.Stops`, and ``prepare`` of model and law.
-CHANGING = types.RecordType((STOPS, SPAN, e.PREPARE, e.PREPARE))
+#: What changes the parameters of runs: `symgen.run.loops.seams.Seams`, and ``prepare`` of model and law.
+CHANGING = types.RecordType((SEAMS, SPAN, e.PREPARE, e.PREPARE))
 
 
 def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
@@ -71,18 +71,18 @@ def measure_each(model: Any, values: Any, at: int, entries: Any) -> int:
     entries : Array, shape (runs, times, entries)
         Written likewise; without runs where they are not requested.
     """
-    left, (stops, span, prepare, prepare_law), observe, geometry = model
+    left, (seams, span, prepare, prepare_law), observe, geometry = model
     times, selected, columns, first, places, ps, ws, y, rates, p = left
     for s in range(selected.shape[0]):
         r, passed = selected[s], 0
-        select_row(stops, r)
+        select_row(seams, r)
         for i in range(p.shape[0]):
             p[i] = ps[r, i]
         for k in range(times.shape[1]):
             reached = bring(columns, r, k, first, places, y, rates, ws[r])
             t = times[r if times.shape[0] > 1 else 0, k]
             if reached:
-                passed = parameters_at(stops, span, prepare, prepare_law, t, passed, p)
+                passed = parameters_at(seams, span, prepare, prepare_law, t, passed, p)
             if reached and values.shape[2] > 0:
                 observe(t, y, p, ws[r], rates, values[r, k])
             for i in range(0 if reached else values.shape[2]):

@@ -1,4 +1,4 @@
-"""Dry friction and stops in rows of a sweep: modes are chosen at starts and at their events, without Python.
+"""Bounded rows in runs of a sweep: modes are chosen at starts and at their events, without Python.
 
 These are the choice (`symgen.run.single.choice`) and the impacts of single runs, so that rows have their bits.
 """
@@ -16,7 +16,7 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.start_records import record_type
 from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import notes_at
-from symgen.run.loops.stopping import change, due, go_over, has_gap, has_struck, is_defined, same
+from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.watch import remember_rank
 from symgen.run.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
 from symgen.run.single.bounded_rows import CHOICE, DEEP, OTHERS, OUT_OF_RANGE, SAME, TOUCHING, put_off
@@ -25,9 +25,9 @@ from symgen.run.single.strikes import STRIKES, find_struck, forget_passed, gathe
 
 #: Rows with bounds of all runs, and working memory.
 #: - choice: See `symgen.run.single.bounded_rows`.
-#: - strikes, effects: Impacts of stops, and what other events change; they share working memory and past.
+#: - strikes, effects: Impacts at gaps, and what other events change; they share working memory and past.
 #: - choosing (shape (functions,)): 1 for functions at which modes are chosen.
-#: - breaks, stops, jams, leaves (shapes (functions,)): Row that breaks loose, whose rate becomes zero, whose friction
+#: - breaks, reverses, jams, leaves (shapes (functions,)): Row that breaks loose, whose rate becomes zero, whose effort
 #:   jams, or whose force becomes zero, at each function; else -1.
 OF_MODES = record_type(
     "OfModes",
@@ -35,18 +35,18 @@ OF_MODES = record_type(
     ("choice", CHOICE),
     ("strikes", STRIKES),
     ("effects", OF_EFFECTS),
-    ("choosing breaks stops jams leaves", types.int64[::1]),
+    ("choosing breaks reverses jams leaves", types.int64[::1]),
 )
 OfModes: Any = OF_MODES.constructor
 
 
-def meet_stops(t: float, modes: Any, state: Any) -> int:
-    """Return `DONE`: a run without stops has no impacts."""
+def meet_impacts(t: float, modes: Any, state: Any) -> int:
+    """Return `DONE`: a run without gaps has no impacts."""
     return int(abi.DONE)
 
 
-def strike_stops(t: float, modes: Any, state: Any) -> int:
-    """Apply the impact of stops that strike at the present state; return `DONE`, or `NO_MODES`."""
+def strike_gaps(t: float, modes: Any, state: Any) -> int:
+    """Apply the impact of gaps that strike at the present state; return `DONE`, or `NO_MODES`."""
     c, control = modes.choice, state.control
     code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
     if code == SAME:
@@ -74,13 +74,13 @@ def forget_modes(model: Any, state: Any) -> None:
         modes.strikes.series[i] = 0.0
 
 
-def gather_stops(t: float, modes: Any, state: Any) -> int:
-    """Return `SAME`: a run without stops has no impacts that accumulate."""
+def gather_impacts(t: float, modes: Any, state: Any) -> int:
+    """Return `SAME`: a run without gaps has no impacts that accumulate."""
     return SAME
 
 
-def rest_stops(t: float, modes: Any, state: Any) -> int:
-    """Bring stops to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
+def rest_gaps(t: float, modes: Any, state: Any) -> int:
+    """Bring gaps to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
     c = modes.choice
     code = gather(t, c, modes.strikes, state.y, state.p, state.w, state.iw, state.hunt)
     if code == OTHERS and read_rows(t, c, state.y, state.p, state.w) != SAME:
@@ -93,11 +93,11 @@ def chosen(model: Any, state: Any) -> int:
     """Choose modes at the present state; return `DONE`, or `NO_MODES`."""
     _, _, modes = model
     c, t = modes.choice, state.clock[abi.TIME]
-    if read_rows(t, c, state.y, state.p, state.w) != SAME or meet_stops(t, modes, state) != abi.DONE:
+    if read_rows(t, c, state.y, state.p, state.w) != SAME or meet_impacts(t, modes, state) != abi.DONE:
         return int(e.NO_MODES)
     if taken_modes(model, state) != abi.DONE:
         return int(e.NO_MODES)
-    code = gather_stops(t, modes, state)
+    code = gather_impacts(t, modes, state)
     if code == OTHERS:
         for i in range(c.count):
             c.broken[i] = c.stopped[i] = c.left[i] = 0
@@ -132,16 +132,16 @@ def begin_modes(model: Any, span: Any, state: Any) -> int:
     return int(chosen(model, state))
 
 
-def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
+def begin_modes_between_seams(model: Any, span: Any, state: Any) -> int:
     """Choose modes where a run begins, with the values of inputs there; return `DONE` or the code of an end."""
     system, _, _ = model
-    _, stops, _, prepare, prepare_law = system
-    stops = bare(stops)
+    _, seams, _, prepare, prepare_law = system
+    seams = bare(seams)
     control, p, changed = state.control, state.p, False
-    while due(stops, control[abi.PASSED]) - state.clock[abi.TIME] <= same(stops, span, state.clock[abi.TIME]):
-        changed = change(stops, control[abi.PASSED], p) or changed
-        if has_gap(stops, control[abi.PASSED]):
-            go_over(stops, control[abi.PASSED], state.clock)
+    while due(seams, control[abi.PASSED]) - state.clock[abi.TIME] <= same(seams, span, state.clock[abi.TIME]):
+        changed = change(seams, control[abi.PASSED], p) or changed
+        if has_gap(seams, control[abi.PASSED]):
+            go_over(seams, control[abi.PASSED], state.clock)
         control[abi.PASSED] += 1
     if changed:
         prepare(p)
@@ -154,11 +154,11 @@ def begin_modes_between_stops(model: Any, span: Any, state: Any) -> int:
 def choose_after_change(model: Any, span: Any, state: Any) -> int:
     """Choose modes where inputs have changed; return `CHANGED` to go on, or the code of an end."""
     system, _, modes = model
-    now, stops = state.clock[abi.TIME], bare(system[1])
-    if has_struck(stops, state.control[abi.PASSED] - 1):
+    now, seams = state.clock[abi.TIME], bare(system[1])
+    if has_struck(seams, state.control[abi.PASSED] - 1):
         put_off(modes.choice, state.w)
     code = begin_modes(model, span, state)
-    if code == abi.DONE and span.until - now > same(stops, span, now):
+    if code == abi.DONE and span.until - now > same(seams, span, now):
         code = int(abi.CHANGED)
     return code
 
@@ -170,7 +170,7 @@ def take_others(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
 
 
 def take_resets(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
-    """Write the events noted by a run to its row, and apply resets with no row in force: stops strike behind."""
+    """Write the events noted by a run to its row, and apply resets with no row in force: gaps strike behind."""
     system, observers, modes = model
     effects, c, hunt, t = modes.effects, modes.choice, state.hunt, state.clock[abi.TIME]
     width = observers[0].width
@@ -185,7 +185,7 @@ def take_resets(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
 
 @called
 def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
-    """Write the events noted by a run to its row, and choose modes where friction or a stop has one.
+    """Write the events noted by a run to its row, and choose modes where a bounded row has one.
 
     Parameters
     ----------
@@ -210,8 +210,8 @@ def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
             any_of_modes = any_of_modes or modes.choosing[k] != 0
             if modes.breaks[k] >= 0:
                 c.broken[modes.breaks[k]] = 1
-            if modes.stops[k] >= 0:
-                c.stopped[modes.stops[k]] = 1
+            if modes.reverses[k] >= 0:
+                c.stopped[modes.reverses[k]] = 1
             if modes.leaves[k] >= 0:
                 c.left[modes.leaves[k]] = 1
             jams = jams or modes.jams[k] >= 0

@@ -11,8 +11,8 @@ from symgen.compile.native import types
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SPAN, STATE
-from symgen.run.loops.stopping import STOPS
-from symgen.run.rows.rows import OBSERVERS, STOPPING, observe_outputs, take, take_row
+from symgen.run.loops.seams import SEAMS
+from symgen.run.rows.rows import OBSERVERS, SEAMED, observe_outputs, take, take_row
 
 
 def observe_left(model: Any, span: Any, chunk: Any, state: Any, series: Any, left: Any) -> int:
@@ -21,7 +21,7 @@ def observe_left(model: Any, span: Any, chunk: Any, state: Any, series: Any, lef
     Parameters
     ----------
     model : tuple
-        What changes parameters, in the places of `symgen.run.loops.stopping.with_table`, or 0; sizes and functions of
+        What changes parameters, in the places of `symgen.run.loops.seams.with_table`, or 0; sizes and functions of
         the observer.
     span, chunk, state, series
         As for `symgen.run.rows.rows.run_rows`, of the model that observes.
@@ -63,7 +63,7 @@ def observe_left(model: Any, span: Any, chunk: Any, state: Any, series: Any, lef
 
 
 _left = types.float64[:, :, ::1]
-_changing = types.RecordType((types.int64, STOPS, types.int64, e.PREPARE, e.PREPARE))
+_changing = types.RecordType((types.int64, SEAMS, types.int64, e.PREPARE, e.PREPARE))
 
 
 def _loop(name: str, system: Any, **meanings: Any) -> Any:
@@ -71,6 +71,6 @@ def _loop(name: str, system: Any, **meanings: Any) -> Any:
     return compiled_loop(__name__, name, observe_left, signature, **meanings)
 
 
-#: The loop over rows, compiled: without stops of parameters, and with them.
+#: The loop over rows, compiled: without seams of parameters, and with them.
 observe_rows_left = _loop("observe_rows_left", types.int64)
-observe_rows_between_stops = _loop("observe_rows_between_stops", _changing, **STOPPING)
+observe_rows_between_seams = _loop("observe_rows_between_seams", _changing, **SEAMED)

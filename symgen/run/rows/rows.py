@@ -19,7 +19,7 @@ from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed,
 from symgen.run.layout.redundancy import choose_rows
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.frame_parts import store
-from symgen.run.loops.stopping import parameters_at, select_row, with_stops
+from symgen.run.loops.seams import parameters_at, select_row, with_seams
 from symgen.run.loops.watch import iterations_in
 from symgen.run.rows.row_events import (
     OF_EFFECTS,
@@ -34,11 +34,11 @@ from symgen.run.rows.row_events import (
 from symgen.run.rows.row_modes import (
     OF_MODES,
     begin_modes,
-    begin_modes_between_stops,
+    begin_modes_between_seams,
     choose_after_change,
     forget_modes,
-    rest_stops,
-    strike_stops,
+    rest_gaps,
+    strike_gaps,
     take_modes,
     take_resets,
 )
@@ -78,7 +78,7 @@ def forget(model: Any, state: Any) -> None:
 
 
 def begin_choice(model: Any, span: Any, state: Any) -> int:
-    """Return `DONE`: a run without friction has no modes to choose."""
+    """Return `DONE`: a run without bounded rows has no modes to choose."""
     return int(abi.DONE)
 
 
@@ -194,11 +194,11 @@ def follow_rows(chunk: Any, state: Any, w: Any) -> int:
 
 
 def take_row(system: Any, r: int) -> None:
-    """Do nothing: no row has stops."""
+    """Do nothing: no row has seams."""
 
 
 def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
-    """Do nothing: the same parameters hold at all outputs of a run without stops."""
+    """Do nothing: the same parameters hold at all outputs of a run without seams."""
 
 
 def observe_outputs(
@@ -266,7 +266,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
         (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these,
-        where friction or stops have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
+        where bounded rows have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -328,22 +328,22 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     return int(chunk.selected.shape[0])
 
 
-# -- stops -------------------------------------------------------------------------------------------------------------
+# -- seams -------------------------------------------------------------------------------------------------------------
 
 
-def take_stops(system: Any, r: int) -> None:
-    """Select the stops of a row."""
+def take_seams(system: Any, r: int) -> None:
+    """Select the seams of a row."""
     select_row(system[1], r)
 
 
-def hold_between_stops(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
-    """Set the parameters to their values at output `k`, from the output before; at a stop, to the values before it."""
-    _, stops, _, prepare, prepare_law = system
+def hold_between_seams(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+    """Set the parameters to their values at output `k`, from the output before; at a seam, to the values before it."""
+    _, seams, _, prepare, prepare_law = system
     control, n_p = state.control, state.p.shape[0]
     if k == 0:
         control[abi.PASSED] = 0
         take(chunk.ps, r * n_p, n_p, state.p)
-    passed = parameters_at(stops, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
+    passed = parameters_at(seams, span, prepare, prepare_law, times[k], control[abi.PASSED], state.p)
     control[abi.PASSED] = passed
 
 
@@ -369,18 +369,18 @@ _MODES = {
     **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
     **{"store_after": store_after_effects},
 }
-_STRIKING = {"meet_stops": strike_stops, "gather_stops": rest_stops, "take_others": take_resets}
-_MODES_BETWEEN_STOPS = {"begin_choice": begin_modes_between_stops, "take_change": choose_after_change}
+_STRIKING = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "take_others": take_resets}
+_MODES_BETWEEN_SEAMS = {"begin_choice": begin_modes_between_seams, "take_change": choose_after_change}
 _PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
-STOPPING = {"take_row": take_stops, "hold": hold_between_stops}
+SEAMED = {"take_row": take_seams, "hold": hold_between_seams}
 _loops: dict[Any, Any] = {}
 
 
 def over_rows(
     loop: Any,
     events: bool = False,
-    stops: bool = False,
+    seams: bool = False,
     effects: bool = False,
     examined: bool = False,
     modes: bool = False,
@@ -392,16 +392,16 @@ def over_rows(
     ----------
     loop : compiled loop
         From `symgen.run.loops.frame.loop`.
-    events, stops, effects, examined, modes, pressed : bool
-        Whether rows have switching functions, stops of parameters, events that change a run, constraints that may jump,
-        dry friction or stops of a motion, and bounds of friction that depend on reactions.
+    events, seams, effects, examined, modes, pressed : bool
+        Whether rows have switching functions, seams of parameters, events that change a run, constraints that may jump,
+        bounded rows, and bounds that depend on reactions.
     """
-    key = loop, events, stops, effects, examined, modes, pressed
+    key = loop, events, seams, effects, examined, modes, pressed
     if key not in _loops:
-        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_stops" * stops
+        name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}" + "_with_events" * events + "_with_seams" * seams
         name += "_with_effects" * effects + "_examined" * examined + "_with_modes" * modes + "_pressed" * pressed
         inner = with_events(loop) if events else loop
-        inner = with_stops(inner) if stops else inner
+        inner = with_seams(inner) if seams else inner
         args = signature_of(inner).arguments
         further = [OF_MODES] if modes else [OF_EFFECTS] if effects else []
         model = types.RecordType((*args[:1], OBSERVERS, *further))
@@ -409,8 +409,8 @@ def over_rows(
         meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
         meanings |= (_MODES if modes else {}) | (_PRESSED if pressed else {})
         meanings |= _STRIKING if effects and modes else {}
-        meanings |= _MODES_BETWEEN_STOPS if modes and stops else {}
-        meanings |= (STOPPING if stops else {}) | (_EXAMINED if examined else {})
+        meanings |= _MODES_BETWEEN_SEAMS if modes and seams else {}
+        meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
         _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are
     return _loops[key]

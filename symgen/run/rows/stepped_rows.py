@@ -15,8 +15,8 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import OUTPUTS, SPAN, STATE
 from symgen.run.layout.start_records import record_type
+from symgen.run.loops.seams import is_defined
 from symgen.run.loops.step_control import part_of
-from symgen.run.loops.stopping import is_defined
 
 _A, _I = types.float64[::1], types.int64[::1]
 

@@ -60,7 +60,7 @@ def check_covered(compiled: CompiledModel, integrator: Integrator, spec: RunSpec
 
     if integrator.loop(spec.adaptive) not in (explicit.constant, explicit.adaptive):
         raise _refusal("an explicit Runge-Kutta scheme", f"'{integrator.name}'", "take dop853")
-    if spec.events is not None or spec.stops or start.saved is not None:
+    if spec.events is not None or spec.seams or start.saved is not None:
         raise _refusal("a run without events, jumps at known times, or a past", "one with some")
     law = compiled.law_module
     if not isinstance(law.rhs, EmittedFunction):

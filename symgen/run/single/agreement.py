@@ -1,4 +1,4 @@
-"""Modes where bounds of friction depend on reactions, compiled: both are found in turns, until they agree.
+"""Modes where bounds depend on reactions, compiled: both are found in turns, until they agree.
 
 Reactions at rest depend on the forces at rest, and their bounds on the reactions. One function of the loop language for
 single runs and rows of sweeps, beside that of `symgen.run.single.choice`.
@@ -51,7 +51,7 @@ _AGREED, _AGREEMENTS = 1e-14, 2000
 
 @exact(_N(CHOICE, _A))
 def find_redundant(c: Any, w: Any) -> int:
-    """Return the first row left out that is none of friction, -1 for none: it leaves reactions undetermined."""
+    """Return the first row left out that has no bounds, -1 for none: it leaves reactions undetermined."""
     for i in range(c.layout.m):
         if w[c.layout.mask + i] != 0.0 and c.place_of[i] < 0:
             return int(i)
@@ -102,9 +102,9 @@ def probe_row(t: float, c: Any, j: int, y: Any, p: Any, w: Any, iw: Any, control
 
 @exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
 def probe_reactions(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
-    """Set G among all rows, and the reactions without friction by reactions and by its forces.
+    """Set G among all rows, and the reactions without efforts by reactions and by their forces.
 
-    Returns `SAME`, `NOT_FINITE`, or `JAMMED` where friction alone would bring about all of its reaction.
+    Returns `SAME`, `NOT_FINITE`, or `JAMMED` where an effort alone would bring about all of its reaction.
     """
     k, n = c.count, c.at_rest[0]
     for i in range(k * k):
@@ -176,7 +176,7 @@ def follow_sizes(c: Any) -> bool:
 def agree_at_rest(c: Any) -> int:
     """Find the forces at rest with bounds that agree with them; set the signs of rows that they do not hold.
 
-    The bounds of friction by reactions become forces. Returns `SAME`, `NO_FORCES` or `DISAGREED`.
+    Bounds by reactions become forces. Returns `SAME`, `NO_FORCES` or `DISAGREED`.
     """
     k, n, box = c.count, c.at_rest[0], c.box
     for i in range(k):
@@ -253,7 +253,7 @@ def follow_reactions(c: Any, resting: int) -> int:
 
 @exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
 def choose_pressed(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
-    """Choose modes as `choose_modes` does, where bounds depend on reactions; there are no stops."""
+    """Choose modes as `choose_modes` does, where bounds depend on reactions; no row is one-sided."""
     c.named[0] = find_redundant(c, w)
     if c.named[0] >= 0:
         return REDUNDANT

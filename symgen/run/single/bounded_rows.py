@@ -39,31 +39,31 @@ LEAST_MASS = 1e-4
 FIRST = 1e-3
 #: Places of the numbers of a row.
 HELD, CONSTANT, SIGN, LIMIT, EFFORT = range(5)
-#: Constant of a row that is off and at rest with an effort of its own, of a stop 0. Where another row carries it, the
-#: constant is the number of that row, counted from 1.
+#: Constant of a row that is off and at rest with an effort of its own, of a one-sided row 0. Where another row carries
+#: it, the constant is the number of that row, counted from 1.
 AT_REST = -1.0
 #: Codes: the same modes; others; accelerations that are not finite; no forces found; forces that are not determined;
 #: bounds, gaps or restitutions that are undefined or out of range.
 SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
-#: Codes where bounds depend on reactions: friction that brings about all of its reaction; reactions that redundant rows
-#: leave undetermined; bounds and reactions that never agree; a force shared at rest beside what changes.
+#: Codes where bounds depend on reactions: efforts that bring about all of their reaction; reactions that redundant
+#: rows leave undetermined; bounds and reactions that never agree; a force shared at rest beside what changes.
 JAMMED, REDUNDANT, DISAGREED, SHARED = range(6, 10)
 #: Code of an impact that the joints do not allow.
 NOT_APPLIED = 10
 
-#: The rows with bounds of a run, k of them, and working memory; friction first, then stops.
+#: The rows with bounds of a run, k of them, and working memory; those with two bounds first.
 #: - reactions: Components of the reactions that bounds depend on, two each.
-#: - first, count, dry: Place in w of their first number, their number, and that of friction.
+#: - first, count, dry: Place in w of their first number, their number, and that of rows with two bounds.
 #: - changes: 1 where anything but the motion and inputs changes over time.
 #: - pushed, at_rest (shapes (1,)): A coordinate pushed by a probe, -1 for none; number of rows at rest.
 #: - step (shape (1,)): Step that laws assume before the first one [s].
 #: - angular (shape (k,)): 1 where the measure of a row is an angle.
 #: - place_of (shape (m,)): Number among these of each row, -1 for others.
 #: - broken, stopped, left (shapes (k,)): 1 for coordinates that have just broken loose, or whose rate has just become
-#:   zero; for stops whose force has.
+#:   zero; for one-sided rows whose force has.
 #: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
-#: - passing (shape (k,)): 1 for coordinates whose rate only passes zero, as no force within bounds stops them.
-#: - shut (shape (k,)): 1 for stops that are closed, whatever is left of their gaps, as rows are off behind a reset or
+#: - passing (shape (k,)): 1 for coordinates whose rate only passes zero, as no force within bounds holds them.
+#: - shut (shape (k,)): 1 for closed gaps, whatever is left of their gaps, as rows are off behind a reset or
 #:   an impact.
 #: - named (shape (k + 1,)): Rows whose forces are not determined, then -1; or the first row of another fault.
 #: - pressed (shape (k,)): 1 for coordinates whose bounds depend on reactions.
@@ -72,10 +72,10 @@ NOT_APPLIED = 10
 #: - signs, trial, offset, alone, forces (shapes (k,)): Signs of rates; those of a probe; accelerations without forces
 #:   at rest; by a force if no joints held the bodies; forces at rest.
 #: - scale (shape (k,)): Sizes of forces that rounding of a force at rest is relative to.
-#: - depth (shape (1,)): Largest depth behind an open stop, over the mechanism's length.
+#: - depth (shape (1,)): Largest depth behind an open gap, over the mechanism's length.
 #: - matrix, rest_of (shapes (k k,)): G, and what is left of it.
-#: - jam (shape (1,)): Part of a reaction that its own friction brings about.
-#: - apart, parts (shapes (2 k,), (2 k, k)): Reactions without friction by reactions, and by its forces.
+#: - jam (shape (1,)): Part of a reaction that its own effort brings about.
+#: - apart, parts (shapes (2 k,), (2 k, k)): Reactions without efforts by reactions, and by their forces.
 #: - sizes, bounds (shapes (k,), (2 k,)): Sizes of reactions; bounds at rest, then in motion, over these.
 #: - y, w, rate, out, iw: Of emitted functions.
 #: - room: Of the choice of independent rows.
@@ -164,13 +164,13 @@ def is_held(c: Any, w: Any, i: int) -> bool:
 
 @exact()
 def stays_shut(c: Any, w: Any, i: int) -> bool:
-    """Return whether a stop is closed by its mode, or was before a reset or an impact, whatever its gap is."""
+    """Return whether a gap is closed by its mode, or was before a reset or an impact, whatever its gap is."""
     return bool(is_held(c, w, i) or c.shut[i] != 0)
 
 
 @exact(_N(CHOICE, _A))
 def put_off(c: Any, w: Any) -> int:
-    """Take all rows out of force before a reset or an impact, and keep which stops are closed; return their number."""
+    """Take all rows out of force before a reset or an impact, and keep which gaps are closed; return their number."""
     closed = 0
     for i in range(c.count):
         c.shut[i] = 1 if i >= c.dry and stays_shut(c, w, i) else 0

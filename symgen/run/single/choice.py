@@ -190,9 +190,9 @@ def find_rest(c: Any, w: Any) -> int:
         c.forces[i] = 0.0
         c.taken[i] = 0
     for i in range(c.count):
-        at, stop = MODE_NUMBERS * i, i >= c.dry
+        at, pushes = MODE_NUMBERS * i, i >= c.dry
         still = abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
-        still = (still or is_held(c, w, i)) and not (stop and not is_shut(c, w, i))
+        still = (still or is_held(c, w, i)) and not (pushes and not is_shut(c, w, i))
         loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
         loose = (loose and c.stopped[i] == 0) or c.left[i] != 0
         owner = int(c.before[at + CONSTANT]) - 1
@@ -200,7 +200,7 @@ def find_rest(c: Any, w: Any) -> int:
             moves = c.broken[owner] + c.left[owner] != 0
             loose = loose or (moves and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
         c.loose[i] = 1 if loose else 0
-        c.signs[i] = 0.0 if still or stop else sign_of(c.speed[i])
+        c.signs[i] = 0.0 if still or pushes else sign_of(c.speed[i])
         if still:
             c.rest[n] = i
             n += 1
@@ -231,9 +231,9 @@ def solve_rest(c: Any, n: int, w: Any) -> int:
         for r in range(n):
             i = c.rest[r]
             bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
-            stop = i >= c.dry
-            box.bounds[r] = 0.0 if stop else bound
-            box.lower[r] = -bound if not stop else (0.0 if c.loose[i] != 0 else -math.inf)
+            pushes = i >= c.dry
+            box.bounds[r] = 0.0 if pushes else bound
+            box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
         if solve_box(n, box) != 0:
             return NO_FORCES
         again = False

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import compiled_form
-from symgen.describe.bounds.friction import JAM, REVERSE, SLIP
-from symgen.describe.bounds.stops import HIT, LEAVE
+from symgen.describe.bounds.modes import HIT, JAM, LEAVE, REVERSE, SLIP
 from symgen.describe.parts.events import RECORD, RESET, STOP
 from symgen.run.effects.accumulation import accumulation, add_resets, latest_events, new_past
 from symgen.run.effects.effects import Impact
@@ -100,7 +99,7 @@ class Happening:
     energy : float
         Energy added by the reset [J]; for resets at the same time, the first has the total.
     left : float or None
-        Time until impacts would have accumulated [s], where a stop is at rest by them.
+        Time until impacts would have accumulated [s], where a gap is at rest by them.
     """
 
     t: float
@@ -329,7 +328,7 @@ def stopped(outcome: Outcome) -> list[str]:
 
 
 def brought_to_rest(outcome: Outcome) -> list[str]:
-    """Return a note on each stop that ever faster impacts have brought to rest, with the time that was left.
+    """Return a note on each gap that ever faster impacts have brought to rest, with the time that was left.
 
     A single impact without rebound accumulates nothing: its events say all.
     """
@@ -342,7 +341,7 @@ def brought_to_rest(outcome: Outcome) -> list[str]:
 
 
 def struck_at_once(outcome: Outcome) -> list[str]:
-    """Return a note on the first impact of several stops at once, if any."""
+    """Return a note on the first impact at several gaps at once, if any."""
     hits = [event for event in outcome.happened if event.name.endswith(f".{HIT}") and event.impact is not None]
     for first, second in pairwise(hits):
         if first.impact is second.impact:
@@ -364,9 +363,9 @@ def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     after = {c.name: float(x) for c, x in zip(info.velocities, impact.v, strict=True)}
     signs = [-1.0] * info.m + [1.0] * len(impact.imposed)  # D^T lambda stands on the left of the equations of motion
     names = [*(row.name for row in info.rows), *impact.imposed]
-    closed = (info.rows[i].name for i in info.bounded)
-    stops, impulses = {f"{row.removesuffix('.stop')}.rate": row for row in closed}, dict[str, float]()
-    for name, s, x in zip(names, signs, impact.impulses, strict=True):  # of a closed stop and of one that strikes
-        row = stops.get(name, name)
+    bounded = (info.rows[i].name for i in info.bounded)
+    closed, impulses = {f"{row.rpartition('.')[0]}.rate": row for row in bounded}, dict[str, float]()
+    for name, s, x in zip(names, signs, impact.impulses, strict=True):  # of a closed gap and of one that strikes
+        row = closed.get(name, name)
         impulses[row] = impulses.get(row, 0.0) + float(s * x)
     return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

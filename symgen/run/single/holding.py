@@ -44,7 +44,7 @@ def independence(c: Any, i: int) -> float:
 def take_rows(c: Any, n: int, which: int, w: Any) -> None:
     """Put the most independent rows at rest into force, one after the other.
 
-    `which` is `PUSHING` for stops that push, `WITHIN` for others whose force is within its bounds, else `ALL`.
+    `which` is `PUSHING` for one-sided rows that push, `WITHIN` for others whose force is within its bounds, else `ALL`.
     """
     k, left = c.count, c.rest_of
     while True:
@@ -58,7 +58,7 @@ def take_rows(c: Any, n: int, which: int, w: Any) -> None:
                 least = NO_ACCELERATION * usual_of(c, w, i)
                 free = free and i >= c.dry and -c.forces[i] * c.matrix[i * k + i] > least
             part = independence(c, i)
-            # of a stop and friction on one coordinate the stop carries both: one force with the bounds of both
+            # of rows with one and two bounds on one coordinate the former carries both: one force with all bounds
             first = best < 0 or part > (1.0 + _LEVEL) * most or (i >= c.dry and part > (1.0 - _LEVEL) * most)
             if free and part > DEPENDENT and first:
                 best, most = i, part
@@ -77,7 +77,7 @@ def take_rows(c: Any, n: int, which: int, w: Any) -> None:
 def hold_rows(c: Any, w: Any) -> int:
     """Put independent rows among those at rest into force; set their constants and largest efforts.
 
-    Stops that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
+    Rows that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
     a dead centre, does. Returns `SAME`, or `NOT_DETERMINED`.
     """
     k, n, after = c.count, c.at_rest[0], c.after
@@ -120,8 +120,8 @@ def hold_rows(c: Any, w: Any) -> int:
 def share_force(c: Any, i: int, count: int) -> int:
     """Give the effort of a row that rows in force determine to the one that carries it.
 
-    Where several do, dry friction keeps the effort that it has: as long as theirs are within their bounds all rest, and
-    where one reaches its bound, efforts are shared out anew.
+    Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all
+    rest, and where one reaches its bound, efforts are shared out anew.
     """
     k, box, after = c.count, c.box, c.after
     a = 0

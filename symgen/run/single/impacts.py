@@ -1,9 +1,9 @@
-"""Impacts of stops: Newton's law through all rows of joints, in the metric of M.
+"""Impacts at gaps: Newton's law through all rows of joints, in the metric of M.
 
 At an impact the rate u of each gap that is 0 satisfies ``u+ + e min(u-, 0) >= 0`` with a restitution e, its impulse
-only pushes, and one of both is zero: the box problem (`symgen.run.single.box`) on rates instead of accelerations. Dry
-friction has bounds and therefore no impulse. Where impacts follow each other ever faster, so that the time until they
-accumulate counts as zero, the stop is at rest.
+only pushes, and one of both is zero: the box problem (`symgen.run.single.box`) on rates instead of accelerations. A row
+with two bounds has no impulse. Where impacts follow each other ever faster, so that the time until they accumulate
+counts as zero, the gap is at rest.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form
-from symgen.describe.bounds.stops import HIT
+from symgen.describe.bounds.modes import HIT
 from symgen.run.layout import abi
 from symgen.run.single.bounded_rows import NOT_APPLIED, OTHERS, SAME
 from symgen.run.single.strikes import GATHER, STRIKE, gather, new_strikes, strike
@@ -58,7 +58,7 @@ class Impacts:
     @property
     def _events(self) -> Events:
         events = self.simulation.events
-        assert events is not None, "stops have events"
+        assert events is not None, "bounded rows have events"
         return events
 
     @cached_property
@@ -95,7 +95,9 @@ class Impacts:
             raise effects.no_velocities(numbers, s.work, before, now)
         if code != SAME:
             names = ", ".join(self.rows.names[i] for i in choice.rest[: choice.at_rest[0]])
-            raise InputError("stops", "impulses that can be found", f"none of {names} at t = {now:.6g} s")
+            raise InputError(
+                self.rows.nouns[self.rows.dry], "impulses that can be found", f"none of {names} at t = {now:.6g} s"
+            )
         impact = effects.impact(numbers, s.v, s.impulses, float(s.energy[0]))
         self.latest = dict.fromkeys(active, impact)
         if state.control[abi.BEGUN] != 0:
@@ -104,7 +106,7 @@ class Impacts:
             state.y[self.simulation.compiled.info.work] = 0.0
 
     def gather(self, choice: Any) -> bool:
-        """Bring stops to rest where impacts accumulate in the modes behind the latest one; return whether any are.
+        """Bring gaps to rest where impacts accumulate in the modes behind the latest one; return whether any are.
 
         Parameters
         ----------
@@ -132,7 +134,6 @@ class Impacts:
 
 def strikes_of(watched: Watched, rows: BoundedRows, effects: Any, work: Any, past: Any) -> Any:
     """Return the impacts of a run for loops, with the effects of its events, their working memory and past resets."""
-    stops = [f"{name}.{HIT}" for name in rows.names[rows.dry :]]
-    hits = [-1] * rows.dry + [watched.names.index(name) for name in stops]
+    hits = [-1] * rows.dry + [watched.names.index(f"{name}.{HIT}") for name in rows.names[rows.dry :]]
     losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
     return new_strikes(effects, watched.function, hits, losses, work, past)

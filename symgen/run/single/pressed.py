@@ -1,6 +1,6 @@
-"""Transitions where bounds of friction depend on reactions of joints (`symgen.run.single.agreement`).
+"""Transitions where bounds depend on reactions of joints (`symgen.run.single.agreement`).
 
-Friction that alone brings about all of its reaction is jammed, and ends the run by name.
+An effort that alone brings about all of its reaction is jammed, and ends the run by name.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.base.errors import InputError
-from symgen.describe.bounds.friction import JAM
+from symgen.describe.bounds.modes import JAM
 from symgen.run.single import agreement
 from symgen.run.single.bounded_rows import DISAGREED, JAMMED, OTHERS, REDUNDANT, SHARED
 from symgen.run.single.events import Happening
@@ -16,7 +16,12 @@ from symgen.run.single.transitions import Transitions
 
 
 class PressedTransitions(Transitions):
-    """The modes of a run in which friction depends on reactions; there are no stops."""
+    """The modes of a run in which bounds depend on reactions; no row is one-sided."""
+
+    @property
+    def _kind(self) -> str:
+        """What depends on reactions."""
+        return self.rows.kinds[self.rows.pressed[0]]
 
     def meet(self, happened: Sequence[Happening]) -> None:
         """Choose modes at the events at which a loop ended; a jam ends the run.
@@ -45,20 +50,20 @@ class PressedTransitions(Transitions):
             self._refuse_jam(first, float(c.jam[0]))
         if code == REDUNDANT:
             pressed, row = ", ".join(names[i] for i in self.rows.pressed), self.simulation.compiled.info.rows[first]
-            expected = "rows that determine all reactions, where friction depends on one"
-            raise InputError(f"friction of {pressed}", expected, f"{row.name}, which other rows determine")
+            expected = f"rows that determine all reactions, where {self._kind} depends on one"
+            raise InputError(f"{self._kind} of {pressed}", expected, f"{row.name}, which other rows determine")
         if code == DISAGREED:
             pressed = ", ".join(names[i] for i in self.rows.pressed)
             got = f"others at {pressed} after many changes"
-            raise InputError("friction", "bounds and reactions that agree", got)
+            raise InputError(self._kind, "bounds and reactions that agree", got)
         if code == SHARED:
-            expected = "friction by reactions whose forces at rest are determined, or that rests for good"
-            raise InputError("friction", expected, f"{self._named()} at rest at one time, beside what changes")
+            expected = f"{self._kind} by reactions whose forces at rest are determined, or that rests for good"
+            raise InputError(self._kind, expected, f"{self._named()} at rest at one time, beside what changes")
         super()._refuse(code)
 
     def _refuse_jam(self, i: int, number: float) -> None:
-        """Refuse friction that alone brings about all of its reaction: accelerations are none, or not unique."""
+        """Refuse an effort that alone brings about all of its reaction: accelerations are none, or not unique."""
         if not number < 1.0:
             name = self.rows.names[i]
-            expected = "friction that brings about less than all of its own reaction (a jamming number below 1)"
-            raise InputError(f"friction of {name}", expected, f"{number:.12g} at t = {self._now:.9g} s")
+            expected = f"{self._kind} that brings about less than all of its own reaction (a jamming number below 1)"
+            raise InputError(f"{self._kind} of {name}", expected, f"{number:.12g} at t = {self._now:.9g} s")

@@ -15,6 +15,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.program import COUNTERS
 from symgen.compile.native.machine import vector_width
 from symgen.compile.store.stats import seconds_in_cache
+from symgen.describe.bounds.advice import JUMPING
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import triplets_of
 from symgen.run.loops.run_spec import RunSpec
@@ -34,9 +35,8 @@ Progress = Callable[[float], None]
 #: CPU time of the calling thread [s], which the load of the machine changes little; elapsed time where a system counts
 #: it coarsely or not at all.
 CPU_CLOCK = getattr(time, "thread_time", time.perf_counter) if os.name == "posix" else time.perf_counter
-#: Messages for runs without progress, and for runs whose forces or joints compare the state.
+#: Message for runs without progress.
 _STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
-_JUMPING = "a formula jumps to and fro with the state, as friction by sign(v) does that sticks, and no step gets across"
 
 
 def integrate(
@@ -253,7 +253,7 @@ def end_reason(
     where = f" at t = {time:.6g} s"
     sentence = abi.REASONS[code]
     phi, drift, length, speed = violations
-    jumps, jumping = spec.events is not None and spec.events.jumps, f"{_JUMPING}; {spec.in_place}"
+    jumps, jumping = spec.events is not None and spec.events.jumps, f"{JUMPING}; {spec.in_place}"
     if code == abi.POSITION:
         return f"{sentence} ({phi:.3g} > {spec.max_violation:g} x {length:.3g}){where}"
     if code == abi.VELOCITY:

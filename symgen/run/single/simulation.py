@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.layout.records import Outputs
     from symgen.run.loops.integrator import Integrator
-    from symgen.run.loops.run_spec import RunSpec, Stop, Watched
+    from symgen.run.loops.run_spec import RunSpec, Seam, Watched
     from symgen.run.single.events import Events
     from symgen.run.single.transitions import Transitions
     from symgen.run.starts.assembly import Start
@@ -106,7 +106,7 @@ class Simulation:
         self._model: tuple[Any, ...] = self.sizes, *self.setup.functions
         self._prepared: tuple[Outputs, LoopEntry] | None = None
         self._whole = self._model, self.setup.loop
-        self._stops: tuple[Stop, ...] = ()
+        self._seams: tuple[Seam, ...] = ()
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
@@ -125,7 +125,7 @@ class Simulation:
 
             rows = spec.events.bounded
             self.transitions = PressedTransitions(self, rows) if rows.pressed else Transitions(self, rows)
-        self._first_p, self._first_stop = self.state.p.copy(), int(self.state.control[abi.PASSED])
+        self._first_p, self._first_seam = self.state.p.copy(), int(self.state.control[abi.PASSED])
 
     def set_limits(self) -> None:
         """Set the limits of this run, also after the state of another one was restored."""
@@ -162,7 +162,7 @@ class Simulation:
         if anew:
             arrays.pop("hunt", None)
         self.restore(arrays)
-        varying = {name for stop in self.spec.stops for name in stop.values}
+        varying = {name for seam in self.spec.seams for name in seam.values}
         numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
         self.changes.give({name: x for name, x in numbers.items() if name not in varying})
         if anew:
@@ -243,15 +243,15 @@ class Simulation:
         happened = () if self.events is None else (event.t for event in self.events.happened)
         marks, pieces, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
         p, places = self._first_p.copy(), self.changes.inputs
-        for stop in self.spec.stops[self._first_stop : self.state.control[abi.PASSED]]:
-            near = abi.RESOLVED_TIME * stop.t if self.spec.adaptive else self.same(stop.t)
-            before, count = count, int(np.searchsorted(marks, stop.t + near, side="right"))
-            if stop.values and count > before:
-                pieces.append((stop.t + near, p.copy()))
+        for seam in self.spec.seams[self._first_seam : self.state.control[abi.PASSED]]:
+            near = abi.RESOLVED_TIME * seam.t if self.spec.adaptive else self.same(seam.t)
+            before, count = count, int(np.searchsorted(marks, seam.t + near, side="right"))
+            if seam.values and count > before:
+                pieces.append((seam.t + near, p.copy()))
                 self.compiled.prepare(pieces[-1][1])
-            elif not stop.values:
+            elif not seam.values:
                 count = before
-            for name, value in stop.values.items():
+            for name, value in seam.values.items():
                 p[places[name]] = value
         return tuple(pieces)
 
@@ -266,27 +266,27 @@ class Simulation:
         return abi.SAME_TIME * self.span.step
 
     def divide(self, spec: RunSpec) -> None:
-        """Take the stops of `spec`, with the values of all stops passed."""
-        if spec.stops is not self._stops:
-            self._stop_at(spec.stops)
+        """Take the seams of `spec`, with the values of all seams passed."""
+        if spec.seams is not self._seams:
+            self._seam_at(spec.seams)
         self.spec, now, control = spec, self._clock[abi.TIME], self.state.control
-        behind = [stop for stop in spec.stops if not self.is_ahead(stop.t)]
+        behind = [seam for seam in spec.seams if not self.is_ahead(seam.t)]
         control[abi.PASSED] = len(behind)
         if len(behind) > 1 and behind[-2].skips:  # the run stands at a jump: it goes on behind it
             self.state.clock[abi.TIME] = max(now, behind[-1].t)
-        self.changes.give({name: value for stop in behind for name, value in stop.values.items()})
+        self.changes.give({name: value for seam in behind for name, value in seam.values.items()})
         # a kink changes no number, but the history of multistep schemes ends there as well
         if behind and now - behind[-1].t <= self.same(now) and control[abi.BEGUN] == 1:
             control[abi.BEGUN] = abi.AFRESH
 
-    def _stop_at(self, stops: tuple[Stop, ...]) -> None:
-        """Select the loop from stop to stop if any stops exist."""
-        self._stops, (self._model, loop) = stops, self._whole
-        if stops:
-            from symgen.run.loops.stopping import with_stops, with_table
+    def _seam_at(self, seams: tuple[Seam, ...]) -> None:
+        """Select the loop from seam to seam if any seams exist."""
+        self._seams, (self._model, loop) = seams, self._whole
+        if seams:
+            from symgen.run.loops.seams import with_seams, with_table
 
-            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (stops,))
-            loop = with_stops(loop)
+            self._model = with_table(self.compiled, self._model, loop, self.spec.adaptive, (seams,))
+            loop = with_seams(loop)
         self.setup, self._prepared = replace(self.setup, loop=loop), None
         self.__dict__.pop("_entry", None)
 
@@ -346,7 +346,7 @@ class Simulation:
             if not np.isfinite(self.state.p).all():
                 return abi.UNPREPARED
             if self.transitions is not None:
-                if self.spec.stops[self.state.control[abi.PASSED] - 2].strikes:
+                if self.spec.seams[self.state.control[abi.PASSED] - 2].strikes:
                     self.transitions.take_off()
                 self.transitions.begin()
             return None if self.is_ahead(until) else abi.DONE
@@ -395,7 +395,7 @@ class Simulation:
         return {SAVED_AS.get(name, name): array.copy() for name, array in arrays.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], spec: RunSpec | None = None) -> None:
-        """Restore the result of `save`, for the same model, method, integrator, limits and events, with other stops."""
+        """Restore the result of `save`, for the same model, method, integrator, limits and events, with other seams."""
         own = {kept: name for name, kept in SAVED_AS.items()}
         for name, array in saved.items():
             if hasattr(self.state, own.get(name, name)):

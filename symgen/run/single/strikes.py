@@ -1,4 +1,4 @@
-"""Impacts of stops, compiled: one function of the loop language for single runs and rows of sweeps.
+"""Impacts at gaps, compiled: one function of the loop language for single runs and rows of sweeps.
 
 See `symgen.run.single.impacts` for the law.
 """
@@ -47,12 +47,12 @@ OF_SERIES = 5
 #: Impacts of a run, and working memory.
 #: - model, happens, work, past: As in `symgen.run.rows.row_events.OF_EFFECTS`.
 #: - chosen (shape (events,)): 1 for events that happen.
-#: - events, losses, active (shapes (rows,)): Event of each stop, -1 for friction; place in the state of the energy that
-#:   it has taken, or -1; 1 for stops that strike.
-#: - pushing (shape (1,)): Number of stops that push at an impact whose accumulation has not been asked for.
+#: - events, losses, active (shapes (rows,)): Event of each one-sided row, -1 for others; place in the state of the
+#:   energy that it has taken, or -1; 1 for gaps that strike.
+#: - pushing (shape (1,)): Number of rows that push at an impact whose accumulation has not been asked for.
 #: - before (shape (rows,)): Rates of gaps before the latest impact.
 #: - series (shape (OF_SERIES rows,)): See above.
-#: - left (shape (rows,)): Time until the impacts of a stop that comes to rest would have accumulated [s], else nan.
+#: - left (shape (rows,)): Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
 #: - v, impulses, energy: Velocities behind the impact, its impulses and its energy, as in `symgen.run.effects.effects`.
 STRIKES = record_type(
     "Strikes",
@@ -89,13 +89,13 @@ def new_strikes(effects: Any, happens: Any, hits: list[int], losses: list[int], 
 
 @exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
 def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
-    """Set the stops that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
+    """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
     n, strikes = 0, False
     for i in range(c.dry, c.count):
         if is_shut(c, w, i):
             c.rest[n] = i
             n += 1
-            # the rate of a stop that its mode has closed is what a method leaves of it
+            # the rate of a gap that its mode has closed is what a method leaves of it
             strikes = strikes or (not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
     if not strikes:
         return SAME
@@ -108,7 +108,7 @@ def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any)
 
 @exact()
 def find_active(c: Any, s: Any) -> int:
-    """Find the stops that push at the impact; return their number, -1 where there are no impulses."""
+    """Find the rows that push at the impact; return their number, -1 where there are no impulses."""
     k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
     for r in range(n):
         i = c.rest[r]
@@ -132,7 +132,7 @@ def find_active(c: Any, s: Any) -> int:
 
 @exact()
 def choose_events(c: Any, s: Any, only_struck: bool) -> None:
-    """Choose the events of stops that push; `only_struck`: of those whose gap becomes smaller before."""
+    """Choose the events of rows that push; `only_struck`: of those whose gap becomes smaller before."""
     for event in range(s.chosen.shape[0]):
         s.chosen[event] = 0
     for i in range(c.dry, c.count):
@@ -148,7 +148,7 @@ def rate_behind(c: Any, s: Any, i: int) -> float:
 
 @exact()
 def lose(c: Any, s: Any, first: bool, y: Any) -> None:
-    """Add what an impact takes to the losses of its stops, by the sums of their rates before and behind it."""
+    """Add what an impact takes to the losses of its rows, by the sums of their rates before and behind it."""
     place = c.layout.m
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
@@ -161,7 +161,7 @@ def lose(c: Any, s: Any, first: bool, y: Any) -> None:
 
 @exact()
 def follow_series(c: Any, s: Any, t: float, count: int) -> float:
-    """Return the end of the series of flights of the only stop that pushes, by all of its impacts; else nan.
+    """Return the end of the series of flights of the only row that pushes, by all of its impacts; else nan.
 
     It follows at each impact from the rate and its change. Its errors fall with the square of the duration of a flight,
     of which the next one takes a part, the restitution; errors by rounding grow as flights become shorter. The time
@@ -189,7 +189,7 @@ def follow_series(c: Any, s: Any, t: float, count: int) -> float:
 
 @exact()
 def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
-    """Bring the stops that push to rest: what is left of their rates is taken by another impact."""
+    """Bring the gaps that push to rest: what is left of their rates is taken by another impact."""
     choose_events(c, s, False)
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
@@ -239,7 +239,7 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
 
 @exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))
 def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any) -> int:
-    """Bring the stops of the latest impact to rest where impacts accumulate in the modes chosen behind it.
+    """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen behind it.
 
     Returns `OTHERS` where velocities have changed, with all rows with bounds off; else `SAME`, or `NOT_APPLIED`.
     """

@@ -5,7 +5,7 @@ problem (`symgen.run.single.box`) on accelerations, which are linear in them. St
 come to rest, those in motion for coordinates that have just broken loose; a coordinate that its static bound does not
 hold breaks loose too. Rows at rest that other ones determine stay off: the rows in force carry their part.
 
-A stop is closed where its gap is 0 and stays so, by a force that pushes. Stops that strike have impacts first
+A one-sided row is in force where its gap is 0 and stays so, by a force that pushes. Gaps that strike have impacts first
 (`symgen.run.single.impacts`).
 """
 
@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form, plain_form
-from symgen.describe.bounds.friction import MODE, REVERSE, SLIP, STICK
-from symgen.describe.bounds.stops import HIT, LEAVE, REST
+from symgen.describe.bounds.modes import HIT, LEAVE, MODE, REST, REVERSE, SLIP, STICK
 from symgen.describe.parts.events import RESET
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
@@ -72,9 +71,9 @@ class Transitions:
         self.simulation, self.rows = simulation, rows
         info = simulation.compiled.info
         self._places = [info.switchable.index(row) for row in info.bounded]
-        self._is_stop = np.arange(len(rows.names)) >= rows.dry
+        self._pushes = np.arange(len(rows.names)) >= rows.dry
         self._impacts = Impacts(simulation, rows)
-        self._closed: Flags | None = None  # stops that a reset has taken out of force
+        self._closed: Flags | None = None  # one-sided rows that a reset has taken out of force
         self._entries = dict[str, Any]()
 
     def _modes(self, w: Array) -> Array:
@@ -122,14 +121,14 @@ class Transitions:
         self._note(changes, here)
 
     def release(self, happened: Sequence[Happening]) -> None:
-        """Take all rows out of force before a reset: friction has no impulse, and stops strike behind it."""
+        """Take all rows out of force before a reset: two bounds have no impulse, and gaps strike behind it."""
         if any(event.action == RESET for event in happened):
             self.take_off()
 
     def take_off(self) -> None:
-        """Take all rows out of force, where closed stops may strike."""
+        """Take all rows out of force, where closed gaps may strike."""
         w = self.simulation.state.w
-        self._closed = self._is_stop & (self._modes(w)[:, [HELD, LIMIT]] != 0.0).any(axis=1)
+        self._closed = self._pushes & (self._modes(w)[:, [HELD, LIMIT]] != 0.0).any(axis=1)
         compiled_form(put_off)(self._choice, w)
 
     def _note(self, changes: Sequence[tuple[int, str]], here: Happening, starts: bool = False) -> None:
@@ -156,7 +155,7 @@ class Transitions:
         Parameters
         ----------
         broken, stopped, left : sequence of int
-            Coordinates that have just broken loose, or whose rate has just become zero; stops whose force has.
+            Coordinates that have just broken loose, or whose rate has just become zero; one-sided rows whose force has.
 
         Raises
         ------
@@ -166,7 +165,7 @@ class Transitions:
         """
         c, w = self._choice, self.simulation.state.w
         before = self._modes(w)
-        closed = self._is_stop & ((before[:, HELD] != 0.0) | (before[:, LIMIT] != 0.0))
+        closed = self._pushes & ((before[:, HELD] != 0.0) | (before[:, LIMIT] != 0.0))
         closed, self._closed = closed if self._closed is None else self._closed, None
         for flags, rows in ((c.broken, broken), (c.stopped, stopped), (c.left, left)):
             flags[:] = 0
@@ -201,17 +200,17 @@ class Transitions:
         if code == NOT_FINITE:
             self._refuse_accelerations()
         if code == NO_FORCES:
-            raise InputError("friction", "forces at rest that can be found", "none after many changes")
+            raise InputError(self.rows.kinds[0], "forces at rest that can be found", "none after many changes")
         if code == NOT_DETERMINED:
             self._refuse_undetermined()
 
     def _refuse_accelerations(self) -> None:
-        raise InputError("friction", "accelerations that are finite", f"others at t = {self._now:.6g} s")
+        raise InputError(self.rows.kinds[0], "accelerations that are finite", f"others at t = {self._now:.6g} s")
 
     def _refuse_undetermined(self) -> None:
         """Refuse forces at rest of which several carry one that other rows determine."""
-        expected = "dry friction whose forces at rest are determined, or share one direction of motion"
-        raise InputError("friction", expected, f"forces of {self._named()} that rest at one time")
+        expected = f"{self.rows.nouns[0]} whose forces at rest are determined, or share one direction of motion"
+        raise InputError(self.rows.kinds[0], expected, f"forces of {self._named()} that rest at one time")
 
     def _named(self) -> str:
         """Return the names of the rows that a function has left to be named."""
@@ -224,15 +223,13 @@ class Transitions:
         pairs = list(zip(before[:, SIGN], after[:, SIGN], strict=True))[: self.rows.dry]
         changes = [(i, words[a == 0.0, b == 0.0]) for i, (a, b) in enumerate(pairs) if a != b]
         shut = (after[:, HELD] != 0.0) | (after[:, LIMIT] != 0.0)
-        return changes + [
-            (int(i), REST if shut[i] else LEAVE) for i in np.flatnonzero(self._is_stop & (shut != closed))
-        ]
+        return changes + [(int(i), REST if shut[i] else LEAVE) for i in np.flatnonzero(self._pushes & (shut != closed))]
 
     def _strike(self) -> None:
-        """Read the rows, and have stops that strike change the velocities."""
+        """Read the rows, and have gaps that strike change the velocities."""
         self._impacts.latest, self._impacts.left = {}, {}
         self._read()
-        code = self._entry("find_struck", strikes)(self._now) if self._is_stop.any() else SAME
+        code = self._entry("find_struck", strikes)(self._now) if self._pushes.any() else SAME
         self._refuse(code)
         if code == OTHERS:
             self._impacts.strike(self._choice)
@@ -274,6 +271,7 @@ class Transitions:
         if self._entry("read_rows")(self._now) == SAME:
             return
         c, names, dry, now = self._choice, self.rows.names, self.rows.dry, self._now
+        kinds, nouns = self.rows.kinds, self.rows.nouns
         gaps, restitution = c.value[dry:], c.restitution[dry:]
         static, sliding = c.static[:dry], c.sliding[:dry]
         w = self.simulation.state.w
@@ -282,18 +280,20 @@ class Transitions:
         if not within.all():
             i = int(np.argmin(within))
             got = f"{gaps[i]:.6g} at t = {now:.6g} s"
-            raise InputError(f"stop {names[dry + i]}", "a gap of at least 0", got, "a start within all stops")
+            raise InputError(
+                f"{kinds[dry + i]} {names[dry + i]}", "a gap of at least 0", got, f"a start within all {nouns[dry + i]}"
+            )
         if not ((restitution >= 0.0) & (restitution <= 1.0)).all():
             i = int(np.argmin((restitution >= 0.0) & (restitution <= 1.0)))
-            raise InputError(f"stop {names[dry + i]}", "a restitution from 0 to 1", f"{restitution[i]:g}")
+            raise InputError(f"{kinds[dry + i]} {names[dry + i]}", "a restitution from 0 to 1", f"{restitution[i]:g}")
         if ((sliding == 0.0) & (static > 0.0)).any():
             i = int(np.argmax((sliding == 0.0) & (static > 0.0)))
             expected = "a bound in motion above 0, as that at rest is above 0"
-            raise InputError(f"friction of {names[i]}", expected, "0")
+            raise InputError(f"{kinds[i]} of {names[i]}", expected, "0")
         defined = np.isfinite(static) & np.isfinite(sliding) & (sliding >= 0.0) & (static >= sliding)
         i = int(np.argmin(defined)) if dry else 0
         got = f"{c.static[i]:g} at rest and {c.sliding[i]:g} in motion"
-        raise InputError(f"friction of {names[i]}", "bounds of at least 0, at rest at least that in motion", got)
+        raise InputError(f"{kinds[i]} of {names[i]}", "bounds of at least 0, at rest at least that in motion", got)
 
     def _scales(self, place: int) -> Array:
         """Return the mechanism's scale of speeds or of lengths in the unit of each row."""

@@ -26,7 +26,7 @@ DEFAULT_METHODS = (
     *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
     *("coordinate-partitioning", "direct-correction"),
 )
-#: Those of them for mechanisms with dry friction or stops.
+#: Those of them for mechanisms with bounded rows.
 MODE_METHODS = tuple(name for name in DEFAULT_METHODS if name != "coordinate-partitioning")
 #: Default integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")

@@ -15,8 +15,8 @@ from symgen.base.errors import InputError
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import Settings, default
 from symgen.compile.store.paths import cache_location
-from symgen.describe.bounds.friction import without_friction
-from symgen.describe.bounds.stops import without_stops
+from symgen.describe.bounds.keys import nouns
+from symgen.describe.bounds.modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.run.planning.outputs import multiples, output_size
@@ -122,8 +122,8 @@ def compare(
         Errors [m] at which run times are interpolated, `Study.at`. Lines then have more settings, and all of them are
         timed again in turn.
     laws : sequence of str
-        Laws of dry friction, each with lines of its own: ``exact``, the default, and ``tanh:speed=1e-3``, the bound
-        times tanh(rate / speed).
+        Laws of rows with two bounds, each with lines of its own: ``exact``, the default, and ``tanh:speed=1e-3``, the
+        bound times tanh(rate / speed).
     gradient : sequence of str
         Parameters by which the motion is differentiated: rows have the error of the derivatives of coordinates, beside
         differences of references, and the run time with derivatives.
@@ -203,7 +203,7 @@ def compare_all(
         values = parameter_values(chosen.mechanism, common.parameters)
         mechanisms = mechanisms_of_laws(chosen.mechanism, runs.laws, values)
         if chosen.mechanism.bounded and reference_by != AUTO:
-            expected = "auto, as these solvers have no modes of dry friction or stops"
+            expected = f"auto, as these solvers have no modes of {nouns(joined=' or ')}"
             raise InputError("reference", expected, f"'{reference_by}'")
         check_parameters(chosen.mechanism, runs.gradient)
         step, modes = chosen.mechanism.defaults.step, bool(chosen.mechanism.bounded)
@@ -241,7 +241,7 @@ def compare_all(
 def _chosen(model: Model, common: Settings) -> Model:
     """Return a model without events that are only recorded, and with the largest step for all; refuse other events."""
     mechanism = model.mechanism
-    refuse_events("compare", without_stops(without_friction(mechanism)), common)
+    refuse_events("compare", without_bounds(mechanism), common)
     plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
     plain = bounded(plain, common.max_step)
     return model if plain is mechanism else Model(plain)

@@ -60,7 +60,7 @@ class Row:
         Largest difference of the velocities of the same points [m/s].
     reaction_error : float or None
         Largest difference of a joint's reaction [N] that the motion determines; a moment counts as the force
-        that has it at the mechanism's length. None also where no reaction is determined, with dry friction and stops.
+        that has it at the mechanism's length. None also where no reaction is determined, with bounded rows.
     below_reference : bool
         Whether the error is below the estimated error of the reference, which is then its only bound.
     run_seconds, run_seconds_median : float
@@ -88,13 +88,13 @@ class Row:
     variant : str
         Options that distinguish the method from others of the study, such as ``alpha=5, beta=5``.
     law : str
-        Law of dry friction, such as ``tanh:speed=0.001``; empty without dry friction and stops.
+        Law of rows with two bounds, such as ``tanh:speed=0.001``; empty without bounded rows.
     transitions, impacts : int or None
-        Changes of modes of dry friction and stops, and impacts; None without these, as the next ones.
+        Changes of modes of bounded rows, and impacts; None without these, as the next ones.
     dissipated : float or None
         Energy that they have taken at the end [J].
     creep : float or None
-        Largest rate along a coordinate with dry friction at outputs at which it rests in the reference [m/s]; of an
+        Largest rate along a coordinate with two bounds at outputs at which it rests in the reference [m/s]; of an
         angle times the mechanism's length. None where none rests.
     gradient_error : float or None
         Largest error of the derivatives of coordinates by a parameter, over the largest derivative; angles count by the

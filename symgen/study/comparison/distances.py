@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.bounds.modes import two_sided
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.labelled import Labelled
 from symgen.result.points import Points
 from symgen.result.reactions import Forces, Seat, seats
 from symgen.run.layout import abi
 from symgen.run.single.outcome import PrescribedMotion
-from symgen.study.comparison.laws import rates_of_friction, resting
+from symgen.study.comparison.laws import rates_along_rows, resting
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -52,9 +53,9 @@ def exact_reactions(
 
 
 def exact_rates(mechanism: Mechanism, reference: Reference, compiled: CompiledModel, start: Start) -> Array:
-    """Return the rates of coordinates with dry friction of a reference motion, shape (k, n)."""
+    """Return the rates of coordinates along rows with two bounds of a reference motion, shape (k, n)."""
     lam = np.zeros((len(reference.times), compiled.info.m))
-    return rates_of_friction(mechanism, _prescribed(reference, compiled, start, lam))
+    return rates_along_rows(mechanism, _prescribed(reference, compiled, start, lam))
 
 
 def _prescribed(reference: Reference, compiled: CompiledModel, start: Start, lam: Array) -> PrescribedMotion:
@@ -90,7 +91,7 @@ class Distances:
     reactions : mapping of str to Array
         Its reactions, `exact_reactions`.
     rates : Array, optional
-        Rates of coordinates with dry friction, shape (k, n).
+        Rates of coordinates along rows with two bounds, shape (k, n).
     """
 
     mechanism: Mechanism
@@ -141,17 +142,17 @@ class Distances:
         return self._largest(own[joint] - exact[:k] for joint, exact in self.reactions.items())
 
     def creep(self, outcome: Outcome) -> float | None:
-        """Return the largest rate [m/s] along a coordinate with dry friction that rests in the reference.
+        """Return the largest rate [m/s] along a coordinate of a row with two bounds that rests in the reference.
 
         Angles count with the mechanism's length. None where none rests.
         """
         if self.rates is None or not self.size > 0.0:
             return None
-        lengths = np.array([self.size if friction.unit == "rad" else 1.0 for friction in self.mechanism.frictions])
+        lengths = np.array([self.size if row.unit == "rad" else 1.0 for row in two_sided(self.mechanism)])
         where = resting(self.rates, self.speed / lengths)
         if not where.any():
             return None
-        rates = rates_of_friction(self.mechanism, outcome) * lengths
+        rates = rates_along_rows(self.mechanism, outcome) * lengths
         return float(np.abs(rates[where]).max())
 
     @cached_property

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.adjoint_gradient import adjoint_gradient
 from symgen.base.errors import InputError, SymgenError, nearest, quoted
-from symgen.describe.bounds.stops import refuse_bounds
+from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.sensitivities import SCHEMES, Differentiated
 from symgen.run.layout import abi

@@ -1,4 +1,4 @@
-"""Laws of dry friction as lines of a comparison, and what runs with dry friction or stops are measured by besides."""
+"""Laws of rows with two bounds as lines of a comparison, and what runs with bounds are measured by besides."""
 
 from __future__ import annotations
 
@@ -12,13 +12,11 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import Expr, Number, call
-from symgen.describe.bounds.friction import MODE, rate_of, without_friction
+from symgen.base.vocabulary.expressions import Expr, call
 from symgen.describe.bounds.losses import LOSS, loss_of
-from symgen.describe.bounds.smooth_friction import with_smooth_friction
-from symgen.describe.bounds.stops import HIT
-from symgen.describe.formulas.evaluate import evaluate
-from symgen.describe.mechanism import EndStop, Friction, Mechanism, Output
+from symgen.describe.bounds.modes import HIT, MODE, one_sided, rate_of, two_sided, without_bounds
+from symgen.describe.bounds.smooth import WITH_LAWS, smoothed, with_smooth
+from symgen.describe.mechanism import Mechanism, Output
 from symgen.run.compiling.side import compile_side
 from symgen.study.comparison.combinations import variant_of
 
@@ -33,7 +31,7 @@ RESTS = 1e-9
 
 
 def mechanisms_of_laws(mechanism: Mechanism, laws: Sequence[str], values: Mapping[str, float]) -> dict[str, Mechanism]:
-    """Return the mechanism with each law of dry friction, with the energy that friction and stops take as an output.
+    """Return the mechanism with each law of its rows, with the energy that rows with bounds take as an output.
 
     Parameters
     ----------
@@ -47,17 +45,17 @@ def mechanisms_of_laws(mechanism: Mechanism, laws: Sequence[str], values: Mappin
     Raises
     ------
     InputError
-        If a law is unknown, or the mechanism has no dry friction or none that is smooth in motion.
+        If a law is unknown, or the mechanism has no rows with two bounds, or none that is smooth in motion.
     """
     if not mechanism.bounded and not laws:
         return {"": mechanism}
-    if not mechanism.frictions and laws:
-        raise InputError("laws", "a mechanism with dry friction", f"'{mechanism.name}', which has none")
+    if not two_sided(mechanism) and laws:
+        raise InputError("laws", f"a mechanism with {WITH_LAWS}", f"'{mechanism.name}', which has none")
     return {law: _with_losses(*_with_law(mechanism, law, values)) for law in dict.fromkeys(laws or (EXACT,))}
 
 
 def _with_law(mechanism: Mechanism, law: str, values: Mapping[str, float]) -> tuple[Mechanism, list[Expr]]:
-    """Return a mechanism with a law, and the energies that friction and stops take."""
+    """Return a mechanism with a law, and the energies that rows with bounds take."""
     name, options = variant_of(law)
     if law == EXACT:
         return mechanism, [loss_of(bounded) for bounded in mechanism.bounded]
@@ -67,16 +65,10 @@ def _with_law(mechanism: Mechanism, law: str, values: Mapping[str, float]) -> tu
         speed = 0.0
     if not 0.0 < speed < np.inf:
         raise InputError("laws", "exact, or tanh:speed=V with a rate V above 0", f"'{law}'")
-    for friction in mechanism.frictions:
-        where, expected = f"law '{law}'", "dry friction with one constant bound, or with stribeck_speed"
-        if friction.pressed:
-            raise InputError(where, expected, f"that of {friction.name} by the reaction")
-        low, high = (evaluate(bound, values, where) for bound in (friction.sliding, friction.static))
-        if high != low and friction.stribeck_speed is None:
-            raise InputError(where, expected, f"that of {friction.name}, {high:g} at rest and {low:g} in motion")
-    smooth: list[Friction] = [structs.replace(friction, speed=Number(speed)) for friction in mechanism.frictions]
-    bounded: list[Friction | EndStop] = [*smooth, *mechanism.stops]
-    return with_smooth_friction(without_friction(mechanism), smooth), [loss_of(each) for each in bounded]
+    exact = two_sided(mechanism)
+    smooth = smoothed(f"law '{law}'", exact, speed, values)
+    losses: list[Expr] = [loss_of(row) for row in (*smooth, *one_sided(mechanism))]
+    return with_smooth(without_bounds(mechanism, exact), smooth), losses
 
 
 def _with_losses(mechanism: Mechanism, losses: Sequence[Expr]) -> Mechanism:
@@ -84,12 +76,12 @@ def _with_losses(mechanism: Mechanism, losses: Sequence[Expr]) -> Mechanism:
     return structs.replace(mechanism, outputs=(Output(LOSS, reduce(lambda a, b: call("add", a, b), losses), "J"),))
 
 
-def rates_of_friction(mechanism: Mechanism, motion: Motion) -> Array:
-    """Return the rates of coordinates with dry friction at the outputs of a motion, shape (k, n)."""
-    formulas = [(f"rate of {friction.name}", rate_of(friction)) for friction in mechanism.frictions]
+def rates_along_rows(mechanism: Mechanism, motion: Motion) -> Array:
+    """Return the rates of coordinates along rows with two bounds at the outputs of a motion, shape (k, n)."""
+    formulas = [(f"rate of {row.name}", rate_of(row)) for row in two_sided(mechanism)]
     if not formulas or not len(motion.times):
         return np.zeros((len(motion.times), len(formulas)))
-    side = compile_side(mechanism, motion.compiled, "sliding", "Rates of dry friction", formulas)
+    side = compile_side(mechanism, motion.compiled, "rates", "Rates along rows with bounds", formulas)
     return motion.observed(side.function, len(formulas))
 
 
@@ -103,14 +95,14 @@ def resting(rates: Array, scales: Array) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class Contact:
-    """Measures of a run with dry friction or stops.
+    """Measures of a run with rows with bounds.
 
     Attributes
     ----------
     transitions, impacts : int
         Changes of modes, and impacts; a smooth law has no modes.
     dissipated : float or None
-        Energy that friction and impacts have taken [J]; None without outputs.
+        Energy that rows with bounds and impacts have taken [J]; None without outputs.
     """
 
     transitions: int
@@ -119,7 +111,7 @@ class Contact:
 
 
 def contact_of(mechanism: Mechanism, outcome: Outcome) -> Contact | None:
-    """Return these measures of a run of a comparison; None where its mechanism has no law and no stop."""
+    """Return these measures of a run of a comparison; None where its mechanism has no rows with bounds."""
     loss = next((output.value for output in mechanism.outputs if output.name == LOSS), None)
     if loss is None:
         return None

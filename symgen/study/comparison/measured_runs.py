@@ -47,7 +47,7 @@ def measured(
     stopped : Outcome, optional
         The run as one of its limits stopped it, by which it is judged; `runs` then have no limits.
     law : str
-        Law of dry friction.
+        Law of rows with two bounds.
     """
     plan, outcome = run.plan, run.of_bodies(runs.outcome)
     count = len(outcome.times)

@@ -13,6 +13,7 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import SimulationError, SymgenError
 from symgen.base.settings import Settings
+from symgen.describe.bounds.modes import two_sided
 from symgen.describe.facts.digest import digest, identity
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
@@ -64,7 +65,7 @@ class ReferenceTask:
                 motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
         except SimulationError as error:
             return {"unusable": str(error)}
-        rates = exact_rates(mechanism, motion, compiled, start).tolist() if mechanism.frictions else None
+        rates = exact_rates(mechanism, motion, compiled, start).tolist() if two_sided(mechanism) else None
         return {
             "how": motion.how,
             "estimated_error": motion.estimated_error,

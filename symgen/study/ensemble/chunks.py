@@ -21,7 +21,7 @@ from symgen.run.breaks.array_formulas import Columns
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.infos import LawInfo
-    from symgen.run.loops.run_spec import Stop
+    from symgen.run.loops.run_spec import Seam
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ class Rows:
         Values of what the runs hold: coordinates, then joint coordinates, then rates of these.
     states : Array, shape (k, number of states)
         Values of the states of the file's own.
-    stops : tuple of tuple of Stop
+    seams : tuple of tuple of Seam
         Of each run, or of all of them, where an input jumps; none where nothing does.
     method : mapping of str to Array, shape (k,)
         Values of the method's parameters that vary, by their own names.
@@ -51,7 +51,7 @@ class Rows:
     v: Array
     targets: Array
     states: Array
-    stops: tuple[tuple[Stop, ...], ...] = ()
+    seams: tuple[tuple[Seam, ...], ...] = ()
     method: Mapping[str, Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
@@ -67,9 +67,9 @@ class Rows:
         """Return the method's parameters of a run that vary."""
         return {name: float(values[r]) for name, values in self.method.items()}
 
-    def stops_of(self, r: int) -> tuple[Stop, ...]:
-        """Return the stops of a run."""
-        return self.stops[r if len(self.stops) > 1 else 0] if self.stops else ()
+    def seams_of(self, r: int) -> tuple[Seam, ...]:
+        """Return the seams of a run."""
+        return self.seams[r if len(self.seams) > 1 else 0] if self.seams else ()
 
 
 def make_rows(

@@ -1,4 +1,4 @@
-"""Inputs of the runs of an ensemble: common stops, or stops of each run if jumps depend on what varies."""
+"""Inputs of the runs of an ensemble: common seams, or seams of each run if jumps depend on what varies."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import derived, parameter_values
 from symgen.run.breaks.motions import jump_of, names_of_motions
-from symgen.run.breaks.stops import merged, stops_of
-from symgen.run.loops.run_spec import Stop
+from symgen.run.breaks.seams import merged, seams_of
+from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.run.breaks.stops import Foreseen
+    from symgen.run.breaks.seams import Foreseen
     from symgen.run.planning.inputs import Inputs
     from symgen.study.ensemble.chunks import Rows
     from symgen.study.ensemble.sweep_plan import Ensemble
@@ -40,7 +40,7 @@ class Driving:
     until : float
         End of the runs [s].
     foreseen : Foreseen, optional
-        Times, known in advance, at which formulas jump, where runs stop at them.
+        Times, known in advance, at which formulas jump, where runs have seams there.
     moving : tuple of str
         From `read_by_motions`.
     """
@@ -61,23 +61,23 @@ class Driving:
         return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
     @cached_property
-    def stops(self) -> tuple[Stop, ...]:
-        """The stops of all runs, where they are the same."""
+    def seams(self) -> tuple[Seam, ...]:
+        """The seams of all runs, where they are the same."""
         if not self.foreseen:
-            return self.inputs.stops
+            return self.inputs.seams
         values = parameter_values(self.inputs.mechanism, self.inputs.settings.parameters)
-        return merged(self.inputs.stops, self.foreseen.stops(values, self.until))
+        return merged(self.inputs.seams, self.foreseen.seams(values, self.until))
 
     @property
     def jumps(self) -> bool:
-        """Whether runs have stops."""
-        return self.own or bool(self.stops)
+        """Whether runs have seams."""
+        return self.own or bool(self.seams)
 
     @property
     def changes(self) -> bool:
-        """Whether numbers change at the stops of runs; at kinks none does."""
+        """Whether numbers change at the seams of runs; at kinks none does."""
         own = self.own and self.inputs.driven is not None and bool(self.inputs.driven.jumps)
-        return own or any(stop.values for stop in self.stops[1:])
+        return own or any(seam.values for seam in self.seams[1:])
 
     @property
     def described(self) -> list[Any]:
@@ -89,7 +89,7 @@ class Driving:
         return [repr(samples), repr(driven.jumps)]
 
     def put(self, rows: Rows, parameters: Sequence[str]) -> Rows:
-        """Return rows with the stops of their runs.
+        """Return rows with the seams of their runs.
 
         Parameters
         ----------
@@ -99,19 +99,19 @@ class Driving:
             Their names.
         """
         if not (self.own or self.moving):
-            return replace(rows, stops=(self.stops,)) if self.stops else rows
-        stops_of_rows = list[tuple[Stop, ...]]()
+            return replace(rows, seams=(self.seams,)) if self.seams else rows
+        seams_of_rows = list[tuple[Seam, ...]]()
         for row in rows.parameters:
-            stops: tuple[Stop, ...] = ()
+            seams: tuple[Seam, ...] = ()
             if np.all(np.isfinite(row)):
                 try:
-                    stops = self._stops_of(dict(zip(parameters, row.tolist(), strict=True)))
+                    seams = self._seams_of(dict(zip(parameters, row.tolist(), strict=True)))
                 except InputError:
                     row[:] = np.nan  # what is not defined fails at its start
-            stops_of_rows.append(stops)
-            for name, value in (stops[0].values if stops else {}).items():
+            seams_of_rows.append(seams)
+            for name, value in (seams[0].values if seams else {}).items():
                 row[parameters.index(name)] = value
-        return replace(rows, stops=tuple(stops_of_rows))
+        return replace(rows, seams=tuple(seams_of_rows))
 
     def refusals(self, ensemble: Ensemble, failed: NDArray[np.bool_]) -> Iterator[tuple[int, str]]:
         """Yield rows whose inputs jump too often, or in which the motion of a driver jumps, and why they cannot run.
@@ -127,18 +127,18 @@ class Driving:
             row = ensemble.settled(r, r + 1).parameters[0].tolist()
             if all(map(math.isfinite, row)):
                 try:
-                    self._stops_of(dict(zip(ensemble.parameters, row, strict=True)))
+                    self._seams_of(dict(zip(ensemble.parameters, row, strict=True)))
                 except InputError as error:
                     yield r, str(error)
 
-    def _stops_of(self, values: dict[str, float]) -> tuple[Stop, ...]:
+    def _seams_of(self, values: dict[str, float]) -> tuple[Seam, ...]:
         driven, read = self.inputs.driven, tuple(values[name] for name in self.moving)
         if self.moving and read not in self._jumps:
             self._jumps[read] = jump_of(self.inputs.mechanism, values, self.until)
         if (jump := self._jumps.get(read)) is not None:
             raise jump
-        stops = () if driven is None else stops_of(driven, values, self.until)
-        return merged(stops, self.foreseen.stops(values, self.until)) if self.foreseen else stops
+        seams = () if driven is None else seams_of(driven, values, self.until)
+        return merged(seams, self.foreseen.seams(values, self.until)) if self.foreseen else seams
 
 
 def read_by_motions(mechanism: Mechanism, varied: Container[str]) -> tuple[str, ...]:

@@ -155,7 +155,7 @@ class RowKernel:
         if recipe.watch is not None and recipe.watch.ends:
             early = summary_column(summary, "outputs") == 0.0
             times = np.where(early, summary_column(summary, "end"), times.T).T.copy()
-        return MeasuredOutputs(times, rows.stops, spec.adaptive, spec.step or 0.0)
+        return MeasuredOutputs(times, rows.seams, spec.adaptive, spec.step or 0.0)
 
     def _look_at_sides(self, info: ModelInfo, ys: Array, selected: Integers, summary: Array) -> None:
         """Refuse starts in which joints hold bodies the wrong way round, as single runs do."""

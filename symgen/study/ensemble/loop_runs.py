@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.program import LANES, lane_bases
 from symgen.compile.loopcode.padding import aligned
-from symgen.describe.bounds.friction import JAM, MODE, REVERSE, SLIP
-from symgen.describe.bounds.stops import LEAVE
+from symgen.describe.bounds.modes import JAM, LEAVE, MODE, REVERSE, SLIP
 from symgen.describe.parts.events import RESET
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
@@ -23,11 +22,11 @@ from symgen.run.layout.records import Kept, Observed, RowChunk
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops.event_loop import with_events
+from symgen.run.loops.seams import preparing, seams_of, with_table
 from symgen.run.loops.searching import decide
-from symgen.run.loops.stopping import preparing, stops_of, with_table
 from symgen.run.rows.row_events import OfEffects
 from symgen.run.rows.row_modes import OfModes
-from symgen.run.rows.row_observers import observe_rows_between_stops, observe_rows_left
+from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
 from symgen.run.rows.rows import observe_nothing, over_rows
 from symgen.run.single.bounded_rows import first_step, new_choice
 from symgen.run.single.events import event_state, forget_steps
@@ -123,14 +122,14 @@ class LoopRuns:
         loop = over_rows(
             self.integrator.loop(adaptive),
             self.watched is not None,
-            recipe.stops,
+            recipe.seams,
             effects,
             examined,
             modes,
             pressed,
         )
-        if recipe.stops:
-            system = with_table(compiled, system, inner, adaptive, rows.stops or ((),), alone=False)
+        if recipe.seams:
+            system = with_table(compiled, system, inner, adaptive, rows.seams or ((),), alone=False)
         done = loop((system, observers, *further), setup.scheme, span, chunk, state, series)
         while control[e.EXAMINATION] == e.WAITS:
             self._examine(state)
@@ -152,11 +151,11 @@ class LoopRuns:
         """
         recipe = self.recipe
         observers, span, chunk, state, series = self._arguments(starts, selected, out, control)
-        if not recipe.stops:
+        if not recipe.seams:
             return bool(observe_rows_left((0, observers), span, chunk, state, series, left) == len(selected))
-        stops = stops_of(self.compiled, recipe.spec.adaptive, rows.stops or ((),))
-        model = (0, stops, 0, *preparing(self.compiled)), observers
-        return bool(observe_rows_between_stops(model, span, chunk, state, series, left) == len(selected))
+        seams = seams_of(self.compiled, recipe.spec.adaptive, rows.seams or ((),))
+        model = (0, seams, 0, *preparing(self.compiled)), observers
+        return bool(observe_rows_between_seams(model, span, chunk, state, series, left) == len(selected))
 
     def _arguments(
         self, starts: Instant, selected: Integers, out: Results, control: Integers
@@ -211,7 +210,7 @@ class LoopRuns:
         return nothing if watched.effects is None else watched.effects
 
     def _modes(self, watched: Watched, rows: BoundedRows, span: Span, width: int, nw: int) -> Any:
-        """Return dry friction and stops with their events, and memory for one thread."""
+        """Return rows with bounds with their events, and memory for one thread."""
         choice = new_choice(self.compiled, rows, rate_functions(self.compiled.law_module), width, nw)
         choice.step[0] = first_step(span)
         effects = self._effects(watched, width, nw)

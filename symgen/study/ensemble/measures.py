@@ -24,13 +24,13 @@ from symgen.result.signals import Signal
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.loops.stopping import preparing, stops_of
+from symgen.run.loops.seams import preparing, seams_of
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.expressions import Expr
     from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
-    from symgen.run.loops.run_spec import Stop
+    from symgen.run.loops.run_spec import Seam
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -93,7 +93,7 @@ class MeasuredOutputs:
     ----------
     times : Array, shape (1, times) or (runs, times)
         Output times, of all runs or of each [s].
-    stops : tuple of tuple of Stop
+    seams : tuple of tuple of Seam
         As in `symgen.study.ensemble.chunks.Rows`.
     adaptive : bool
         Whether steps vary.
@@ -102,7 +102,7 @@ class MeasuredOutputs:
     """
 
     times: Array
-    stops: tuple[tuple[Stop, ...], ...]
+    seams: tuple[tuple[Seam, ...], ...]
     adaptive: bool
     step: float
 
@@ -186,9 +186,9 @@ class Measures:
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = columns.shape[1] - len(self.reads)
         left = Left(outputs.times, selected, columns, first, places, ps, ws, y, rates, np.zeros(ps.shape[1]))
-        stops = stops_of(compiled, outputs.adaptive, outputs.stops or ((),))
+        seams = seams_of(compiled, outputs.adaptive, outputs.seams or ((),))
         span = Span._make((outputs.step, *(0.0 for _ in Span._fields[1:])))
-        changing = stops, span, *preparing(compiled)
+        changing = seams, span, *preparing(compiled)
         numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
         entries = np.zeros((runs if self.joints else 0, n_times, size))
         function = self.function if self.length else observe_nothing

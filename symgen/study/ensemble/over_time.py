@@ -62,7 +62,7 @@ class OverTime:
     functions : tuple of str
         Keys of `FUNCTIONS`; empty: the value at the end.
     places : tuple of int
-        Of each one's quantity among those of the loops.
+        Places of their quantities among those of the loops.
     """
 
     quantities: tuple[Signal, ...]

@@ -171,8 +171,8 @@ class Recipe:
         Events and switches of the rows.
     sides : tuple of SidedJoint
         Joints that may hold bodies the wrong way round.
-    stops : bool
-        Whether runs stop at times that rows bring along.
+    seams : bool
+        Whether runs have seams at times that rows bring along.
     held : Held
         Quantities that rows hold, each row at its own values.
     strict : bool
@@ -202,7 +202,7 @@ class Recipe:
     tree: Mechanism | None = None
     watch: EventPlan | None = None
     sides: tuple[SidedJoint, ...] = ()
-    stops: bool = False
+    seams: bool = False
     plugins: tuple[str, ...] = ()
     datum: tuple[float, ...] = ()
     over: OverTime | None = None
@@ -276,7 +276,7 @@ class Recipe:
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.kept], asdict(self.held)),
                 *(self.strict, self.code, *([self.sides] if self.sides else [])),
-                *(["stops"] if self.stops else []),
+                *(["seams"] if self.seams else []),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.watch)),
                 None if self.tree is None else identity(self.tree),
             ],

@@ -26,7 +26,7 @@ from symgen.describe.formulas.evaluate import derived, parameter_values, scalars
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.parts.events import RECORD
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.stops import Foreseen, foreseen_in_run, times_between
+from symgen.run.breaks.seams import Foreseen, foreseen_in_run, times_between
 from symgen.run.compiling.choices import LARGEST_STRAIGHT, on_tree
 from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import can_integrate, with_integrals
@@ -146,7 +146,7 @@ class Ensemble:
         return self.driving.put(self.settled(first, last), tuple(self.parameters))
 
     def settled(self, first: int, last: int) -> Rows:
-        """Return the same without the stops of runs."""
+        """Return the same without the seams of runs."""
         varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
         held = targets.names, targets.velocities, settled, targets.constant
         rows = make_rows(self.model.mechanism, self.parameters, varied, *held)
@@ -270,7 +270,7 @@ def make_ensemble(
         return with_integrals(mechanism, law) if adds else law
 
     compiled, spare = with_sums(compiled), None
-    pressed = any(friction.pressed for friction in mechanism.frictions)  # for which there is one solver
+    pressed = any(row.pressed for row in mechanism.bounded)  # for which there is one solver
     if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
         choice = plan.choice.with_options(solver="augmented")
         other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
@@ -289,7 +289,7 @@ def make_ensemble(
         tree=on_tree(mechanism) if joint else None,
         watch=watch,
         sides=tuple(side for side in sides_of(mechanism) if side.held),
-        stops=driving.jumps,
+        seams=driving.jumps,
         plugins=loaded_files(),
         over=over,
         datum=tuple(datum_of(mechanism, scalars(parameter_values(mechanism, plan.parameters)))),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.numerics import WARN
+from symgen.describe.bounds.keys import nouns
 from symgen.result.judge import JUMP_DOUBT, judge_alone
 from symgen.result.result import FAILED, OK
 from symgen.run.layout import abi
@@ -110,7 +111,7 @@ def _of_events(row: Array, events: Sequence[str]) -> str | None:
         return undefined(events[int(further[e.IMPOSSIBLE_EVENT])], time)
     if code == e.NO_MODES:
         got = f"none at t = {time:.6g} s, which a run of this row explains"
-        return f"friction and stops: expected modes that are determined, got {got}"
+        return f"{nouns('fact')}: expected modes that are determined, got {got}"
     if code != e.IMPOSSIBLE:
         return None
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):

@@ -19,10 +19,11 @@ from symgen.base.errors import InputError, StepError
 from symgen.base.memory import processors
 from symgen.base.settings import is_set
 from symgen.compile.loopcode.entry import ArgumentBlock
+from symgen.describe.bounds.keys import families
 from symgen.result.stepping.meter import compiled_formulas
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
-from symgen.run.loops.stopping import preparing
+from symgen.run.loops.seams import preparing
 from symgen.run.planning.prepare import prepare
 from symgen.run.planning.restarts import Restarts
 from symgen.run.rows.stepped_rows import Stepped, over_stepped
@@ -257,8 +258,9 @@ def _refuse(prepared: Prepared, simulation: Simulation) -> None:
     if compiled.shape != "straight":
         raise InputError(where, "code of the shape 'straight'", f"'{compiled.shape}'", hint)
     if prepared.spec.events is not None or compiled.info.bounded:
-        raise InputError(where, "a model without events, stops and dry friction", "one with such", hint)
-    if prepared.spec.stops:
+        kinds = " and ".join(family.noun for family in reversed(families()))
+        raise InputError(where, f"a model without events, {kinds}", "one with such", hint)
+    if prepared.spec.seams:
         raise InputError(where, "inputs and formulas that do not jump at known times", "one that does", hint)
     if not simulation._copied:
         raise InputError(where, "an explicit integrator", f"'{prepared.plan.settings.integrator}'", hint)

@@ -17,6 +17,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
+from symgen.describe.bounds.modes import families_of
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Body, Mechanism
 from symgen.study.references.differences import difference_jacobian
@@ -48,8 +49,7 @@ class IndependentEquations:
         for what, some in (
             ("states of its own", mechanism.states),
             ("rotors on joints", mechanism.rotors),
-            ("dry friction", mechanism.frictions),
-            ("stops", mechanism.stops),
+            *((family.noun, rows) for family, rows in families_of(mechanism).items()),
         ):
             if some:
                 expected = "a mechanism that is derived a second time, for references"

@@ -1,7 +1,7 @@
 """References by compiled code: two formulations of the equations with two integrators.
 
 The second derivation of a mechanism in space (`symgen.study.references.independent`) is interpreted: too slow for the
-many motions of a stress study, and without beam elements, dry friction and stops. Compiled code can differ in the
+many motions of a stress study, and without beam elements and bounded rows. Compiled code can differ in the
 formulation of the equations and in the integrator. The motion is that of `direct-correction` with Runge-Kutta steps at
 a tight tolerance; its error is estimated from `index1-augmented-lagrangian`, which solves another system for the
 accelerations, with Adams steps.

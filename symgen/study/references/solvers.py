@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from symgen.base.arguments import one_of
 from symgen.base.errors import SimulationError
 from symgen.describe.facts.kinks import compares_state, longest_step
-from symgen.run.breaks.stops import foreseen
+from symgen.run.breaks.seams import foreseen
 
 if TYPE_CHECKING:
     from symgen.study.references.independent import IndependentEquations
@@ -310,11 +310,11 @@ def in_parts(
     """
     motion, done = np.empty((len(times), len(y))), 0
     end = float(times[-1]) if len(times) else 0.0
-    stops = foreseen(equations.mechanism).stops(equations.parameters, end) if end else ()
-    for first, last in pairwise([*([stop.t for stop in stops] or [0.0]), end]):
+    seams = foreseen(equations.mechanism).seams(equations.parameters, end) if end else ()
+    for first, last in pairwise([*([seam.t for seam in seams] or [0.0]), end]):
         upto = int(np.searchsorted(times, last, side="right"))
         own = times[done:upto]
-        if stops and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
+        if seams and last - first < JUMP * end:  # what acts before it up to its middle, and then what acts behind it
             y = y + 0.5 * (last - first) * (equations.rate(first, y) + equations.rate(last, y))
             states = np.tile(y, (len(own), 1))
         else:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from symgen.describe.bounds.keys import nouns
+from symgen.describe.bounds.smooth import WITH_LAWS
 from symgen.study.comparison.comparison_rows import YARDSTICK, Row
 from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN, Study
 from symgen.study.machine_class import machine_class, version_list
@@ -194,7 +196,7 @@ def _contact_table(study: Study) -> tuple[DocumentTable, ...]:
         for row in study.rows
     )
     caption = (
-        "Dry friction and stops. Creep is the largest rate of a coordinate with dry friction at outputs at which it "
+        f"{words.sentence(nouns())} Creep is the largest rate of a coordinate with {WITH_LAWS} at outputs at which it "
         "rests in the reference, of an angle times the length of the mechanism."
     )
     return (DocumentTable(caption, headings, rows, words=3),)

@@ -57,6 +57,7 @@ def block_lengths(text: str) -> list[int]:
     return [*lengths[1:], count]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("terms", [600, pytest.param(3000, marks=pytest.mark.slow)])
 def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms):
     text = long_function(terms, terms)

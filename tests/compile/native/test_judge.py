@@ -31,6 +31,7 @@ CASES = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "methods"),
     [

@@ -14,7 +14,7 @@ from symgen.compile.native.types import float64
 from symgen.compile.store import jit as store
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
 from symgen.run.loops.event_loop import with_events
-from symgen.run.loops.stopping import with_stops
+from symgen.run.loops.seams import with_seams
 from symgen.run.rows.rows import over_rows
 
 from .twofold import process
@@ -28,24 +28,40 @@ SCHEMES = {
 LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
 
+@pytest.mark.fast(
+    "False-explicit-constant",
+    "False-lie-constant",
+    "False-half_explicit-constant",
+    "False-rattle-constant",
+    "False-symplectic-constant",
+    "False-screw-constant",
+    "False-symmetric-constant",
+    "True-adams-adaptive",
+)
 @pytest.mark.parametrize(("scheme", "name"), LOOPS)
 @pytest.mark.parametrize("events", [False, True])
 def test_every_loop_is_in_the_language(scheme, name, events):
     loop = getattr(importlib.import_module(f"symgen.run.loops.schemes.{scheme}"), name)
     loop = with_events(loop) if events else loop
     read(loop)
-    read(with_stops(loop))
+    read(with_seams(loop))
 
 
+@pytest.mark.fast(
+    "explicit-constant-False-False",
+    "explicit-adaptive-True-False",
+    "picard-constant-True-False",
+    "picard-adaptive-True-True",
+)
 @pytest.mark.parametrize("events", [False, True])
-@pytest.mark.parametrize("stops", [False, True])
+@pytest.mark.parametrize("seams", [False, True])
 @pytest.mark.parametrize("steps", ["constant", "adaptive"])
 @pytest.mark.parametrize("scheme", ["explicit", "picard"])
-def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, stops):
+def test_every_loop_over_rows_is_in_the_language(scheme, steps, events, seams):
     loop = getattr(importlib.import_module(f"symgen.run.loops.schemes.{scheme}"), steps)
-    read(over_rows(loop, events, stops))
+    read(over_rows(loop, events, seams))
     if events:
-        read(over_rows(loop, events, stops, effects=True))
+        read(over_rows(loop, events, seams, effects=True))
 
 
 def read(loop):
@@ -128,6 +144,7 @@ def test_runs_are_numbas(case):
     compared("straight", *CASES[case])
 
 
+@pytest.mark.slow
 def test_a_run_imports_no_numba():
     for shape, *case in (("straight", "four-bar", "lagrange", "rk4"), ("looped", "pendulum", "lagrange", "rk4")):
         assert not json.loads(process("compile.native.loops", shape, *case).stdout)["numba"]

@@ -136,6 +136,7 @@ def programs(draw):
     return graph, [some(numbers[-20:]) for _ in range(OUTPUTS)], some(truths) if draw(st.booleans()) else None
 
 
+@pytest.mark.slow
 @given(program=programs())
 @settings(max_examples=8, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True, database=None)
 def test_random_programs(tmp_path_factory, program):

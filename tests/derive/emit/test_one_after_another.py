@@ -19,6 +19,7 @@ def choices():
         yield choose_method(name, None, not forms & EXPLICIT_FORMS)
 
 
+@pytest.mark.fast("slider-crank-cuda", "spherical-double-pendulum-cuda")
 @pytest.mark.parametrize("target", ["cpu", "cuda"])
 @pytest.mark.parametrize("name", ["slider-crank", "spherical-double-pendulum"])
 def test_a_method_has_the_code_that_it_has_alone(name, target):

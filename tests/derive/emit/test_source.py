@@ -50,6 +50,7 @@ def is_condition(node: ast.expr) -> bool:
     return any(isinstance(n, ast.Compare) for n in ast.walk(node))
 
 
+@pytest.mark.fast("pendulum", "slider-crank", "driven-four-bar", "rough")
 @pytest.mark.parametrize("model", MODELS)
 def test_no_operation_with_a_literal_that_changes_nothing(model):
     for stem, tree in trees(model):

@@ -23,8 +23,8 @@ from symgen.base.escapes import LONGEST, comment_text
 from symgen.compile.store.modules import load_module
 from symgen.derive.emit.printer import table_name
 from symgen.derive.methods._base import MethodOption, MethodParameter, MultiplierMethod
+from symgen.describe.files.section_names import SECTIONS
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.sections import SECTIONS
 from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
 
 EXPLICIT, IMPLICIT = choose_method("direct-correction"), choose_method("lagrange", None, True)
@@ -81,6 +81,7 @@ def executed(sources: Mapping[str, str], folder: Path) -> None:
     assert not hasattr(builtins, "planted")
 
 
+@pytest.mark.fast("tables", "states", "stops", "outputs")
 @pytest.mark.parametrize("section", SECTIONS)
 def test_text_in_any_field_of_a_file_is_refused_or_harmless(section, tmp_path):
     """Every field that may hold text, by the schema, each with every way out of a docstring that is not refused."""
@@ -150,6 +151,7 @@ class Talkative(MultiplierMethod):
     options: ClassVar = (*MultiplierMethod.options, MethodOption("word", ("m",), "m"))
 
 
+@pytest.mark.slow
 def test_words_of_methods_are_harmless(monkeypatch, tmp_path):
     mechanism = mechanism_of(SMALL)
 

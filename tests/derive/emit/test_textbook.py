@@ -48,6 +48,7 @@ def derive(description):
     return [*phi, *slips], lambda *at: [np.array(x, dtype=float) for x in parts(*at)]
 
 
+@pytest.mark.fast("four-bar", "slider-crank")
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "everything"])
 def test_against_the_whole_system_at_once(name):
     description = EVERYTHING if name == "everything" else raw(name)

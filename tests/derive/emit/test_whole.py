@@ -59,6 +59,7 @@ def modules_of(stem, modules):
     return found
 
 
+@pytest.mark.fast("slider-crank", "driven-four-bar", "four-bar joint")
 @pytest.mark.parametrize("model", MODELS)
 def test_functions_of_straight_code_are_those_that_run(model):
     for stem, source in emitted(model).items():
@@ -66,6 +67,7 @@ def test_functions_of_straight_code_are_those_that_run(model):
         assert functions(source) == sorted(f for part in parts for f in functions(part)), stem
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", LOOPED)
 def test_functions_of_looped_code_are_those_that_run(model):
     divided = emitted_looped(model, False)

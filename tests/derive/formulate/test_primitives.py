@@ -90,6 +90,7 @@ ARMS = {
 }
 
 
+@pytest.mark.fast("plane-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("where", ARMS)
 def test_a_rotor_is_a_body_with_a_gear(where, coordinates):
@@ -232,6 +233,7 @@ SAME = {
 }
 
 
+@pytest.mark.fast("universal")
 @pytest.mark.parametrize("name", SAME)
 def test_joints_are_put_together_of_primitives(name):
     whole, parts = SAME[name]

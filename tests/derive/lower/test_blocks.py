@@ -140,6 +140,16 @@ ENTRIES = (
 )
 
 
+@pytest.mark.fast(
+    "absolute-engine",
+    "absolute-slider-crank",
+    "absolute-driven-four-bar",
+    "joint-cam-follower",
+    "joint-spherical-double-pendulum",
+    "joint-four-bar",
+    "joint-rolling-disc",
+    "joint-spatial-slider-crank",
+)
 @pytest.mark.parametrize("name", ENTRIES)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_every_plan_gives_the_motion_of_the_dense_equations(name, coordinates):

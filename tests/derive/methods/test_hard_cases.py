@@ -85,6 +85,7 @@ def check_light(factor, methods):
             assert row.reason
 
 
+@pytest.mark.fast("1e-06")
 @pytest.mark.parametrize("factor", [1e-6, 1e-12])
 def test_light_bodies(factor):
     rows = robustness.light(factor, ("lagrange", "direct-correction", "coordinate-partitioning"))
@@ -124,6 +125,7 @@ def test_singular_positions_by_every_method(method, windows):
     check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
 
 
+@pytest.mark.fast("0.005-1e-05", "0.02-0.001")
 @pytest.mark.parametrize(("step", "tolerance"), [(1e-3, 1e-6), (5e-3, 1e-5), (2e-2, 1e-3)])
 def test_partitions_are_released_near_singular_positions(step, tolerance):
     """Where no set of independent coordinates determines the others, all are corrected: the regular branch is kept."""
@@ -150,6 +152,7 @@ def two_links(massless: bool) -> Model:
     return Model(raw.build())
 
 
+@pytest.mark.fast("direct-correction", "stiffness-scaled-penalty")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "stiffness-scaled-penalty"])
 def test_a_massless_coupler_moves_as_a_distance_joint(method):
     keys = {"method": method, "integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 2.0, "output_step": 0.1}

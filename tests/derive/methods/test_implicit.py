@@ -96,6 +96,16 @@ class Stage:
         return by[:, :n], by[:, n:]
 
 
+@pytest.mark.fast(
+    "baumgarte",
+    "adaptive-baumgarte",
+    "compliant-constraints",
+    "ggl",
+    "generalized-alpha",
+    "index3-augmented-lagrangian",
+    "rattle",
+    "discrete-gradient",
+)
 @pytest.mark.parametrize("method", LEVELS)
 def test_tangent_is_the_derivative_of_the_residual(method):
     stage = Stage(method)
@@ -154,6 +164,7 @@ def test_generalized_alpha_without_damping_is_refused(rho):
         make_plan(load("four-bar").mechanism, settings)
 
 
+@pytest.mark.fast("baumgarte-radau5-1e-11", "ggl-radau5-1e-11", "direct-correction-sdirk-1e-06")
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [

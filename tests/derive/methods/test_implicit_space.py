@@ -80,6 +80,7 @@ class Stage:
         return by[:, :n], by[:, n:]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "case",
     [pytest.param(i, marks=() if i < 2 else pytest.mark.slow) for i in range(len(CASES))],

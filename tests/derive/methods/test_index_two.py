@@ -25,6 +25,7 @@ def test_projected_velocities_keep_the_order(name, until, step):
     assert np.log2(np.divide(*errors)) == pytest.approx([2.0, 2.0], abs=0.05)
 
 
+@pytest.mark.slow
 def test_adaptive_steps_are_projected_too():
     options = {"method.index": "2", "integrator.adaptive": "true"}
     run = symgen.load("four-bar").simulate(method="generalized-alpha", rtol=1e-5, until=1.0, options=options)

@@ -67,6 +67,7 @@ def check(emitted, plain, t, q, v, method, tolerance):
     close(found.power, expected.power - multipliers @ expected.nu, f"power, {method}", tolerance)
 
 
+@pytest.mark.fast("direct-correction-options2")
 @pytest.mark.parametrize(("method", "options"), LAWS)
 @RANDOM
 @given(data=st.data())
@@ -130,6 +131,7 @@ def test_every_law_agrees_where_the_constraints_hold(method):
     close(found.multipliers, multipliers, "lambda", 1e-5)
 
 
+@pytest.mark.slow
 def test_every_method_can_be_emitted_with_every_option():
     for name, method in KNOWN.items():
         for option in (option for option in method.options if option.emitted):

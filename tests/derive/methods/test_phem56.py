@@ -46,6 +46,13 @@ def test_conditions_of_the_coefficients():
     assert b[1] == b @ a[:, 1] == pytest.approx(0.0, abs=1e-14)
 
 
+@pytest.mark.fast(
+    "four-bar-2.0-0.004-keys1",
+    "spatial-slider-crank-0.4-0.00125-keys2",
+    "spatial-slider-crank-0.4-0.0025-keys3",
+    "bricard-1.0-0.02-keys4",
+    "heavy-top-0.5-0.0025-keys5",
+)
 @pytest.mark.parametrize(("name", "until", "step", "keys"), MOTIONS)
 def test_order_five_with_velocities_to_rounding(name, until, step, keys):
     (times, exact), model, errors = reference(name, until), load(name), []
@@ -57,6 +64,7 @@ def test_order_five_with_velocities_to_rounding(name, until, step, keys):
     assert 4.8 < orders(errors)[0] < 5.3
 
 
+@pytest.mark.slow
 def test_steps_are_chosen_by_the_error():
     """The estimate is of order 4: a thousandth of the tolerance takes 1000^(1/5) = 4 times the steps."""
     (times, exact), model, runs = reference("four-bar", 2.0), load("four-bar"), []

@@ -93,6 +93,7 @@ def test_notebooks_show_a_page_in_a_frame(result: Any) -> None:
     assert len(repr(page)) < 100
 
 
+@pytest.mark.slow
 def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
     file = tmp_path / "a.nc"
     result.save(file)
@@ -128,6 +129,7 @@ def test_a_page_runs_no_method_that_its_scheme_does_not_solve(result: Any) -> No
         result.view(live="ggl")
 
 
+@pytest.mark.slow
 def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any) -> None:
     mechanism = load("slider-crank").mechanism
     result.save(tmp_path / "a.nc")
@@ -145,6 +147,7 @@ def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any)
     assert "q[0] =" in result.view().html
 
 
+@pytest.mark.slow
 def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
     pushed = {
         "mechanism": {"name": "pushed"},
@@ -180,6 +183,7 @@ def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
         assert not found.live and why in data_of(found.html)["note"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("event", "does"),
     [
@@ -277,6 +281,7 @@ def test_forces_are_in_the_page_of_every_machine_that_has_some() -> None:
     assert len(numbers) == 2 * len(motion["reactions"]["names"]) * motion["count"]
 
 
+@pytest.mark.slow
 def test_what_is_too_large_in_coordinates_of_bodies_is_live_in_those_of_joints(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -176,6 +176,7 @@ def vanishes(equations, expression, seed=5):
     assert np.abs(numbers).max(initial=0.0) < 1e-12 * 100  # sums of tens of numbers of order 1 to 10
 
 
+@pytest.mark.fast("four-bar", "driven-four-bar", "slider-crank", "pendulum", "heavy-top", "free-rigid-body")
 @pytest.mark.parametrize("name", SMALL)
 def test_sympy_itself_finds_the_same_jacobian_gamma_and_masses(name):
     e = symgen.load(name).equations

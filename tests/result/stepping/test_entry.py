@@ -51,6 +51,11 @@ def test_both_ways_give_the_same_bits(method, integrator, adaptive):
     assert_same(sim, plain)
 
 
+@pytest.mark.fast(
+    "bricard-direct-correction-rk4-straight",
+    "n-four-bar:1-null-space-dopri5-straight",
+    "n-four-bar:1-null-space-dopri5-looped",
+)
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(
     ("name", "method", "integrator"),

@@ -40,6 +40,7 @@ def flight(t):
     return height + speed * (t - begin) - 0.5 * G * (t - begin) ** 2, speed - G * (t - begin)
 
 
+@pytest.mark.fast("rk4-True", "rk4-False")
 @pytest.mark.parametrize(("integrator", "direct"), [("rk4", True), ("rk4", False), ("abm4", True)])
 def test_pieces_are_one_run_with_events_that_are_noted(integrator, direct):
     model, settings = ball(**NOTED), {"method": "lagrange", "integrator": integrator, "step": 1e-2}
@@ -116,6 +117,7 @@ def test_where_impacts_accumulate_the_run_stays_before_the_last_one(direct):
         assert all(e.t <= sim.t for e in sim.events)
 
 
+@pytest.mark.fast("False")
 @pytest.mark.parametrize("direct", [True, False])
 def test_velocities_that_cannot_be_leave_the_run_before_the_event(direct):
     rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.0, -0.5], "angle": "-pi/2"}

@@ -37,6 +37,16 @@ def assert_end(sim, result):
     assert_same_motion(sim.state, np.concatenate([result.q.values[-1], result.v.values[-1]]))
 
 
+@pytest.mark.fast(
+    "direct-correction-rkmk4-screws",
+    "generalized-alpha-generalized-alpha",
+    "index3-augmented-lagrangian-trapezoidal",
+    "half-explicit-half-explicit",
+    "discrete-gradient-discrete-gradient",
+    "implicit-constraint-symplectic-euler",
+    "compliant-constraints-rk4",
+    "controllable-velocity-projection-rk4",
+)
 @pytest.mark.parametrize(("method", "integrator"), [*PAIRS, *MORE])
 def test_steps_are_one_run(four_bar, method, integrator):
     """Constant steps: pieces of one, two and more of them, each in another run that takes up where the last one was."""
@@ -71,6 +81,11 @@ def test_adaptive_pieces_end_where_they_are_told_to(four_bar, method, integrator
     np.testing.assert_allclose(sim.q, whole.q.values[-1], atol=1e-6)  # 30 times the error of the pair that is worst
 
 
+@pytest.mark.fast(
+    "bricard-direct-correction-rk4-0.002",
+    "spherical-double-pendulum-augmented-lagrangian-rkmk4-0.001",
+    "heavy-top-ggl-radau5-0.001",
+)
 @pytest.mark.parametrize(
     ("name", "method", "integrator", "step"),
     [

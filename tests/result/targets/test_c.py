@@ -63,6 +63,7 @@ def agree(name, coordinates, folder):
     return rates, corrections
 
 
+@pytest.mark.fast("rolling-disc-absolute")
 @pytest.mark.parametrize(("name", "coordinates"), QUICK)
 def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
@@ -87,6 +88,7 @@ def rows_of(program, *words):
     return head.split(","), np.array([row.split(",") for row in rows], dtype=float)
 
 
+@pytest.mark.fast("slider-crank-absolute")
 @pytest.mark.parametrize(("name", "coordinates"), [("four-bar", "joint"), ("slider-crank", "absolute")])
 def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     model = load(name)
@@ -101,6 +103,7 @@ def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-11, atol=1e-11)
 
 
+@pytest.mark.fast("1e-2-four-bar-lock")
 @pytest.mark.parametrize("name", LOCKED)
 @pytest.mark.parametrize("step", ["1e-3", "1e-2"])
 def test_a_program_that_locks_says_what_a_run_says(name, step, tmp_path):
@@ -126,6 +129,7 @@ def test_a_program_whose_forces_are_undefined_says_until_when(tmp_path):
     assert ended.returncode == 1 and ended.stderr == "the motion cannot be continued at t = 0.25 s\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("origin", [0.0, 1e4])
 def test_whether_joints_close_does_not_depend_on_the_origin(origin, tmp_path):
     """Two rods of 1 m reach each other as long as their pivots are at most 2 m apart."""
@@ -208,6 +212,7 @@ step = 1e-3
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("products", ["", ", 0.1, 0.0, 0.0"])
 def test_a_body_in_space_is_changed_whether_its_axes_are_principal_or_not(products, tmp_path):
     (tmp_path / "stone.toml").write_text(STONE.format(products=products))
@@ -267,6 +272,7 @@ def test_long_functions_are_divided(tmp_path):
     assert max(map(len, text.split("\n\n"))) < 60_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["wiper", "bricard"])
 def test_bytes_do_not_depend_on_the_process(name, tmp_path):
     texts = []
@@ -293,6 +299,7 @@ def test_javascript_is_a_module(tmp_path):
     assert "function rhs(t, y, p, w, iw, ydot)" in text
 
 
+@pytest.mark.slow
 def test_a_program_holds_joints_that_may_be_off(tmp_path):
     """It has no transitions: rows that may be off are in force, as `run` begins."""
     whole = load("four-bar").mechanism

@@ -54,6 +54,7 @@ def four_bar(request, tmp_path_factory):
     return fmu_of(load("four-bar"), tmp_path_factory.mktemp("fmu") / "four-bar.fmu", fmi=request.param)
 
 
+@pytest.mark.slow
 def test_it_is_valid_and_small(four_bar):
     assert validate_fmu(str(four_bar)) == []
     assert size_of(four_bar) < 200_000
@@ -87,6 +88,7 @@ def test_co_simulation_is_a_run_with_the_same_step(four_bar):
         np.testing.assert_allclose(rows[name], own[name], rtol=1e-11, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_parameters_assemble_anew_and_those_that_follow_cannot_be_set(tmp_path):
     model = load("wiper")
     path = fmu_of(model, tmp_path / "wiper.fmu")
@@ -100,6 +102,7 @@ def test_parameters_assemble_anew_and_those_that_follow_cannot_be_set(tmp_path):
         np.testing.assert_allclose(rows["energy"], own["energy"], rtol=0, atol=100 * tolerance)
 
 
+@pytest.mark.fast("2-CoSimulation")
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_events_change_velocities_and_end_the_motion(kind, fmi, tmp_path):
@@ -116,6 +119,7 @@ def test_events_change_velocities_and_end_the_motion(kind, fmi, tmp_path):
     assert over["time"][-1] == pytest.approx(1.5, abs=0.051)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("event", ["t > 0.5", "a.x > 0.5"])
 def test_an_output_at_a_reset_has_the_velocities_behind_it(event, tmp_path):
     """In runs with steps of either kind, in C, and in both kinds of FMU."""
@@ -139,6 +143,7 @@ def test_an_output_at_a_reset_has_the_velocities_behind_it(event, tmp_path):
         assert list(found["a.vx"]) == pytest.approx(expected), kind
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_co_simulation_that_locks_logs_what_a_run_says(fmi, tmp_path):
     description, expected, _ = LOCKED["four-bar-lock"]
@@ -153,6 +158,7 @@ def test_a_co_simulation_that_locks_logs_what_a_run_says(fmi, tmp_path):
     assert found[0] == pytest.approx(expected, abs=1e-5) and found[1:] == moved[1:]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["joint", pytest.param("absolute", marks=pytest.mark.slow)])
 def test_a_mechanism_in_space_has_one_degree_of_freedom(coordinates, tmp_path):
     model = load("bricard")
@@ -223,6 +229,7 @@ class Unit:
         self.slave.freeInstance()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parameters", [{}, {"crank_length": 0.045}], ids=["described", "shorter-crank"])
 def test_a_controller_drives_the_wiper_in_one_co_simulation(parameters, tmp_path):
     (tmp_path / "controller.toml").write_text(CONTROLLER)
@@ -280,11 +287,10 @@ def test_units_are_products_of_base_units(unit, exponents):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "fmi"), [(name, 2 + i % 2) for i, name in enumerate(NAMES)])
 def test_the_whole_catalogue(name, fmi, tmp_path):
     model = load(name)
-    if model.mechanism.frictions:
+    if any(not row.one_sided for row in model.mechanism.bounded):
         with pytest.raises(InputError, match="a mechanism without dry friction"):
             model.generate(tmp_path / "model.fmu", target="fmu", fmi=fmi)
         return

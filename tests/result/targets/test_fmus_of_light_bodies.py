@@ -26,6 +26,12 @@ def made(request, kind, tmp_path_factory):
     return path, mechanism
 
 
+@pytest.mark.fast(
+    "(2, 'absolute')-light body-model exchange",
+    "(3, 'absolute')-light body-model exchange",
+    "(3, 'joint')-massless body-model exchange",
+    "(3, 'joint')-light body-co-simulation",
+)
 @pytest.mark.parametrize(
     ("simulated", "run"),
     [

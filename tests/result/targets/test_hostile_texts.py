@@ -190,8 +190,16 @@ def titles(*few: str):
 
 
 @pytest.mark.parametrize("title", titles(FEW[0]))
-@pytest.mark.parametrize("options", [(), ("--target", "cuda"), ("--target", "lanes"), ("--shape", "looped")])
-def test_packages(options, title, tmp_path):
+def test_packages(title, tmp_path):
+    assert_same_packages((), title, tmp_path)
+
+
+@pytest.mark.parametrize("options", [("--target", "cuda"), ("--target", "lanes"), ("--shape", "looped")])
+def test_packages_of_other_code_have_the_same_comments(options, tmp_path):
+    assert_same_packages(options, FEW[0], tmp_path)
+
+
+def assert_same_packages(options, title, tmp_path):
     folders = [written(path, "generate", *options, "code") for path in pair(tmp_path, title)]
     honest, hostile = ({p.name: p.read_text(encoding="utf-8") for p in folder.iterdir()} for folder in folders)
     assert hostile.keys() == honest.keys()
@@ -209,6 +217,7 @@ def test_packages(options, title, tmp_path):
         assert runs[0].stdout == runs[1].stdout != "" and runs[1].returncode == 0, runs[1].stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(*FEW))
 def test_c(title, tmp_path):
     folders, programs = [written(path, "generate", "--target", "c", "code") for path in pair(tmp_path, title)], []
@@ -224,6 +233,7 @@ def test_c(title, tmp_path):
     assert not re.search(r"(?<!\\)<|(?<!\\)\](?=[(\[:])", page)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[0]))
 @pytest.mark.parametrize("fmi", ["2", "3"])
 def test_fmu(fmi, title, tmp_path):
@@ -261,6 +271,7 @@ def test_javascript(title, tmp_path):
     assert said[0].stdout == said[1].stdout and said[1].stdout.endswith("undefined\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[1]))
 def test_pages_and_pictures(title, tmp_path):
     files = pair(tmp_path, title)
@@ -303,6 +314,7 @@ def test_saved_runs_and_terminals(title, tmp_path, capsys):
         assert data.attrs["mechanism"] == "swing" and json.loads(data.attrs["run"])["status"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[1]))
 def test_reports(title):
     """Titles, reasons and notes: a journal may be of somebody else."""

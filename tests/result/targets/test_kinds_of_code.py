@@ -31,6 +31,7 @@ def model_of(kind, coordinates, folder, target):
     return CModel.of(Request(mechanism_of(kind), folder, coordinates=coordinates), target)
 
 
+@pytest.mark.fast("plain-joint", "light body-absolute")
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("kind", FILES)
 def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
@@ -51,6 +52,7 @@ def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
     assert len(compiled) == 3 and done.returncode == 0, done.stderr[:3000]
 
 
+@pytest.mark.fast("plain", "redundant rows")
 @pytest.mark.parametrize("kind", FILES)
 def test_printed_functions_have_names_of_their_own(kind, tmp_path):
     model = model_of(kind, "absolute", tmp_path, "fmu")
@@ -82,6 +84,7 @@ def test_names_of_templates_are_those_that_compilers_see(tmp_path):
         } <= defined_names()  # macros make some of these
 
 
+@pytest.mark.fast("state with a formula", "rotor")
 @pytest.mark.parametrize("kind", FILES)
 def test_a_page_has_emitted_names_inside_a_function(kind):
     """A second function of a name would replace the first without a word, and a constant would be an error."""

@@ -15,8 +15,8 @@ from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.inputs import Jump
-from symgen.run.breaks.stops import merged, times_between
-from symgen.run.loops.run_spec import Stop
+from symgen.run.breaks.seams import merged, times_between
+from symgen.run.loops.run_spec import Seam
 from symgen.study.ensemble.sweep import sweep
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
@@ -166,7 +166,7 @@ def test_times_of_kinks() -> None:
 
 
 def test_kinks_and_jumps_end_pieces_together() -> None:
-    jumps = (Stop(0.0, {"u": 1.0}), Stop(0.5, {"u": 2.0}))
-    kinks = (Stop(0.0, {}), Stop(0.3, {}), Stop(0.5, {}), Stop(0.7, {}))
+    jumps = (Seam(0.0, {"u": 1.0}), Seam(0.5, {"u": 2.0}))
+    kinks = (Seam(0.0, {}), Seam(0.3, {}), Seam(0.5, {}), Seam(0.7, {}))
     assert merged(jumps, kinks) == (jumps[0], kinks[1], jumps[1], kinks[3])
     assert merged((), kinks) == kinks and merged(jumps, ()) == jumps

@@ -16,7 +16,7 @@ import symgen
 from symgen.base.vocabulary.expressions import Expr
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.run.breaks.in_time import InTime, crossings
-from symgen.run.breaks.stops import foreseen
+from symgen.run.breaks.seams import foreseen
 from symgen.study.ensemble.sweep import sweep
 from symgen.study.ensemble.sweep_plan import make_ensemble
 
@@ -187,6 +187,7 @@ def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
         assert result["a.vx"][-1] == pytest.approx(0.1 + float(np.trapezoid(there, times)), abs=1e-5)
 
 
+@pytest.mark.fast("settings0")
 @pytest.mark.parametrize("settings", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 0.01}])
 def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, Any]) -> None:
     model = pushed_point(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)
@@ -196,6 +197,7 @@ def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, A
     assert all(expected in row[0] for row in found.warnings)
 
 
+@pytest.mark.fast("dopri5", "picard", "radau5")
 @pytest.mark.parametrize("integrator", SCHEMES)
 def test_events_that_come_and_go_within_a_step_are_seen(tmp_path: Path, integrator: str) -> None:
     """Conditions of the time alone: of one that is true 500 times for 90 us `dop853` saw none."""

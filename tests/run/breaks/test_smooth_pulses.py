@@ -79,6 +79,16 @@ def test_a_pulse_is_seen_by_default_and_with_a_largest_step(tmp_path: Path, inte
     assert not bounds(asked) and found.steps < 1200
 
 
+@pytest.mark.fast(
+    "bell-radau5",
+    "quotient-picard",
+    "hill-abm",
+    "hill-sdirk",
+    "step-dop853",
+    "step-dopri5",
+    "ramp-dopri5",
+    "train-dopri5",
+)
 @pytest.mark.parametrize("integrator", SCHEMES)
 @pytest.mark.parametrize("name", FORCES)
 def test_runs_miss_none(tmp_path: Path, name: str, integrator: str) -> None:

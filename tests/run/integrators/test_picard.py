@@ -86,6 +86,7 @@ def test_unknown_rates_leave_out_coordinates_whose_rate_is_a_velocity():
                 assert q.rpartition(".")[0] == v.rpartition(".")[0]
 
 
+@pytest.mark.fast("joint")
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
 def test_order_is_at_least_14(coordinates):
     mechanism, until, steps = symgen.load("four-bar").mechanism, 10.0, [90, 100, 110, 120, 130, 140, 160]

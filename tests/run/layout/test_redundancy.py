@@ -31,6 +31,15 @@ SETTINGS = (
 )
 
 
+@pytest.mark.fast(
+    "two_pins-lagrange dop853",
+    "two_pins-direct-correction rk4 looped",
+    "two_pins_tilted-lagrange rk4",
+    "two_pins_tilted-direct-correction dop853 1e-10",
+    "two_pins_tilted-direct-correction radau5",
+    "two_pins_tilted-coordinate-partitioning rk4",
+    "two_pins_tilted-null-space dop853",
+)
 @pytest.mark.parametrize("settings", SETTINGS, ids=lambda s: " ".join(map(str, s.values())))
 @pytest.mark.parametrize("name", ["two_pins", "two_pins_tilted"])
 def test_two_pins_of_one_turning_body(name: str, settings: dict) -> None:
@@ -104,6 +113,7 @@ def test_rows_that_are_off_stand_for_none_and_are_not_masked() -> None:
     assert sorted(mask[[1, 3]]) == [0.0, np.inf]
 
 
+@pytest.mark.slow
 def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
     """In joint coordinates rows of loops vanish for ever; their direction is rounding's, and of length 1 if weighed."""
     settings = Settings(method="lagrange", integrator="dop853", coordinates="joint")
@@ -142,6 +152,7 @@ def test_errors_of_kept_rows_are_not_enlarged_in_the_others(seed: int) -> None:
     assert np.abs(factors).max() <= 2.0 ** (left_out - 1) + 1e-9
 
 
+@pytest.mark.fast("dop853")
 @pytest.mark.parametrize("integrator", ["rk4", "dop853"])
 def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> None:
     """Which rows stand for all changes as the rod turns; each time drift was enlarged, some hundredfold a turn."""
@@ -165,6 +176,7 @@ def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> 
     np.testing.assert_allclose(again["rod.theta"][-1], once["rod.theta"][-1], rtol=0.0, atol=1e-8)
 
 
+@pytest.mark.fast("direct-correction rk4 0.001", "lagrange dop853 1e-10 joint")
 @pytest.mark.parametrize(
     "settings",
     (
@@ -215,6 +227,7 @@ def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
     assert found.values[0, 1] > 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(
     ("name", "rank", "until"),
@@ -235,6 +248,7 @@ def test_the_rank_is_none_of_the_order_of_elimination(name: str, rank: int, unti
     assert off(result, system, q) < 1e-7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
     (

@@ -77,6 +77,7 @@ def test_a_guide_and_pins(tmp_path, length):
     check_alike(tmp_path, of_catalogue("slider-crank"), length, ("q", "v", "lam"), until=1e-2, step=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("length", [2.0**-10, 2.0**10])
 def test_redundant_rows_and_their_reactions(tmp_path, length):
     """Rank, the rows that are left out, and multipliers of least norm."""
@@ -84,6 +85,7 @@ def test_redundant_rows_and_their_reactions(tmp_path, length):
     assert found.rank.rank == 29 and len(found.rank.redundant_rows) == 1
 
 
+@pytest.mark.fast("9.5367431640625e-07")
 @pytest.mark.parametrize("length", [2.0**-20, 2.0**20])
 def test_light_bodies(tmp_path, length):
     """What is added to M, where light bodies spoil the elimination, suits rows of both kinds."""

@@ -120,6 +120,7 @@ def test_forces_read_angles_of_their_own_in_space(tmp_path: Path, coordinates: s
     assert np.abs(result.v["rod.wz"] - passed(TIMES)[1]).max() < 20.0 * 1e-9
 
 
+@pytest.mark.slow
 def test_rows_of_a_sweep_are_single_runs(passing: symgen.Model) -> None:
     sizes, settings = [0.7, 1.0], {"method": "lagrange", "integrator": "dop853", "times": [0.3, 1.0]}
     found = sweep(passing, {"size": sizes}, quantities=("mass.x",), **settings)
@@ -270,6 +271,14 @@ def test_methods_with_momenta_run_rows_without_integrals_nobody_asks_for(tmp_pat
     assert list(found.status) == ["ok", "ok"]
 
 
+@pytest.mark.fast(
+    "101-linear-dop853",
+    "101-linear-abm",
+    "101-linear-picard",
+    "101-linear-sdirk",
+    "1001-pchip-dopri5",
+    "6001-linear-radau5",
+)
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "abm", "picard", "sdirk", "radau5"])
 @pytest.mark.parametrize(("points", "how"), [(101, "linear"), (1001, "pchip"), (6001, "linear")])
 def test_a_spike_of_a_table_is_not_stepped_over(tmp_path: Path, points: int, how: str, integrator: str) -> None:

@@ -79,6 +79,14 @@ def pushed(
     )
 
 
+@pytest.mark.fast(
+    "3 + 5*(1 if low < bob.vx and bob.vx < high else 0)-speed-dop853",
+    "3 + 5*(1 if low < t and t < high else 0)-time-abm",
+    "3 + 5*(1 if low < t and t < high else 0)-time-dopri5",
+    "3 + 5*(1 if low < t and t < high else 0)-time-picard",
+    "3 + 5*(1 if low < t and t < high else 0)-time-radau5",
+    "3 + 5*(1 if low < t and t < high else 0)-time-sdirk",
+)
 @pytest.mark.parametrize("integrator", ADAPTIVE)
 @pytest.mark.parametrize(("force", "where"), [(OVER_SPEED, "speed"), (OVER_TIME, "time")])
 def test_short_pushes_are_not_stepped_over(folder: Path, integrator: str, force: str, where: str) -> None:
@@ -186,6 +194,14 @@ reset = { "bob.vx" = "-0.8*bob.vx" }
     np.testing.assert_allclose(*found, rtol=1e-9)
 
 
+@pytest.mark.fast(
+    "3 + 5*(1 if low < bob.vx and bob.vx < high else 0)-0.5-dop853-absolute",
+    "3 + 5*(1 if low < bob.x and bob.x < high else 0)-0.0-dopri5-absolute",
+    "3 + 5*(1 if low < t and t < high else 0)-0.0-dopri5-joint",
+    "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dop853-joint",
+    "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))-0.0-dopri5-absolute",
+    "wide(bob.x)-0.0-dopri5-absolute",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
 @pytest.mark.parametrize(
@@ -260,6 +276,16 @@ def fallen(law: Callable[[float], float]) -> list[float]:
     return [float(x) for x in found.y[:2, -1]]
 
 
+@pytest.mark.fast(
+    'actuator = "-10*abs(length - 2)*(length - 2)"-abm',
+    'actuator = "-10*sign(length - 2)*(length - 2)**2"-dopri5',
+    'actuator = "-10*(length - 2)**2 if length > 2 else 10*(length - 2)**2"-picard',
+    'actuator = "-10*(length - 2)**2 if length > 2 else 10*(length - 2)**2"-auto',
+    'actuator = "-30*(length - min(2, length))"-dopri5',
+    'actuator = "-30*(length - min(2, length))"-abm',
+    'potential = "10*abs(length - 2)**3/3"-abm',
+    'potential = "15*(length - 2)**2 if length > 2 else 0"-dopri5',
+)
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "picard", "radau5", "abm", "auto"])
 @pytest.mark.parametrize("law", AT_THE_START)
 def test_a_kink_at_the_start_is_no_obstacle(tmp_path: Path, law: str, integrator: str) -> None:
@@ -421,6 +447,7 @@ torque = "-2e4*(angle - 0.02) - 20*rate if angle > 0.02 else -2e4*(angle + 0.02)
 """
 
 
+@pytest.mark.fast("radau5-10.0", "radau5-50.0", "dop853-2.0", "picard-2.0")
 @pytest.mark.parametrize("until", [2.0, 10.0, 50.0])
 @pytest.mark.parametrize("integrator", ["radau5", "dop853", "picard"])
 def test_the_end_of_a_run_decides_on_no_step_of_it(folder: Path, integrator: str, until: float) -> None:

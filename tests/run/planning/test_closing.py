@@ -60,6 +60,12 @@ def names_of(mechanism):
     return [info.velocities[j].name for j in free_velocities(mechanism)]
 
 
+@pytest.mark.fast(
+    "four-bar-free0-most0-absolute",
+    "four-bar-free0-most0-joint",
+    "andrews-free1-most1-absolute",
+    "n-four-bar:10-free2-most2-absolute",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("name", "free", "most"),
@@ -76,6 +82,7 @@ def test_loops_of_the_catalogue_leave_the_crank_free(name, free, most, coordinat
     assert operations["rhs"] <= most[joint] < operations[BY_PIVOTS]
 
 
+@pytest.mark.fast("jansen-leg", "bricard", "slider-crank", "chain:4")
 @pytest.mark.parametrize("name", ["jansen-leg", "bricard", "slider-crank", "chain:4", "stewart-platform"])
 def test_nothing_is_chosen_where_drivers_decide_or_no_loop_has_two_rows(name):
     mechanism, choice = symgen.load(name).mechanism, choose_method("lagrange")

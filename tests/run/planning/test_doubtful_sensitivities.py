@@ -25,6 +25,7 @@ def test_every_other_integrator_is_refused(integrator):
         symgen.simulate("four-bar", sensitivities="crank_mass", **settings)
 
 
+@pytest.mark.slow
 def test_lengths_of_a_mechanism_that_moves_by_its_dimensions():
     with pytest.raises(InputError, match=r"stays closed, got one by which the row P0\.x cannot be met"):
         symgen.simulate("bricard", sensitivities="joints.P0.at[0][0]", until=0.1, integrator="dop853")

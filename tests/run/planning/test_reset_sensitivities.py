@@ -114,6 +114,7 @@ STRUCK = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_closed_loop_that_is_struck(tmp_path_factory, coordinates):
     struck = model(tmp_path_factory.mktemp("struck"), STRUCK)

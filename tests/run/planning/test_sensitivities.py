@@ -161,6 +161,7 @@ def test_errors_fall_with_the_order_of_the_scheme(rod, integrator, order, step):
 CONSTANT = {"integrator": "rk4", "step": 1e-2, "until": 0.4, "times": [0.4]}
 
 
+@pytest.mark.fast("absolute-lean", "absolute-circle", "joint-radius")
 @pytest.mark.parametrize("name", ["lean", "circle", "radius"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_rolling_disc_whose_start_is_closed_again(name, coordinates):

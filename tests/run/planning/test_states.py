@@ -134,6 +134,7 @@ def driven_four_bar():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_eigenvalues_of_a_four_bar_with_its_motor(coordinates):
     model = Model(driven_four_bar())
@@ -329,6 +330,16 @@ def test_orders_with_a_state(method, integrator, order):
     np.testing.assert_allclose(np.log2(errors[0] / errors[1]), order, rtol=0.03)
 
 
+@pytest.mark.fast(
+    "lagrange-newmark-2-absolute",
+    "generalized-alpha-generalized-alpha-2-joint",
+    "index3-augmented-lagrangian-trapezoidal-2-joint",
+    "rattle-rattle-2-joint",
+    "discrete-gradient-discrete-gradient-2-joint",
+    "symmetric-projection-gauss-4-joint",
+    "half-explicit-half-explicit-3-absolute",
+    "half-explicit-phem56-5-absolute",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("method", "integrator", "order"), SCHEMES)
 def test_schemes_with_a_state_in_a_loop(method, integrator, order, coordinates):

@@ -99,6 +99,7 @@ def test_every_hit_of_a_pendulum_is_found() -> None:
     assert len(expected) == 7 and min(b - a for a, b in pairwise(expected)) > 0.5
 
 
+@pytest.mark.fast("1e-08", "1e-10")
 @pytest.mark.parametrize("rtol", [1e-6, 1e-8, 1e-10])
 def test_no_start_is_ok_and_wrong(rtol: float) -> None:
     found = verdicts(24, rtol, rtol=rtol)
@@ -113,6 +114,7 @@ def test_of_many_starts_none_is_ok_and_wrong(rtol: float) -> None:
         assert found["wrong"] == 0 and found["unverified"] <= 4
 
 
+@pytest.mark.slow
 def test_rows_of_a_sweep_find_the_same_hits() -> None:
     speeds = list(np.linspace(3.0, 8.0, 9))
     model = pendulum()

@@ -385,6 +385,9 @@ def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None
     assert abs(outcome.states[-1][2] - angle) < most
 
 
+@pytest.mark.fast(
+    "discrete-gradient", "dopri5", "euler", "generalized-alpha", "half-explicit", "picard", "rk4", "symplectic-euler"
+)
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)
 def test_every_integrator_turns_round(integrator: str) -> None:
     method = integrator if integrator in METHODS.names else "direct-correction"
@@ -404,6 +407,7 @@ def test_every_integrator_turns_round(integrator: str) -> None:
     np.testing.assert_allclose(at_events, (signs * TURNS[:3])[:2], rtol=0, atol=3e-2)
 
 
+@pytest.mark.fast("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
     text = PIN.replace("[bodies.bob]", "[parameters]\ntorque = 0.5\n\n[bodies.bob]").replace("= 0.5 }", '= "torque" }')
@@ -414,6 +418,7 @@ def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
     assert rows.tolist() == alone
 
 
+@pytest.mark.fast("dop853")
 @pytest.mark.parametrize("integrator", ["dop853", "picard"])
 def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None:
     """Four dry pins that break loose, turn round and rest: each row has the bits of one."""
@@ -437,6 +442,7 @@ def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None
 _JUMPS = "piecewise(t < 0.05, late, t < 0.3, 0.5, t < 0.3 + late, 2.0, t < 1.0, 0.5, 3.0)"
 
 
+@pytest.mark.fast("rk4-absolute")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("rk4", "absolute"), ("picard", "joint")]
 )

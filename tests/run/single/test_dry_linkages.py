@@ -357,6 +357,7 @@ def after_one_second(linkage, coordinates):
 SEEDS = (0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 25, 29)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [43, *(pytest.param(seed, marks=pytest.mark.slow) for seed in SEEDS)])
 def test_random_linkages_agree_with_the_reference(seed: int) -> None:
     """In the 43rd the last pin of a loop passes a dead centre while a stop holds the first one."""

@@ -7,6 +7,13 @@ from benchmarks.bounded.margins import RUNS, Case, cases, examined
 CASES = list(cases())
 
 
+@pytest.mark.fast(
+    "start/constant/linear",
+    "start/constant/falling",
+    "start/static/quadratic",
+    "start/static/falling",
+    "start/stop/quadratic",
+)
 @pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
 def test_what_is_at_its_bound_moves_at_once_or_never(case: Case) -> None:
     outcome, error, reason = examined(case, RUNS["dop853"])

@@ -262,6 +262,7 @@ def test_four_pins_rub_by_their_reactions() -> None:
 # -- rows of sweeps ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "joint")])
 def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coordinates: str) -> None:
     """Pins that turn round and rest beside one of constant bound: each row has the bits of a single run."""
@@ -285,6 +286,7 @@ def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coord
     assert rows.status[2] == "failed" and "modes that are determined, got none at t = 0 s" in rows.reason[2]
 
 
+@pytest.mark.slow
 def test_pins_that_share_their_rest_rest_for_good_or_are_refused() -> None:
     """Four pins whose forces at rest nothing determines: a torque that follows the time may break them loose."""
     raw, source = read_raw("four-bar")

@@ -40,7 +40,7 @@ def test_a_smooth_law_creeps_where_the_exact_one_rests(tmp_path: Path) -> None:
     exact = symgen.load(pendulum("sliding = 0.5")).simulate(until=10.0, output_step=1.0)
     np.testing.assert_allclose(exact["pin.angle"], 0.04, rtol=0, atol=1e-12)
     smooth = symgen.load(pendulum('sliding = 0.5, law = "tanh", speed = 1e-3'))
-    assert smooth.mechanism.frictions == () and smooth.mechanism.forces[0].name == "pin.friction"
+    assert smooth.mechanism.bounded == () and smooth.mechanism.forces[0].name == "pin.friction"
     result = smooth.simulate(until=10.0, integrator="dop853", rtol=1e-10, output_step=1.0)
     held = 9.81 * np.sin(result["pin.angle"])
     rates = -1e-3 * np.arctanh(held / 0.5)

@@ -66,6 +66,11 @@ def test_two_runs_are_the_run_in_one_piece(method, integrator):
     assert_the_rest(second, whole, 1e-12 if method == "null-space" else 0.0)
 
 
+@pytest.mark.fast(
+    "bricard-direct-correction-0.02-0.001-looped",
+    "spherical-double-pendulum-lagrange-0.1-0.01-straight",
+    "parallelogram-coordinate-partitioning-1.0-0.001-straight",
+)
 @pytest.mark.parametrize(
     ("name", "method", "until", "step", "shape"),
     [
@@ -93,6 +98,7 @@ def test_in_space_with_redundant_rows_and_through_a_passage(name, method, until,
     assert found.rank_event_count == whole.rank_event_count and found.rank == whole.rank
 
 
+@pytest.mark.fast("csv")
 @pytest.mark.parametrize("ending", ["nc", "parquet", "csv"])
 def test_files(tmp_path, ending):
     model, asked = symgen.load("four-bar"), {"integrator": "abm4", "step": STEP, "output_step": STEP}
@@ -113,6 +119,7 @@ def test_files(tmp_path, ending):
             np.testing.assert_allclose(found["energy"][:, 2], whole.work[FIRST:], atol=1e-7)
 
 
+@pytest.mark.slow
 def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
     model = symgen.load("pendulum")
     first = model.simulate(until=0.01, step=1e-3)

@@ -142,6 +142,7 @@ def test_impacts_take_what_the_energy_lacks() -> None:
     assert abs(result.outputs["floor"][round(first.t / 0.01) + 1] - 0.5 * 20.0 * (1.0 - 0.36)) < 1e-9
 
 
+@pytest.mark.slow
 def test_rows_of_a_sweep_have_the_losses_of_single_runs() -> None:
     model = symgen.load(
         described(

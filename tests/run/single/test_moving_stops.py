@@ -191,6 +191,7 @@ def test_a_wall_meets_a_block_that_comes_to_rest(part: float, steps: dict[str, A
     assert result.energy_drift_max < 1e-10
 
 
+@pytest.mark.fast("text0-steps0", "text1-steps1", "text1-steps2")
 @pytest.mark.parametrize("steps", [{"integrator": "dop853", "rtol": 1e-10}, {"integrator": "rk4", "step": 1e-2}, {}])
 @pytest.mark.parametrize("text", [FLOOR, WALL])
 def test_rows_and_steps_have_these_impacts(text: str, steps: dict[str, Any]) -> None:
@@ -222,6 +223,12 @@ def test_impacts_on_a_rising_floor_accumulate() -> None:
     assert result["lost"][-1] == pytest.approx(6.25, abs=1e-9)
 
 
+@pytest.mark.fast(
+    "max(0, t - 0.3037)-1.0-radau5-absolute",
+    "max(0, t - 0.3037)-0.0-rk4-absolute",
+    "(t - 0.3037 if t > 0.3037 else 0)-0.5-dop853-joint",
+    "(t - 0.3037 if t > 0.3037 else 0)-0.0-default-absolute",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -247,6 +254,7 @@ def test_a_floor_that_stops_at_once_throws(steps: dict[str, Any]) -> None:
     np.testing.assert_allclose(result["b.y"], [0.2, 0.2074 + 2 * 0.1963 - 5 * 0.1963**2], rtol=0, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_rows_have_floors_that_start_at_once() -> None:
     text = FLOOR.replace("0.5*t", "max(0, t - begin)").replace("0.3]", "0.0]")
     model = symgen.load(described(text.replace("part = 1.0", "part = 0.9\nbegin = 0.2")))
@@ -263,6 +271,7 @@ def test_rows_have_floors_that_start_at_once() -> None:
 INPUT = FLOOR.replace('"b.y - 0.5*t"', '"b.y - height"') + '[inputs.height]\nunit = "m"\ndefault = 0.0\n'
 
 
+@pytest.mark.fast("0.5*t-default", "0.5*t-dop853", "0.5*t-radau5", "given1-rk4")
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("given", ["0.5*t", ([0.0, 0.1, 1.0], [0.0, 0.05, 0.5])])
 def test_an_input_moves_a_floor(given: Any, steps: dict[str, Any]) -> None:

@@ -73,6 +73,16 @@ CASES = {
 }
 
 
+@pytest.mark.fast(
+    "dop853-joint",
+    "dopri5-absolute",
+    "generalized-alpha-joint",
+    "half-explicit-joint",
+    "heun-joint",
+    "rkmk4-screws-absolute",
+    "symplectic-euler-joint",
+    "trapezoidal-joint",
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("integrator", list(INTEGRATORS))
 def test_point_masses_that_start_near_the_origin(integrator, coordinates):
@@ -131,6 +141,7 @@ def check_like(here, there):
     assert abs(there.steps - here.steps) <= 0.1 * here.steps
 
 
+@pytest.mark.fast("spherical-double-pendulum", "heavy-top")
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_shifted_mechanisms(name):
     """Positions are measured from a place of the mechanism: no step depends on where the origin lies.
@@ -152,6 +163,12 @@ def test_shifted_mechanisms(name):
         assert (there.status, there.rank.rank) == ("ok", here.rank.rank), there.reason
 
 
+@pytest.mark.fast(
+    "pendulum-9.313225746154785e-10",
+    "slider-crank-9.313225746154785e-10",
+    "spherical-double-pendulum-1073741824.0",
+    "heavy-top-1073741824.0",
+)
 @pytest.mark.parametrize("length", [2.0**-30, 2.0**30])
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_very_small_and_very_long_mechanisms(tmp_path, name, length):

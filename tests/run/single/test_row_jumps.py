@@ -87,6 +87,7 @@ def ended(mechanism, scheme, coordinates, **settings):
     return result.reason if result.status == "failed" else None
 
 
+@pytest.mark.fast("rk4-absolute", "rk4-joint")
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordinates):
     for wire in JUMPING:
@@ -95,6 +96,7 @@ def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordina
         assert "row wire.row1 jumps: its" in sentence or "joints.wire.rows[0].position: expected a motion" in sentence
 
 
+@pytest.mark.fast("dop853-absolute", "rk4-absolute", "rk4-joint")
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_change_smoothly_are_followed(scheme, coordinates):
     for wire, slope in SMOOTH.items():
@@ -210,6 +212,7 @@ def test_constant_steps_in_which_turns_are_lost_fail():
     assert result.status == "failed" and "take shorter ones" in result.reason
 
 
+@pytest.mark.slow
 def test_sweeps_count_turns_and_examine_rows():
     vary, kept = {"arm.omega": [0.1, 1.0]}, ["arm.theta", "direction.angle"]
     for settings in ({}, {"integrator": "rk4", "step": 1e-2}, {"integrator": "rk4", "step": 1e-2, "target": "lanes"}):

@@ -246,6 +246,7 @@ print(r.status, *r.outcome.states[-1].tolist())
 """
 
 
+@pytest.mark.slow
 def test_everything_runs_without_compilation():
     """NUMBA_DISABLE_JIT=1 is how a run is debugged; it gives the same numbers."""
     found = []

@@ -159,6 +159,7 @@ def test_a_ball_bounces_and_rests(integrator: str, coordinates: str) -> None:
     assert outcome.happened[0].energy == pytest.approx(-2.0 * G * 0.51, rel=1e-12)
 
 
+@pytest.mark.fast("dop853-absolute", "radau5-joint", "gauss-joint")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"),
     [("dop853", "absolute"), ("picard", "joint"), ("radau5", "joint"), ("gauss", "absolute"), ("gauss", "joint")],
@@ -349,6 +350,7 @@ reset = { "block.vx" = "1.0 + part" }
     return described(text)
 
 
+@pytest.mark.fast("_falling-rk4-absolute-settings1", "_pushed-dop853-absolute-settings4")
 @pytest.mark.parametrize(
     ("make", "integrator", "coordinates", "settings"),
     [
@@ -397,6 +399,7 @@ def test_an_impact_at_the_start(steps: dict[str, Any]) -> None:
     assert rows.status[0] == "ok" and rows["ball.y"][0].tolist() == run["ball.y"].tolist()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
 def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str, Any]) -> None:
     """A ball on a wire with a corner at 0.8 m, which some rows have: they fail there, with the words of single runs."""

@@ -110,6 +110,7 @@ def test_sizes_of_memory_of_a_thread_are_names():
     assert len(calls) > 10 and all(isinstance(call.args[0], ast.Name) for call in calls)
 
 
+@pytest.mark.slow
 def test_folders_belong_to_a_target(tmp_path):
     """What one target began, another must not continue: last digits differ."""
     script = f"""
@@ -162,6 +163,7 @@ def test_a_target_that_does_not_exist():
         symgen.sweep("pendulum", {"bob_mass": [1.0]}, target="cud")
 
 
+@pytest.mark.slow
 def test_a_run_too_large_for_a_thread():
     settings = Settings(method="lagrange", options={"method.solver": "dense"}, until=0.01)
     with pytest.raises(InputError, match="target 'cuda': expected runs that need at most 496 KiB each, got"):

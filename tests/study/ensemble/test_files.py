@@ -223,6 +223,7 @@ def test_outputs_that_cannot_be_written_are_refused_before_anything_runs(tmp_pat
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_two_processes_cannot_write_to_one_folder(tmp_path, monkeypatch):
     monkeypatch.setattr(plugins, "_files", {})  # of tests before: the other process loads none
     folder = tmp_path / "results"

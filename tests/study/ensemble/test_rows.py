@@ -306,6 +306,7 @@ def test_code_for_large_mechanisms_is_refused():
         symgen.sweep("n-four-bar:100", {"vertical0.omega": [1.0]})
 
 
+@pytest.mark.slow
 def test_without_compilation_the_numbers_are_the_same(tmp_path):
     """NUMBA_DISABLE_JIT=1 is how a run is debugged."""
     script = (
@@ -332,6 +333,11 @@ def pushed(formula: str) -> Mechanism:
     return mechanism_of(text)
 
 
+@pytest.mark.fast(
+    "5 if t < 0.0503 else -20-adaptive",
+    "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-constant",
+    "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-adaptive",
+)
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )
@@ -343,7 +349,7 @@ def test_rows_whose_inputs_jump_stay_in_the_loop_and_are_single_runs(push, steps
     settings |= {"inputs": {"push": push}, **steps}
     kept = (*EVERYTHING, "pulse", "reactions")
     found = symgen.sweep(model, {"crank_mass": [1.0, 2.0, 3.0]}, quantities=kept, **settings)
-    assert found.ensemble.recipe.stops
+    assert found.ensemble.recipe.seams
     assert_rows(found, model, **settings)
     jumped = symgen.sweep(
         model, {"crank_mass": [1.0]}, quantities=("crank.ax",), **settings | {"inputs": {"push": 5.0}}
@@ -374,7 +380,7 @@ def test_rows_with_events_and_inputs_that_jump_stay_in_the_loop_and_are_single_r
     masses = [1.0, 3.0, 6.0]
     found = symgen.sweep(model, {"crank_mass": masses}, quantities=("crank.theta", "pulse", "A.Fx"), **settings)
     watch = found.ensemble.recipe.watch
-    assert watch is not None and found.ensemble.recipe.stops
+    assert watch is not None and found.ensemble.recipe.seams
     times = []
     for r, mass in enumerate(masses):
         one = model.simulate(**settings, parameters={"crank_mass": mass})

@@ -8,7 +8,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.base.errors import InputError
-from symgen.run.breaks.stops import foreseen
+from symgen.run.breaks.seams import foreseen
 from symgen.study.ensemble.lines import table_lines
 from symgen.study.stress.bench import Base
 from symgen.study.stress.families import singular_passage
@@ -73,6 +73,7 @@ def test_rows_have_what_single_runs_say_of_singular_positions():
     assert "is unstable with" in everywhere.warnings[0][0] and everywhere.warnings[1] == ()
 
 
+@pytest.mark.fast("direct-correction-cpu", "velocity-projection-cpu", "velocity-projection-lanes")
 @pytest.mark.parametrize("target", ["cpu", "lanes"])
 @pytest.mark.parametrize("method", ["direct-correction", "velocity-projection"])
 def test_rows_are_in_doubt_where_energy_jumps_as_single_runs_are(target, method):
@@ -104,7 +105,7 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
     known = foreseen(pushed(PUSH, at=0.123, long=1.0).mechanism)
     other = replace(known, latest=Forgetful())
     for values in ({"at": 0.2, "long": 0.1}, {"at": 0.5, "long": 0.1}):
-        assert other.stops(values, 1.0) == known.stops(values, 1.0) != ()
+        assert other.seams(values, 1.0) == known.seams(values, 1.0) != ()
 
 
 def test_a_row_whose_input_jumps_too_often_is_a_row_that_failed():

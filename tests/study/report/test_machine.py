@@ -61,6 +61,7 @@ def no_browser(monkeypatch):
     monkeypatch.setattr(paper.shutil, "which", lambda name: None)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_browser")
 def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
     """Every picture of the report is in it as pixels, on pages of A4."""
@@ -72,6 +73,7 @@ def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
     assert drawn == len(document.pictures())
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_browser")
 def test_long_words_and_wide_tables_stay_on_the_paper(tmp_path):
     wide = DocumentTable("a table", tuple(f"column {i}" for i in range(40)), (("x" * 30,) * 40,) * 200)
@@ -80,6 +82,7 @@ def test_long_words_and_wide_tables_stay_on_the_paper(tmp_path):
     assert pages > 3
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_browser")
 def test_the_command_names_what_made_a_pdf(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

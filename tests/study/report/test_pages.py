@@ -85,6 +85,7 @@ def page(text):
     return Page(text)
 
 
+@pytest.mark.slow
 def test_the_page_asks_for_nothing(text, page):
     assert text.startswith("<!DOCTYPE html>")
     assert not {tag for tag, _ in page.elements} & {

@@ -113,6 +113,7 @@ def test_an_open_stop_is_left_out_unless_the_rest_is_beyond_it() -> None:
         arm({"lower": -1.2}).equilibria(("arm.theta", np.linspace(-2.0, -1.0, 6)), start=start)
 
 
+@pytest.mark.slow
 def test_the_mode_is_that_of_the_time_of_a_run() -> None:
     """The mass falls until its rope is taut, which does not rebound."""
     model = rope("2.5")

@@ -1,4 +1,4 @@
-"""Stops of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs behind them.
+"""Seams of a run: foreseen times at which inputs and formulas jump or have kinks, and the values of inputs behind them.
 
 A run ends a step at each of these times and takes the values behind it before the next step, so that no step or stage
 sees both sides of a jump. An error estimate notices a jump only where stages of a step lie on both sides of it: a push
@@ -24,7 +24,7 @@ from symgen.describe.parts.inputs import DrivenMechanism, Jump
 from symgen.describe.remembered import remembered
 from symgen.run.breaks.in_time import MOST_PIECES, InTime, line_of
 from symgen.run.layout.abi import SAME_TIME
-from symgen.run.loops.run_spec import Stop
+from symgen.run.loops.run_spec import Seam
 
 #: Jumps closer than this fraction of the run are one.
 SAME = 1e-14
@@ -35,10 +35,10 @@ LEAST_ORDER = 3
 _BESIDE, _NEXT_TO = 1e-12, 4.0 * 2.0**-52
 
 
-def stops_of(
+def seams_of(
     driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
-) -> tuple[Stop, ...]:
-    """Return the stops of a motion from `first` to `until`, empty without jumps.
+) -> tuple[Seam, ...]:
+    """Return the seams of a motion from `first` to `until`, empty without jumps.
 
     Parameters
     ----------
@@ -75,38 +75,38 @@ def stops_of(
     switches = [jump for jump in driven.jumps if jump.switch]
     if not (switches or driven.samples or len(times) > 1):
         return ()
-    result, before = list[Stop](), dict[str, float]()
+    result, before = list[Seam](), dict[str, float]()
     for begin, end in pairwise([*times, until]):
         middle = 0.5 * (begin + end)
         now = {name: data.at(middle) for name, data in driven.samples.items()}
         now |= {jump.switch: 0.0 if math.isnan(x := formulas.at(jump.value, middle)) else x for jump in switches}
-        result.append(Stop(begin, {name: x for name, x in now.items() if before.get(name) != x}))
+        result.append(Seam(begin, {name: x for name, x in now.items() if before.get(name) != x}))
         before = now
     return tuple(result)
 
 
-def merged(stops: tuple[Stop, ...], kinks: tuple[Stop, ...]) -> tuple[Stop, ...]:
-    """Return stops with changes of numbers and stops without in one sequence, one of each two at the same time."""
-    if not (stops and kinks):
-        return stops or kinks
+def merged(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]:
+    """Return seams with changes of numbers and seams without in one sequence, one of each two at the same time."""
+    if not (seams and kinks):
+        return seams or kinks
     apart, times, result = SAME * kinks[-1].t, [kink.t for kink in kinks], list(kinks)
-    for stop in stops:
-        at = bisect_left(times, stop.t - apart)
-        if at < len(times) and times[at] <= stop.t + apart:
-            result[at] = replace(result[at], values={**result[at].values, **stop.values})
+    for seam in seams:
+        at = bisect_left(times, seam.t - apart)
+        if at < len(times) and times[at] <= seam.t + apart:
+            result[at] = replace(result[at], values={**result[at].values, **seam.values})
         else:
-            result.append(stop)
-    return tuple(sorted(result, key=lambda stop: stop.t))
+            result.append(seam)
+    return tuple(sorted(result, key=lambda seam: seam.t))
 
 
-def beside(stops: tuple[Stop, ...], times: Sequence[float], until: float) -> tuple[Stop, ...]:
-    """Return stops on both sides of some times, in place of stops at these without changes of numbers."""
-    apart, result = _BESIDE * until, list[Stop]()
-    for stop in stops:
-        if stop.values or stop.t == 0.0 or not any(abs(stop.t - t) < apart for t in times):
-            result.append(stop)
+def beside(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
+    """Return seams on both sides of some times, in place of seams at these without changes of numbers."""
+    apart, result = _BESIDE * until, list[Seam]()
+    for seam in seams:
+        if seam.values or seam.t == 0.0 or not any(abs(seam.t - t) < apart for t in times):
+            result.append(seam)
         else:
-            result += [Stop(t, {}) for t in (stop.t - apart, stop.t + apart) if 0.0 < t < until]
+            result += [Seam(t, {}) for t in (seam.t - apart, seam.t + apart) if 0.0 < t < until]
     return tuple(result)
 
 
@@ -124,7 +124,7 @@ class Foreseen:
     kinks, sides : tuple of Jump
         From `symgen.describe.facts.kinks.jumps_in_time`.
     gaps : tuple of Jump
-        From `symgen.describe.facts.kinks.jumps_of_gaps`: a closed stop gives the bodies on it another velocity there.
+        From `symgen.describe.facts.kinks.jumps_of_gaps`: a closed gap gives the bodies on it another velocity there.
     grid : (float, float) or None
         First point and distance of the grid of constant steps [s], 0 for steps without a grid; None where steps vary.
     latest : dict
@@ -136,7 +136,7 @@ class Foreseen:
     sides: tuple[Jump, ...] = ()
     gaps: tuple[Jump, ...] = ()
     grid: tuple[float, float] | None = None
-    latest: dict[tuple[float, ...], tuple[tuple[Stop, ...], bool]] = field(
+    latest: dict[tuple[float, ...], tuple[tuple[Seam, ...], bool]] = field(
         default_factory=dict, repr=False, compare=False
     )
 
@@ -149,8 +149,8 @@ class Foreseen:
         """Names on which the times depend: parameters, and t."""
         return frozenset(name for jump in (*self.kinks, *self.sides, *self.gaps) for name in names_in(jump.argument))
 
-    def stops(self, values: Mapping[str, float], until: float) -> tuple[Stop, ...]:
-        """Return the stops of a run to `until` [s], at which no number changes; empty for a run in one piece.
+    def seams(self, values: Mapping[str, float], until: float) -> tuple[Seam, ...]:
+        """Return the seams of a run to `until` [s], at which no number changes; empty for a run in one piece.
 
         Parameters
         ----------
@@ -159,10 +159,10 @@ class Foreseen:
         until : float
             End of the run [s].
         """
-        return self._stops(values, until)[0]
+        return self._seams(values, until)[0]
 
-    def _stops(self, values: Mapping[str, float], until: float) -> tuple[tuple[Stop, ...], bool]:
-        """Return the stops, and whether they are complete: too many are left out."""
+    def _seams(self, values: Mapping[str, float], until: float) -> tuple[tuple[Seam, ...], bool]:
+        """Return the seams, and whether they are complete: too many are left out."""
         if not self:
             return (), True
         key = until, *(values[name] for name in sorted(self.reads & values.keys()))
@@ -175,19 +175,19 @@ class Foreseen:
                 # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
                 beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
                 times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
-                stops = tuple(Stop(t, {}) for t in (0.0, *times)) if times else ()
+                seams = tuple(Seam(t, {}) for t in (0.0, *times)) if times else ()
                 if gaps:
-                    stops = merged(stops, skipping(gaps, gaps, (0.0, 0.0), until))
+                    seams = merged(seams, skipping(gaps, gaps, (0.0, 0.0), until))
             else:
-                stops = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
-            result = stops, all_kinks and all_sides and all_gaps
+                seams = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
+            result = seams, all_kinks and all_sides and all_gaps
             self.latest.clear()  # threads of a sweep do so, too
             self.latest[key] = result
         return result
 
     def missed(self, values: Mapping[str, float], until: float) -> list[str]:
-        """Return the sentence about discontinuities that steps of a run may miss; parameters as for `stops`."""
-        if self._stops(values, until)[1]:
+        """Return the sentence about discontinuities that steps of a run may miss; parameters as for `seams`."""
+        if self._seams(values, until)[1]:
             return []
         often = "formulas change, or pass points of tables, more often than can be distinguished"
         return [f"{often}: steps do not end there, and may miss what is short"]
@@ -195,8 +195,8 @@ class Foreseen:
 
 def skipping(
     times: Sequence[float], gaps: Container[float], grid: tuple[float, float], until: float
-) -> tuple[Stop, ...]:
-    """Return the stops of constant steps at discontinuities.
+) -> tuple[Seam, ...]:
+    """Return the seams of constant steps at discontinuities.
 
     A step ends just before each, and the next one begins just behind it, so that every stage lies on its side; it ends
     at the next point of the grid.
@@ -212,21 +212,21 @@ def skipping(
     until : float
         End of the run [s].
     """
-    (first, step), apart, result = grid, _NEXT_TO * until, list[Stop]()
+    (first, step), apart, result = grid, _NEXT_TO * until, list[Seam]()
     for t, following in pairwise((*times, until)):
-        result += [Stop(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Stop(t + apart, {})]
+        result += [Seam(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Seam(t + apart, {})]
         if step > 0.0:
             steps = (t - first) / step
             point = first + math.ceil(steps) * step
             if abs(steps - round(steps)) > SAME_TIME and point < following - SAME_TIME * step:
-                result.append(Stop(point, {}))
+                result.append(Seam(point, {}))
     if result and result[0].t > 0.0:
-        result.insert(0, Stop(0.0, {}))
+        result.insert(0, Seam(0.0, {}))
     return tuple(result)
 
 
 def foreseen_by_steps(mechanism: Mechanism, order: int, first: float, step: float | None) -> Foreseen:
-    """Return the discontinuities of formulas of joints, forces, integrals and stops at which constant steps end.
+    """Return the discontinuities of formulas of joints, forces, integrals and gaps at which constant steps end.
 
     Where the k-th derivative of a table jumps, a step errs by its power k + 1: below the order of the scheme it counts,
     as the points of linear tables always do.
@@ -267,7 +267,7 @@ def foreseen_in_run(
 
 
 def foreseen(mechanism: Mechanism, events: Sequence[Event] = ()) -> Foreseen:
-    """Return the foreseen discontinuities of formulas of joints, forces, integrals and stops, and of events.
+    """Return the foreseen discontinuities of formulas of joints, forces, integrals and gaps, and of events.
 
     Steps find an event that is a straight line in t wherever they end; another one may come and go within a step.
     """

@@ -1,0 +1,77 @@
+"""Friction by reactions: bounds over the size of a joint's reaction, its components, and the numbers of jamming."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symgen.base.ir.program import JAMMING
+from symgen.base.vocabulary.expressions import ONE, Expr, Reading, call, dot
+from symgen.base.vocabulary.measures import GROUND, Dot, Driven, Holonomic, Measure, Turn, axes
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.mechanism import Joint, Mechanism
+from symgen.describe.parts.scope import Scope
+
+#: Kinds of joints, in the plane and in space, whose rows of forces are the components of a reaction.
+REACTING = ("revolute", "translational", "pin-in-slot")
+REACTING_IN_SPACE = ("revolute", "translational", "cylindrical")
+#: What the section of jamming numbers of emitted code has.
+JAMMING_MEANS = "squares of the parts of a reaction that friction by the reaction itself brings about"
+
+
+def reacting_rows(scope: Scope, joint: Joint, key: str) -> tuple[str, ...]:
+    """Return the rows of a joint whose forces are its reaction.
+
+    Raises
+    ------
+    InputError
+        At the key, if the joint has no such rows.
+    """
+    kinds = REACTING_IN_SPACE if scope.spatial else REACTING
+    rows = tuple(f"{joint.name}.{row.label}" for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m")
+    if not rows or joint.kind not in kinds:
+        expected = f"friction by the reaction of a joint among {', '.join(kinds)}"
+        raise scope.error(key, expected, f"a {joint.kind} joint")
+    return rows
+
+
+def directions_across(measure: Measure, pressed: Sequence[str]) -> tuple[tuple[Measure, ...], ...]:
+    """Return the cosines of the axes of ground with two directions across the axis of a hinge in space."""
+    if len(pressed) < 3:
+        return ()
+    assert isinstance(measure, Turn), "a joint with three forces turns about an axis"
+    return tuple(tuple(Dot(e, axis) for axis in axes(GROUND, 3)) for e in (measure.zero, measure.quarter))
+
+
+def components(row: BoundedRow) -> tuple[Expr, ...]:
+    """Return the components of the reaction that bounds depend on."""
+    forces = [Reading(each, Driven(each, row.measure)) for each in row.pressed]
+    if not row.across:
+        return tuple(forces)
+    return tuple(
+        dot(
+            forces,
+            [Reading(f"{row.name}.across{k}{axis}", cosine) for axis, cosine in zip("xyz", line, strict=True)],
+        )
+        for k, line in enumerate(row.across)
+    )
+
+
+def reaction_of(row: BoundedRow) -> Expr:
+    """Return the factor of the bounds: the size of the reaction, or 1."""
+    parts = components(row)
+    if not parts:
+        return ONE
+    if len(parts) == 1:
+        return call("abs", parts[0])
+    squares = [call("mul", part, part) for part in parts]
+    return call("sqrt", call("add", *squares))
+
+
+def held_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
+    """Return the rows whose bounds depend on a reaction."""
+    return tuple(row for row in mechanism.bounded if row.pressed)
+
+
+def jamming_names(mechanism: Mechanism) -> dict[str, int]:
+    """Return the names of jamming numbers, with their places in the section ``jamming``."""
+    return {f"{row.row}.{JAMMING}": i for i, row in enumerate(held_by_reactions(mechanism))}

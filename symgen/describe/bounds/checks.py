@@ -1,0 +1,42 @@
+"""What a mechanism with rows with bounds may not have besides."""
+
+from __future__ import annotations
+
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import Number
+from symgen.base.vocabulary.measures import Holonomic, Measure, Sum
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import one_sided, two_sided
+from symgen.describe.mechanism import Mechanism
+
+
+def check_bounds(mechanism: Mechanism, source: str) -> None:
+    """Refuse rows with two bounds along coordinates that drivers prescribe, and impacts beside bounds by reactions.
+
+    Raises
+    ------
+    InputError
+        With the first such row.
+    """
+    driven: dict[Measure, str] = {}
+    for joint in mechanism.joints:
+        for prescribed in joint.rows if joint.kind == "driver" else ():
+            if isinstance(prescribed, Holonomic):
+                driven[_upright(prescribed.measure)] = joint.name
+    for row in two_sided(mechanism):
+        driver = driven.get(_upright(row.measure))
+        if driver is not None:
+            raise InputError(
+                f"{source}: {row.where}", "a coordinate that no driver prescribes", f"one that '{driver}' prescribes"
+            )
+    pressed = next(iter(held_by_reactions(mechanism)), None)
+    if one_sided(mechanism) and pressed is not None:
+        expected = "friction of constant bound beside stops, as that has no impulse at an impact"
+        raise InputError(f"{source}: {pressed.where}", expected, "friction by the reaction of the joint")
+
+
+def _upright(measure: Measure) -> Measure:
+    """Return a measure, or the one that it is the negative of."""
+    if isinstance(measure, Sum) and len(measure.terms) == 1 and measure.terms[0][0] == Number(-1.0):
+        return measure.terms[0][1]
+    return measure

@@ -1,0 +1,230 @@
+"""Dry friction along a coordinate of a joint: a row in force at rest, an effort of a given sign in motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+from symgen.base.ir.program import JAMMING
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
+from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
+from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounds.by_reaction import reaction_of
+from symgen.describe.bounds.modes import (
+    JAM,
+    MODE,
+    REVERSE,
+    SLIP,
+    effort_in_force,
+    number_of,
+    rate_of,
+    unit_of_effort,
+)
+from symgen.describe.bounds.row import Bounds
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import Event, Output
+
+
+def _line(facts: Mapping[str, Any]) -> str:
+    """Return the line of `symgen inspect` on a row."""
+    x = facts
+    viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
+    stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
+    unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
+    at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
+    jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
+    return f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}{jam}"
+
+
+FRICTION = Family(
+    one="friction",
+    some="dry friction",
+    noun="dry friction",
+    in_force="at rest",
+    off="in motion",
+    part="frictions",
+    fact="friction",
+    named="that of {}",
+    hint="runs and sweeps have it",
+    held="while it sticks, {} does not change",
+    line=_line,
+    apart="'friction = { sliding = BOUND }' has a bound of its own",
+)
+
+
+class Friction(Bounds, frozen=True):
+    """Dry friction along a coordinate of a joint.
+
+    At rest the force is what keeps it at rest, up to `static`; in motion it is `sliding` against the rate. Where
+    `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^2).
+
+    Parameters
+    ----------
+    name : str
+        Of the joint where it has one coordinate, else ``JOINT.COORDINATE``.
+    joint : str
+        The joint.
+    measure : Measure
+        The coordinate.
+    unit : str
+        Unit of the coordinate.
+    sliding, static : Expr
+        Bounds [N or N m], or these over the size of the joint's reaction [1 or m].
+    viscous : Expr
+        Force over rate [N s/m or N m s].
+    stribeck_speed : Expr or None
+        A rate [m/s or rad/s].
+    pressed : tuple of str
+        Rows of the joint whose forces are its reaction; none where the bounds do not depend on it.
+    across : tuple of tuple of Measure
+        Of a reaction along fixed axes, the cosines of these with each direction across the joint's axis; none where
+        the forces themselves are the components.
+    speed : Expr or None
+        Where the friction is regularised, the rate of tanh(rate / speed) in place of the sign [m/s or rad/s].
+    """
+
+    family: ClassVar[Family] = FRICTION
+
+    name: str
+    joint: str
+    measure: Measure
+    unit: str
+    sliding: Expr
+    static: Expr
+    viscous: Expr = ZERO
+    stribeck_speed: Expr | None = None
+    pressed: tuple[str, ...] = ()
+    across: tuple[tuple[Measure, ...], ...] = ()
+    speed: Expr | None = None
+
+    @property
+    def row(self) -> str:
+        """Name of the row that is in force at rest."""
+        return f"{self.name}.friction"
+
+    @property
+    def owner(self) -> str:
+        """The joint."""
+        return self.joint
+
+    @property
+    def along(self) -> str:
+        """The coordinate."""
+        return self.name
+
+    @property
+    def smooth(self) -> bool:
+        """Whether a smooth force stands in its place."""
+        return self.speed is not None
+
+    @property
+    def where(self) -> str:
+        """Its place in a file."""
+        return f"joints.{self.joint}.friction"
+
+    @property
+    def held(self) -> Holonomic:
+        """The row in force."""
+        return Holonomic("friction", self.measure, unit=self.unit)
+
+    @property
+    def effort(self) -> Effort:
+        """The effort of a coordinate that moves; its sign is a number of the row, 0 at rest.
+
+        The number ``effort`` is that of friction at rest which shares its hold with other rows, 0 in motion. Of
+        friction by a reaction only this and the viscous part are here.
+        """
+        rate = Name("rate")
+        against: Expr = number_of(self, "effort")
+        if not self.pressed:
+            against = call("add", against, call("mul", number_of(self, "sign"), self.bound_in_motion(rate)))
+        return Effort("friction", self.measure, call("neg", call("add", against, call("mul", self.viscous, rate))))
+
+    @property
+    def smooth_effort(self) -> Effort:
+        """The effort of a smooth force: the bound times tanh(rate / `speed`), or times the sign of the rate."""
+        rate = Name("rate")
+        way = call("sign", rate) if self.speed is None else call("tanh", call("div", rate, self.speed))
+        against = call("add", call("mul", way, self.bound_in_motion(rate)), call("mul", self.viscous, rate))
+        return Effort("friction", self.measure, call("neg", against))
+
+    @property
+    def place(self) -> tuple[str, Expr]:
+        """The coordinate."""
+        return self.name, rate_of(self, 0)
+
+    @property
+    def numbers(self) -> tuple[tuple[str, Expr], ...]:
+        """Bounds at rest and at the beginning of a motion."""
+        return (
+            (f"bound of {self.name} at rest", self.static),
+            (f"bound of {self.name} in motion", self.bound_in_motion()),
+        )
+
+    def bound_in_motion(self, rate: Expr = ZERO) -> Expr:
+        """Return the bound at a rate, by default at the beginning of a motion."""
+        if self.stribeck_speed is None:
+            return self.sliding
+        ratio = call("div", rate, self.stribeck_speed)
+        fall = call("exp", call("neg", call("mul", ratio, ratio)))
+        return call("add", self.sliding, call("mul", call("sub", self.static, self.sliding), fall))
+
+    @property
+    def coefficient(self) -> Expr:
+        """Bound in motion over the size of the reaction, a formula of ``rate``."""
+        return self.bound_in_motion(Name("rate"))
+
+    @property
+    def taking(self) -> Expr:
+        """The effort that takes energy, a formula of outputs."""
+        if self.smooth:
+            return Reading(f"{self.name}.force", Exerted((self.smooth_effort,)))
+        return self.total_effort()
+
+    def total_effort(self) -> Expr:
+        """Return the effort at rest and in motion, a formula of outputs."""
+        force = Reading(f"{self.name}.force", Exerted((self.effort,)))
+        total = call("add", force, effort_in_force(self))
+        if not self.pressed:
+            return total
+        against = call("mul", self.bound_in_motion(rate_of(self)), reaction_of(self))
+        return call("sub", total, call("mul", number_of(self, "sign"), against))
+
+    def events(self) -> tuple[Event, ...]:
+        """Return the events at which its mode is chosen anew."""
+        held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
+        limit_at_rest: Expr = limit
+        if self.pressed:
+            limit_at_rest = call("add", call("mul", self.static, reaction_of(self)), limit)
+        left = call("sub", limit_at_rest, call("abs", effort_in_force(self)))
+        resting = call("add", call("mul", held, left), call("sub", ONE, held))
+        moving = call("add", call("mul", sign, rate_of(self)), call("sub", ONE, call("mul", sign, sign)))
+        events = (
+            Event(f"{self.name}.{SLIP}", resting, "falling", MODE, (), "effort at rest at its bound"),
+            Event(f"{self.name}.{REVERSE}", moving, "falling", MODE, (), "rate of sliding 0"),
+        )
+        if not self.pressed:
+            return events
+        free = call("sub", ONE, number_of(self, JAMMING))
+        return (*events, Event(f"{self.name}.{JAM}", free, "falling", MODE, (), "jamming number 1"))
+
+    def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
+        """Yield mode (0 at rest, else the sign of the rate) and force.
+
+        A one-sided row in force carries the friction of its own coordinate: where its effort pulls, that is friction.
+        """
+        total = self.total_effort()
+        for row in beside:
+            if row.one_sided and row.along == self.along:
+                effort = effort_in_force(row)
+                pulls = call("mul", Number(0.5), call("sub", effort, call("abs", effort)))
+                total = call("sub" if row.reversed else "add", total, pulls)
+        yield Output(f"{self.name}.mode", number_of(self, "sign"), "")
+        yield Output(f"{self.name}.force", total, unit_of_effort(self))
+
+    def facts(self) -> dict[str, Any]:
+        """Return what `symgen inspect` says of it."""
+        return {
+            **{key: to_text(getattr(self, key)) for key in ("static", "sliding", "viscous")},
+            "stribeck_speed": None if self.stribeck_speed is None else to_text(self.stribeck_speed),
+        }

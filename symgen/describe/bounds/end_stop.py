@@ -1,0 +1,154 @@
+"""Stops: a gap, and a row that is in force where the stop is closed; its force pushes.
+
+The gap of an open stop is watched, and so is the force of a closed one. A stop that other rows keep closed has no
+force; the number ``limit`` of its row is 1 then, and nothing of it is watched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, ClassVar
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call
+from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
+from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounds.modes import HIT, LEAVE, MODE, effort_in_force, number_of, rate_of, unit_of_effort
+from symgen.describe.bounds.row import Bounds
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import Event, Output
+
+#: Last words of the names of the stops of a coordinate.
+LOWER, UPPER = "lower", "upper"
+
+
+def _line(facts: Mapping[str, Any]) -> str:
+    """Return the line of `symgen inspect` on a row."""
+    closed = f"row {facts['row']} in force where it is closed, pushing [{facts['unit']}]"
+    return f"stop {facts['name']}: {closed}; restitution {facts['restitution']}"
+
+
+STOPS = Family(
+    one="stop",
+    some="a stop",
+    noun="stops",
+    in_force="closed",
+    off="open",
+    part="stops",
+    fact="stops",
+    named="{}",
+    hint="runs and sweeps have them",
+    held="while it is closed, {}",
+    line=_line,
+)
+
+
+class EndStop(Bounds, frozen=True):
+    """A stop: a gap that does not become negative, and a force that only pushes.
+
+    Parameters
+    ----------
+    name : str
+        ``JOINT.lower``, ``JOINT.COORDINATE.upper`` and the like, or the name in the section of stops.
+    owner : str
+        The joint; the stop itself where a formula is its gap.
+    measure : Measure
+        The gap is ``measure - value``.
+    value : Expr
+        A number or an expression of parameters.
+    unit : str
+        Unit of the gap.
+    restitution : Expr
+        Rate after an impact over that before, with the other sign; from 0 to 1.
+    """
+
+    one_sided: ClassVar[bool] = True
+    family: ClassVar[Family] = STOPS
+
+    name: str
+    owner: str
+    measure: Measure
+    value: Expr
+    unit: str
+    restitution: Expr = ZERO
+
+    @property
+    def row(self) -> str:
+        """Name of the row that is in force where the stop is closed."""
+        return f"{self.name}.stop"
+
+    @property
+    def along(self) -> str:
+        """The coordinate; empty where a formula is the gap."""
+        return "" if self.name == self.owner else self.name.rpartition(".")[0]
+
+    @property
+    def reversed(self) -> bool:  # type: ignore[override]
+        """Whether its measure is the coordinate with the other sign."""
+        return self.name == f"{self.along}.{UPPER}"
+
+    @property
+    def where(self) -> str:
+        """Its place, for messages."""
+        return f"stop {self.name}"
+
+    @property
+    def held(self) -> Holonomic:
+        """The row in force."""
+        return Holonomic("stop", self.measure, self.value, self.unit)
+
+    @property
+    def effort(self) -> Effort:
+        """The effort by which transitions probe accelerations: the sign of the row, which is 0 in runs."""
+        return Effort("stop", self.measure, number_of(self, "sign"))
+
+    @property
+    def place(self) -> tuple[str, Expr]:
+        """The gap."""
+        measure = rate_of(self, 0)
+        return f"gap of {self.name}", measure if self.value == ZERO else call("sub", measure, self.value)
+
+    @property
+    def numbers(self) -> tuple[tuple[str, Expr], ...]:
+        """The restitution."""
+        return ((f"restitution of {self.name}", self.restitution),)
+
+    @property
+    def taking(self) -> Expr:
+        """The effort that takes energy, a formula of outputs."""
+        return effort_in_force(self)
+
+    def closed(self) -> Expr:
+        """Return the formula that is 1 where the stop is closed, else 0."""
+        held, limit = number_of(self, "held"), number_of(self, "limit")
+        return call("add", held, call("mul", call("sub", ONE, held), limit))
+
+    def events(self) -> tuple[Event, ...]:
+        """Return the events at which the stop closes or opens.
+
+        The number ``limit`` of a row in force is the bound of the dry friction whose force it carries: before the stop
+        opens, that holds it too. The velocity that an impact sets is the rate of the gap: 0 where the sign of the row
+        is not 0, and where impacts do not come to rest, the rate that restitution leaves.
+        """
+        held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
+        pulling = call("add", effort_in_force(self), limit)
+        closed, rate = self.closed(), rate_of(self)
+        open_gap = call("add", call("mul", call("sub", ONE, closed), self.place[1]), closed)
+        pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))
+        rebound = call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
+        after = call("mul", call("sub", ONE, call("mul", sign, sign)), rebound)
+        return (
+            Event(f"{self.name}.{HIT}", open_gap, "falling", MODE, ((rate, after),), "gap 0"),
+            Event(f"{self.name}.{LEAVE}", pushing, "falling", MODE, (), "force of a closed stop 0"),
+        )
+
+    def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
+        """Yield mode (1 closed, 0 open) and force, which pushes."""
+        force: Expr = effort_in_force(self)
+        if any(not row.one_sided and row.along == self.along for row in beside):
+            force = call("mul", Number(0.5), call("add", force, call("abs", force)))
+        yield Output(f"{self.name}.mode", self.closed(), "")
+        yield Output(f"{self.name}.force", force, unit_of_effort(self))
+
+    def facts(self) -> dict[str, Any]:
+        """Return what `symgen inspect` says of it."""
+        return {"restitution": to_text(self.restitution)}

@@ -1,0 +1,55 @@
+"""The section ``stops`` of files: gaps that formulas describe."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ZERO
+from symgen.base.vocabulary.measures import FormulaMeasure
+from symgen.describe.bounds.end_stop import STOPS, EndStop
+from symgen.describe.bounds.keys import SectionOfFiles
+from symgen.describe.bounds.kinds.stop import read_restitution
+from symgen.describe.formulas.readings import is_angle
+from symgen.describe.parts.fields import Scalar, StateFunction, read_table
+from symgen.describe.parts.scope import Scope
+
+
+class GapSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A gap that does not become negative: of a rope, of a follower on its cam, of a body over a floor.
+
+    Parameters
+    ----------
+    gap : str
+        An expression of t, parameters, inputs, smooth tables, coordinates of bodies, points and axes of them and
+        coordinates of joints, such as ``"2.0 - sqrt(load.x**2 + load.y**2)"``. The force, which only pushes, is along
+        its derivatives by the coordinates.
+    restitution : scalar
+        Rate of the gap after an impact over that before, from 0 to 1; 0 by default.
+    """
+
+    gap: StateFunction
+    restitution: Scalar = 0.0
+
+
+def read_gap(scope: Scope, raw: object) -> EndStop:
+    """Return the stop that a table of the section ``stops`` describes.
+
+    Parameters
+    ----------
+    scope : Scope
+        The table's place.
+    raw : object
+        The table.
+
+    Raises
+    ------
+    InputError
+        With the key that is wrong.
+    """
+    section = read_table(GapSection, raw, scope.where(""))
+    of = scope.of_row("gap", section.gap, speeds=False, inputs=True)
+    restitution = read_restitution(scope, "restitution", section.restitution)
+    return EndStop(scope.name, scope.name, FormulaMeasure(of), ZERO, "rad" if is_angle(of) else "m", restitution)
+
+
+KIND = SectionOfFiles("stops", STOPS, GapSection, read_gap)

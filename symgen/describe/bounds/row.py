@@ -1,0 +1,37 @@
+"""What kinds of rows with bounds share: answers that only some of them give otherwise."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import msgspec
+
+from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.base.vocabulary.measures import Measure
+
+
+class Bounds(msgspec.Struct, frozen=True):
+    """Base of the kinds: two bounds, which depend on no reaction (`symgen.describe.bounded.BoundedRow`)."""
+
+    one_sided: ClassVar[bool] = False
+    reversed: ClassVar[bool] = False
+
+    @property
+    def smooth(self) -> bool:
+        """Whether a smooth force stands in its place."""
+        return False
+
+    @property
+    def pressed(self) -> tuple[str, ...]:
+        """Rows of a joint whose forces are the reaction that bounds depend on."""
+        return ()
+
+    @property
+    def across(self) -> tuple[tuple[Measure, ...], ...]:
+        """Cosines of the axes of `pressed` with directions across the joint."""
+        return ()
+
+    @property
+    def coefficient(self) -> Expr:
+        """Bound in motion over the size of the reaction."""
+        return ZERO

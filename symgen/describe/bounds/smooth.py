@@ -1,0 +1,72 @@
+"""Rows with two bounds as forces of the rate: a smooth law in place of the exact one, or sliding alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import msgspec
+
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import Number, Reading
+from symgen.base.vocabulary.measures import Exerted
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.dry_friction import Friction
+from symgen.describe.bounds.modes import two_sided, unit_of_effort, without_bounds
+from symgen.describe.formulas.evaluate import evaluate
+from symgen.describe.mechanism import Force, Mechanism, Output
+
+#: Kind of such a force, and what may have a smooth law.
+SMOOTH, WITH_LAWS = "friction", "dry friction"
+
+
+def with_smooth(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
+    """Return a mechanism with some dry friction as forces, which ``NAME.force`` reports."""
+    frictions = [row for row in rows if isinstance(row, Friction)]
+    forces = tuple(Force(x.row, SMOOTH, mechanism.joint_named(x.joint).bodies, (x.smooth_effort,)) for x in frictions)
+    outputs = tuple(
+        Output(
+            f"{friction.name}.force",
+            Reading(f"{friction.name}.force", Exerted(force.efforts)),
+            unit_of_effort(friction),
+        )
+        for friction, force in zip(frictions, forces, strict=True)
+    )
+    return msgspec.structs.replace(
+        mechanism, forces=(*mechanism.forces, *forces), outputs=(*mechanism.outputs, *outputs)
+    )
+
+
+def with_sliding(where: str, mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism with its dry friction as forces against the rates, 0 at rest.
+
+    Raises
+    ------
+    InputError
+        If bounds depend on reactions.
+    """
+    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction)]
+    if names := ", ".join(row.name for row in rows if row.pressed):
+        raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
+    return with_smooth(without_bounds(mechanism, rows), rows) if rows else mechanism
+
+
+def smoothed(where: str, rows: Sequence[BoundedRow], speed: float, values: Mapping[str, float]) -> list[BoundedRow]:
+    """Return dry friction with the bound in motion times tanh(rate / `speed`), at values of all parameters.
+
+    Raises
+    ------
+    InputError
+        If a bound depends on a reaction, or jumps as a motion begins.
+    """
+    smooth = list[BoundedRow]()
+    for row in rows:
+        expected = "dry friction with one constant bound, or with stribeck_speed"
+        if row.pressed:
+            raise InputError(where, expected, f"that of {row.name} by the reaction")
+        if not isinstance(row, Friction):
+            raise InputError(where, expected, f"the {row.family.one} {row.name}")
+        low, high = (evaluate(bound, values, where) for bound in (row.sliding, row.static))
+        if high != low and row.stribeck_speed is None:
+            raise InputError(where, expected, f"that of {row.name}, {high:g} at rest and {low:g} in motion")
+        smooth.append(msgspec.structs.replace(row, speed=Number(speed)))
+    return smooth

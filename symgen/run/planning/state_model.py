@@ -1,0 +1,134 @@
+"""A mechanism as functions of its state know it: without history, in chosen coordinates, with its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base import arguments
+from symgen.base.errors import InputError, nearest
+from symgen.base.settings import COORDINATES, Settings
+from symgen.describe.bounds.modes import one_sided, refuse_bounds, without_bounds
+from symgen.describe.bounds.smooth import with_sliding
+from symgen.describe.facts.repeats import without_repeats
+from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.parts.topology import quantities
+from symgen.run.compiling.choices import choose_coordinates, on_tree
+from symgen.run.planning.plan import Purpose
+from symgen.run.planning.prepare import prepare
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.planning.prepare import Prepared
+
+Array = NDArray[np.float64]
+#: A row with less than this part of its length beside the rows before it depends on them.
+DEPENDENT = 1e-9
+
+
+class StateModel:
+    """A mechanism in which dry friction slides and stops are open.
+
+    Parameters
+    ----------
+    where : str
+        What needs it, for messages.
+    mechanism : Mechanism
+        The description.
+    coordinates : {"absolute", "joint", "auto"}
+        Coordinates of the state.
+    parameters : mapping
+        Numbers that differ from the described ones: of parameters, inputs, own states and the time ``t``.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With its tree in joint coordinates.
+    kind : {"absolute", "joint"}
+        Its coordinates.
+    coordinates, velocities : tuple of Quantity
+        Names and units of q and v.
+    rows : tuple of str
+        Names of the rows.
+    parameters : tuple of str
+        Names of the numbers ``p``.
+    """
+
+    def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
+        coordinates = arguments.one_of("coordinates", coordinates, COORDINATES)
+        sliding = with_sliding(where, mechanism)
+        self._described = without_bounds(sliding, one_sided(sliding))
+        refuse_bounds(where, self._described)
+        self.kind = choose_coordinates(self._described, coordinates, "straight").name
+        self.mechanism = on_tree(self._described) if self.kind == "joint" else self._described
+        self.coordinates, self.velocities = quantities(self.mechanism)
+        distinct = without_repeats(self.mechanism)[0]
+        self.rows = tuple(f"{joint.name}.{row.label}" for joint in distinct.joints for row in joint.rows)
+        self._own = tuple(state.name for state in self.mechanism.states)
+        self.parameters = (*(p.name for p in self.mechanism.parameters), *self._own, "t")
+        self._changed: dict[str, float] = {}
+        self.values(parameters)
+        self._changed = dict(parameters)
+
+    def values(self, changed: Mapping[str, float]) -> Array:
+        """Return the numbers ``p`` with changed ones; those that follow others by formulas follow them here.
+
+        Raises
+        ------
+        InputError
+            If there is no such name, or a value is not finite.
+        """
+        given = {**self._changed, **arguments.mapping("values", changed, "numbers by name")}
+        beside = {name: given.pop(name) for name in (*self._own, "t") if name in given}
+        for name in given:
+            if name not in self.parameters:
+                hint = nearest(str(name), {*self.parameters})
+                raise InputError("values", f"a parameter of {self.mechanism.name}", f"'{name}'", hint)
+        of_file = parameter_values(self.mechanism, given)
+        last = [arguments.number(f"values '{name}'", beside.get(name, 0.0)) for name in (*self._own, "t")]
+        return np.array([*of_file.values(), *last])
+
+    @cached_property
+    def _prepared(self) -> Prepared:
+        own = {p.name for p in self.mechanism.parameters}
+        parameters = {name: x for name, x in self._changed.items() if name in own}
+        settings = Settings(coordinates=self.kind, parameters=parameters, shape="straight")
+        return prepare(self._described, settings, Purpose.STATE)
+
+    @property
+    def start(self) -> tuple[Array, Array]:
+        """Coordinates and velocities at the start of a run.
+
+        Raises
+        ------
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        y, nq, nv = self._prepared.start.y, len(self.coordinates), len(self.velocities)
+        return y[:nq].copy(), y[nq : nq + nv].copy()
+
+    @property
+    def rank(self) -> int:
+        """The rank of D at the start."""
+        return int(self._prepared.start.rank) if self.rows else 0
+
+    @cached_property
+    def kept(self) -> tuple[int, ...]:
+        """Rows that are independent of those before them at the start."""
+        if not self.rows:
+            return ()
+        d, kept, basis = self._prepared.compiled.jacobian(self._prepared.start.w), list[int](), list[Array]()
+        for i, row in enumerate(d):
+            size = np.linalg.norm(row)
+            left = row / size if size > 0.0 else row
+            for _ in range(2):
+                for one in basis:
+                    left = left - (one @ left) * one
+            if np.linalg.norm(left) > DEPENDENT:
+                kept.append(i)
+                basis.append(left / np.linalg.norm(left))
+        return tuple(kept)

@@ -1,0 +1,102 @@
+"""Rows with bounds are asked, not named: a kind is files of one room, and sentences take their words from kinds."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, ClassVar
+
+import pytest
+
+import symgen
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import ZERO, Expr
+from symgen.describe.bounded import Family
+from symgen.describe.bounds.dry_friction import Friction
+from symgen.describe.bounds.keys import BOUNDS, KeyOfJoints, families, keys_of_any_joint, nouns
+from symgen.describe.bounds.modes import families_of, refuse_bounds
+from symgen.describe.facts.digest import canonical, digest, identity
+from symgen.describe.files.load import parse_toml
+from symgen.describe.files.schema import schema
+from symgen.describe.files.validate import validate
+from symgen.describe.mechanism import Joint, Mechanism
+from symgen.describe.parts.scope import Scope
+
+PACKAGE = Path(symgen.__file__).parent
+#: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces.
+NAMING = ("describe/bounds/", "describe/formats/", "describe/joints/rolling")
+PENDULUM = """
+[mechanism]
+name = "brake"
+space = "planar"
+gravity = [0.0, -9.81]
+[bodies.arm]
+mass = 1.0
+inertia = 0.1
+[joints.pin]
+type = "revolute"
+between = ["ground", "arm"]
+at = [[0.0, 0.0], "centre"]
+"""
+
+
+def named(text: str) -> list[str]:
+    return re.findall(r"friction|EndStop|end[_ -]stop", text, re.IGNORECASE)
+
+
+def test_no_other_room_names_a_kind() -> None:
+    sources = {path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in PACKAGE.rglob("*.py")}
+    found = {path for path, text in sources.items() if named(text)}
+    assert any(path.startswith(NAMING[0]) for path in found)
+    assert {path for path in found if not path.startswith(NAMING)} == set()
+
+
+class Brake(Friction, frozen=True):
+    """Friction of another name: what a further kind of rows brings along."""
+
+    family: ClassVar[Family] = Family(
+        one="brake",
+        some="a brake",
+        noun="brakes",
+        in_force="shut",
+        off="slipping",
+        part="brakes",
+        fact="brakes",
+        named="{}",
+        hint="runs have them",
+        held="while it is shut, {} does not change",
+        line=lambda facts: f"brake {facts['name']}",
+    )
+
+
+def read_brake(scope: Scope, joint: Joint, raw: object) -> Iterator[Brake]:
+    label, measure = joint.coordinates[0]
+    bound: Expr = scope.constant("brake", raw)  # type: ignore[arg-type]
+    return iter((Brake(joint.name, joint.name, measure, joint.unit(label), bound, bound, ZERO),))
+
+
+@pytest.fixture
+def braked(monkeypatch: pytest.MonkeyPatch) -> Mechanism:
+    """A mechanism with a row of a kind that no room knows."""
+    loaded: dict[str, Any] = {**BOUNDS._loaded, "brake": KeyOfJoints("brake", Brake.family, float | str, read_brake)}  # type: ignore[arg-type]
+    monkeypatch.setattr(BOUNDS, "_loaded", loaded)
+    return validate(parse_toml(PENDULUM + "brake = 2.0\n", "brake"), "brake.toml")
+
+
+def test_a_further_kind_has_its_key_words_and_digest(braked: Mechanism) -> None:
+    assert "brake" in keys_of_any_joint() and "brake" in str(schema())
+    assert Brake.family in families() and "brakes" in nouns()
+    assert list(families_of(braked)) == [Brake.family]
+    plain = validate(parse_toml(PENDULUM, "brake"), "brake.toml")
+    assert '"brakes"' in canonical(braked).replace("'", '"') and "brakes" not in canonical(plain)
+    assert digest(braked) != digest(plain) and identity(braked) != identity(plain)
+
+
+def test_a_further_kind_runs_and_is_refused_in_its_own_words(braked: Mechanism) -> None:
+    model = symgen.load(braked)
+    run = model.simulate(until=0.5, start={"arm.omega": 4.0})
+    assert run["pin.mode"][0] == 1.0 and run["pin.mode"][-1] == 0.0
+    (stuck,) = [event for event in run.events if event.name == "pin.stick"]
+    assert stuck.t == pytest.approx(4.0 * 0.1 / 2.0, abs=1e-9)
+    assert "brake pin" in str(model.inspect())
+    with pytest.raises(InputError, match="expected a mechanism without brakes, got pin; runs have them"):
+        refuse_bounds("equations", braked)
