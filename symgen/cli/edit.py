@@ -1,4 +1,4 @@
-"""Edit a mechanism file beside its moving picture, in the browser."""
+"""Edit a mechanism file beside its moving picture."""
 
 from __future__ import annotations
 

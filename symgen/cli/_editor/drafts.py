@@ -191,7 +191,7 @@ def parts_line(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int
 def _for_closing(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
     """Return what decides where a mechanism closes, without what only moves it, in a shape that needs no compiling."""
     bare = msgspec.structs.replace(
-        mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), frictions=(), stops=(), switchable=()
+        mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), bounded=(), switchable=()
     )
     return bare, _shaped(bare)
 
