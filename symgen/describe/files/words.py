@@ -8,7 +8,7 @@ from typing import Any
 
 from symgen.base.unit_symbols import SYMBOLS
 from symgen.describe.files.schema import schema
-from symgen.describe.parts.sections import NAMED, SECTIONS
+from symgen.describe.files.section_names import NAMED, SECTIONS
 
 _KEYS = re.compile(r"^(\w+(?:, \w+)*) : (.*)\n((?:    .*\n?|\n(?=    ))+)", re.MULTILINE)
 
