@@ -5,11 +5,11 @@ import re
 
 import numpy as np
 import pytest
+from verification.test_differentiable_targets import MECHANISMS, apart, arguments, functions_of, model_of, state_of
 
 from symgen.api import load
 from symgen.result.targets import TARGETS, Request
 from tests.result.targets.compilers import compiled
-from tests.result.targets.test_differentiable import MECHANISMS, apart, arguments, functions_of, model_of, state_of
 
 
 class Library:
