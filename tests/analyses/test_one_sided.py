@@ -123,6 +123,7 @@ def test_the_mode_is_that_of_the_time_of_a_run() -> None:
     assert np.allclose(sorted(system.eigenvalues().imag), [-math.sqrt(G / 2.5), math.sqrt(G / 2.5)], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_time_of_a_run_with_friction_is_a_place() -> None:
     """Friction of 0.5 N is left out there, as at a start; the block of 2 kg is between a spring of 8 N/m and a wall."""
     raw = {

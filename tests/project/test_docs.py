@@ -143,7 +143,6 @@ def test_the_errors_of_the_wrong_file_that_a_page_shows(
     "docs/linearise.md",
     "docs/modes.md",
     "docs/player.md",
-    "docs/stress.md",
     "docs/tutorial-space.md",
     "docs/tutorials/modes.md",
     "docs/tutorials/scissor-lift.md",

@@ -33,7 +33,7 @@ def study(journal):
         return symgen.compare("four-bar", journal=records, **RUNS)
 
 
-@pytest.mark.fast("direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_errors_of_derivatives_fall_at_the_order_of_the_scheme(study, method):
     coarse, fine = (row.gradient_error for row in study.rows if (row.method, row.integrator) == (method, "rk4"))

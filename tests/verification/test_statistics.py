@@ -32,6 +32,7 @@ def test_a_case_measures_a_method_against_its_reference():
     assert coarse.violation < 1e-9 and case.run("no-such-method", "rk4") is None
 
 
+@pytest.mark.slow
 def test_processes_give_the_lines_of_one_process_and_a_file_of_rows_gives_the_table(tmp_path, monkeypatch, capsys):
     jobs = [Job(2026, number) for number in range(3)]
     own = partial(examine, until=1.0, integrators=("rk4",), methods=("baumgarte",))

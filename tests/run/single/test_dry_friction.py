@@ -407,7 +407,7 @@ def test_every_integrator_turns_round(integrator: str) -> None:
     np.testing.assert_allclose(at_events, (signs * TURNS[:3])[:2], rtol=0, atol=3e-2)
 
 
-@pytest.mark.fast("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
     text = PIN.replace("[bodies.bob]", "[parameters]\ntorque = 0.5\n\n[bodies.bob]").replace("= 0.5 }", '= "torque" }')
