@@ -53,7 +53,7 @@ class Functions:
     Attributes
     ----------
     mechanism : Mechanism
-        The mechanism, with its tree in joint coordinates; dry friction slides, stops are open.
+        The mechanism, with its tree in joint coordinates; no row with bounds is in force.
     coordinates, velocities : tuple of Quantity
         Names and units of q and v.
     parameters : tuple of str

@@ -22,7 +22,6 @@ from symgen.cli._options import (
     setting_options,
 )
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
-from symgen.describe.bounds.smooth import WITH_LAWS
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
@@ -49,7 +48,7 @@ if TYPE_CHECKING:
     metavar="E,E",
     help="Errors [m] at which run times are interpolated between settings; all lines are timed in turn.",
 )
-@click.option("--laws", metavar="A,B", help=f"Laws of {WITH_LAWS}: exact, tanh:speed=1e-3; the exact one by default.")
+@click.option("--laws", metavar="A,B", help="Laws of dry friction: exact, tanh:speed=1e-3; the exact one by default.")
 @click.option(
     "--gradient",
     metavar="A,B",

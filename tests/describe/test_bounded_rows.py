@@ -23,7 +23,7 @@ from symgen.describe.parts.scope import Scope
 
 PACKAGE = Path(symgen.__file__).parent
 #: Who may name a kind: its own room, formats of other programs, whose keys these are, and rolling, by its forces.
-NAMING = ("describe/bounds/", "describe/formats/", "describe/joints/rolling")
+NAMING = ("describe/bounds/", "describe/formats/", "describe/joints/rolling", "cli/compare.py")
 PENDULUM = """
 [mechanism]
 name = "brake"

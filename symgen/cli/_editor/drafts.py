@@ -135,7 +135,7 @@ class Drafts:
                 return {"superseded": True}
             mechanism = self._read(text)[1]
             if not is_set(_shaped(mechanism), "shape") and not mechanism.bounded:
-                # sliders are for the parameters of the file alone; with dry friction or stops there are none
+                # sliders are for the parameters of the file alone; with bounded rows there are none
                 result = Model(mechanism).simulate()
             data, script = view_data(result)
             return {"data": data, "script": script}

@@ -2,7 +2,7 @@
 
 Each is one block over q, v, a further vector of the length of v (accelerations or efforts) and the numbers ``p``:
 parameters in the order of the file, the file's own states, and the time last. No block keeps anything between calls:
-angles whose turns runs count are on the branch of (-pi, pi], joints hold, stops are open.
+angles whose turns runs count are on the branch of (-pi, pi], joints hold, no row with bounds is in force.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class StateFunctions:
     Parameters
     ----------
     mechanism : Mechanism
-        With its tree for joint coordinates; without dry friction and stops.
+        With its tree for joint coordinates; without rows with bounds.
     """
 
     mechanism: Mechanism

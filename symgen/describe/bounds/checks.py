@@ -29,10 +29,10 @@ def check_bounds(mechanism: Mechanism, source: str) -> None:
             raise InputError(
                 f"{source}: {row.where}", "a coordinate that no driver prescribes", f"one that '{driver}' prescribes"
             )
-    pressed = next(iter(held_by_reactions(mechanism)), None)
-    if one_sided(mechanism) and pressed is not None:
-        expected = "friction of constant bound beside stops, as that has no impulse at an impact"
-        raise InputError(f"{source}: {pressed.where}", expected, "friction by the reaction of the joint")
+    for pressed, pushing in zip(held_by_reactions(mechanism), one_sided(mechanism), strict=False):  # the first of each
+        what, other = pressed.family.one, pushing.family.noun
+        expected = f"{what} of constant bound beside {other}, as that has no impulse at an impact"
+        raise InputError(f"{source}: {pressed.where}", expected, f"{what} by the reaction of the joint")
 
 
 def _upright(measure: Measure) -> Measure:

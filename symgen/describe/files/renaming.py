@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.bounds.keys import sections_of_files
 from symgen.describe.files.changes import Change, changed
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import Outline, Path, outline
@@ -126,7 +127,7 @@ def _quoted(text: str) -> str:
 def _formula(where: Path, name: str) -> Callable[[str], str]:
     """Return what changes a formula: names before a dot, and parameters, which stand alone."""
     old = re.escape(str(where[-1]))
-    if where[0] in ("bodies", "joints", "forces", "stops", "beams") and len(where) == 2:
+    if where[0] in ("bodies", "joints", "forces", "beams", *sections_of_files()) and len(where) == 2:
         pattern = re.compile(rf"(?<![\w.]){old}(?=\.)")
     elif len(where) == 4:
         pattern = re.compile(rf"(?<![\w.])({re.escape(str(where[1]))}\.){old}(?=\.)")

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
+from symgen.describe.bounds.keys import nouns
 from symgen.result.sensitivities import SCHEMES
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
@@ -93,7 +94,8 @@ class StepDirections:
         if compiled.shape != "straight":
             raise InputError(WHERE, "code of the shape 'straight'", f"shape '{compiled.shape}'")
         if loop.spec.events is not None:
-            raise InputError(WHERE, "a run without events, dry friction, stops and comparisons in formulas", "one with")
+            bounded = nouns(joined=", ")
+            raise InputError(WHERE, f"a run without events, {bounded} and comparisons in formulas", "one with")
         self._prepared, self._loop, self._info = prepared, loop, compiled.info
         info = compiled.info
         self._places = np.array([*range(info.work), *range(info.ny)[info.own_states]])

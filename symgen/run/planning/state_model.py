@@ -31,7 +31,7 @@ DEPENDENT = 1e-9
 
 
 class StateModel:
-    """A mechanism in which dry friction slides and stops are open.
+    """A mechanism in which no row with bounds is in force.
 
     Parameters
     ----------

@@ -62,7 +62,7 @@ class OverTime:
     functions : tuple of str
         Keys of `FUNCTIONS`; empty: the value at the end.
     places : tuple of int
-        Places of their quantities among those of the loops.
+        Places of their quantities among the quantities of the loops.
     """
 
     quantities: tuple[Signal, ...]
