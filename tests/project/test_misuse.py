@@ -391,6 +391,8 @@ def rows():
         yield f"sweep {changes}", lambda x, c=changes: symgen.sweep(x.model, vy, **c), sentence
     wrong = "sweep: expected a quantity that was kept, or a number"
     yield from each("sweep column", (3, None, "bob.z"), lambda x, v: x.sweep[v], wrong)
+    wrong = "sweep: expected a quantity that was kept, or a number"
+    yield from each("sweep contributions", (3, "bob.z"), lambda x, v: x.sweep.contributions(v), wrong)
     wrong = "sensitivities: expected a list of names, got 3"
     yield from each("sweep sensitivities", {"3": 3, "a list of 3": [3]}, lambda x, v: x.sweep.sensitivities(v), wrong)
     yield "sweep reasons", lambda x: x.sweep.reasons("all"), "most: expected a whole number"
@@ -521,7 +523,7 @@ def test_no_function_with_arguments_is_left_out():
         *(f"Model.{n}" for n in "inspect view sweep compare".split()),
         *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot".split(),
-        *(f"Sweep.{n}" for n in "save plot reasons sensitivities".split()),
+        *(f"Sweep.{n}" for n in "save plot reasons sensitivities contributions".split()),
         *(f"SteppedRun.{n}" for n in "step run every set meter restore reset".split()),
         *(
             f"MechanismBuilder.{n}"

@@ -58,11 +58,11 @@ class OverTime:
     Attributes
     ----------
     quantities : tuple of Signal
-        Names and units of these numbers; their sources and columns are those of the quantities that they are made of.
+        Names and units of these numbers; each has the source and the column of its quantity.
     functions : tuple of str
         Keys of `FUNCTIONS`; empty: the value at the end.
     places : tuple of int
-        Places of their quantities among the quantities of the loops.
+        Each number's quantity, by its place among the quantities of the loops.
     """
 
     quantities: tuple[Signal, ...]
