@@ -14,10 +14,14 @@ Array = NDArray[np.float64]
 
 #: What tables show of a sample [%].
 PERCENTILES = (5.0, 50.0, 95.0)
+#: A sample has so many values at least.
+FEWEST = 10
 
 
 def is_sample(axis: Axis) -> bool:
-    """Whether values of an axis go up and down: they are drawn at random, and a line through them means nothing."""
+    """Whether many values of an axis go up and down: they are drawn at random, and a line through them means nothing."""
+    if len(axis) < FEWEST:  # typed in any order
+        return False
     steps = [np.diff(values) for values in axis.values.values()]
     return any(bool(np.any(step > 0.0) and np.any(step < 0.0)) for step in steps)
 

@@ -26,8 +26,9 @@ def test_what_straight_lines_leave_is_missing():
 
 
 def test_an_axis_that_goes_up_and_down_is_a_sample():
-    up, drawn = Axis("a", {"a": np.array([1.0, 2.0, 3.0])}), Axis("b", {"b": np.array([1.0, 3.0, 2.0])})
-    assert not is_sample(up) and is_sample(drawn)
+    numbers = np.random.default_rng(3).uniform(size=12)
+    up, drawn = Axis("a", {"a": np.sort(numbers)}), Axis("b", {"b": numbers})
+    assert not is_sample(up) and is_sample(drawn) and not is_sample(Axis("c", {"c": np.array([1.0, 3.0, 2.0])}))
     assert has_samples(Grid((up, drawn))) and not has_samples(Grid((up,)))
 
 
