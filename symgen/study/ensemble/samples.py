@@ -19,7 +19,7 @@ FEWEST = 10
 
 
 def is_sample(axis: Axis) -> bool:
-    """Whether many values of an axis go up and down: they are drawn at random, and a line through them means nothing."""
+    """Whether many values of an axis go up and down: they are random, and a line through them means nothing."""
     if len(axis) < FEWEST:  # typed in any order
         return False
     steps = [np.diff(values) for values in axis.values.values()]
