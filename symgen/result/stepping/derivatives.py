@@ -40,6 +40,8 @@ _COUNTS = ("iw", "clock", "gauges", "control")
 class StepDerivatives:
     """How the state after a step depends on the state before and on inputs, and outputs on the state after it.
 
+    The tuples ``states``, ``inputs`` and ``outputs`` hold the names of rows and columns.
+
     Attributes
     ----------
     A : Array, shape (n, n)
@@ -48,8 +50,6 @@ class StepDerivatives:
         By inputs that are held during the step.
     C : Array, shape (number of outputs, n)
         Derivatives of the file's outputs after the step by the states there.
-    states, inputs, outputs : tuple of str
-        Names.
     left_out : tuple of str
         Outputs that depend on accelerations, forces or the history.
     t, dt : float
