@@ -46,10 +46,10 @@ class StepDerivatives:
     ----------
     A : Array, shape (n, n)
         Derivatives of the states after by those before. States count as independent: those that violate rows as well.
-    B : Array, shape (n, number of inputs)
-        By inputs that are held during the step.
-    C : Array, shape (number of outputs, n)
-        Derivatives of the file's outputs after the step by the states there.
+    B : Array, shape (n, m)
+        By m inputs that are held during the step.
+    C : Array, shape (k, n)
+        Derivatives of k outputs of the file after the step by the states there.
     left_out : tuple of str
         Outputs that depend on accelerations, forces or the history.
     t, dt : float
