@@ -39,7 +39,10 @@ def bases() -> list[dict[str, Any]]:
     """Return the files that mutations start from: the catalogue and the examples."""
     import symgen
 
-    folders = [Path(str(symgen.__file__)).parent / "catalogue", Path(__file__).resolve().parents[1] / "examples"]
+    folders = [
+        Path(str(symgen.__file__)).parent / "describe" / "catalogue",
+        Path(__file__).resolve().parents[1] / "examples",
+    ]
     texts = [path.read_text(encoding="utf-8") for folder in folders for path in sorted(folder.glob("*.toml"))]
     contents = [tomllib.loads(text) for text in texts if len(text) <= LARGEST_BASE]
     return [raw for raw in contents if len(raw["bodies"]) <= MOST_BODIES]

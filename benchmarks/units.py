@@ -97,7 +97,7 @@ def cases(entries: list[str], mechanisms: int, seed: int) -> Iterator[Case]:
     """Yield cases: catalogue entries and random mechanisms, each with some methods and units."""
     import symgen
 
-    folder = Path(str(symgen.__file__)).parent / "catalogue"
+    folder = Path(str(symgen.__file__)).parent / "describe" / "catalogue"
     files = [(name, (folder / f"{name}.toml").read_text(encoding="utf-8")) for name in entries]
     for index in range(mechanisms):
         try:

@@ -1,6 +1,10 @@
 """CasADi and JAX: modules of a mechanism's dynamics equal the compiled functions, and so do their derivatives."""
 
 import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -114,9 +118,23 @@ def compare_casadi(name, coordinates, tmp_path):
         assert apart(slope(*given), exact) < 1e-10, by
 
 
+def alone(function, *arguments):
+    """Call a function of this module in a process of its own: threads of JAX stay where it was imported."""
+    words = ", ".join(repr(str(x)) for x in arguments)
+    code = f"from verification.test_differentiable_targets import {function.__name__} as f; f({words})"
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
+    assert done.returncode == 0, done.stderr
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), MECHANISMS)
 def test_jax_functions_are_the_compiled_ones(name, coordinates, tmp_path):
+    alone(compare_jax, name, coordinates, tmp_path)
+
+
+def compare_jax(name, coordinates, folder):
+    tmp_path = Path(folder)
     model = model_of(name, tmp_path)
     module, f = module_of(model, coordinates, "jax", tmp_path), model.functions(coordinates)
     import jax
@@ -131,6 +149,11 @@ def test_jax_functions_are_the_compiled_ones(name, coordinates, tmp_path):
 
 @pytest.mark.slow
 def test_jax_takes_many_states_and_gradients(tmp_path):
+    alone(many_states, tmp_path)
+
+
+def many_states(folder):
+    tmp_path = Path(folder)
     model = load("four-bar")
     module, f = module_of(model, "joint", "jax", tmp_path), model.functions("joint")
     import jax
