@@ -123,7 +123,7 @@ class _Converted:
         return out
 
     def _fault(self, arrays: list[Array], wrong: int, code: int, many: bool) -> InputError:
-        """Return what is wrong at a state."""
+        """Return the error of a state for which a function has no value."""
         where = self.function.name + (f": state {wrong}" if many else "")
         for name, array in zip(self.function.arguments, arrays, strict=True):
             if not np.isfinite(array if array.ndim == 1 else array[wrong]).all():

@@ -68,12 +68,9 @@ class Frame:
         return np.asarray(own @ along)
 
     def _function(self, what: str, vectors: tuple[str, ...]) -> ArrayFunction:
-        functions, axes = self.functions, "world" if what == "pose" else self._axes
-        key = self._body, self._point, what, axes
-        if key not in functions._made:
-            purpose = f"{what} of {self.name}"
-            identity = self._body, *map(to_text, self._point), axes
-            functions._made[key] = functions._compiled(
-                what, purpose, vectors, lambda f: f.frame(self._body, self._point, what, axes), identity
-            )
-        return functions._made[key]
+        axes = "world" if what == "pose" else self._axes
+        return self.functions.function(
+            *(what, f"{what} of {self.name}", vectors),
+            lambda f: f.frame(self._body, self._point, what, axes),
+            (self._body, *map(to_text, self._point), axes),
+        )

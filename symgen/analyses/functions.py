@@ -71,7 +71,7 @@ class Functions:
         self.mechanism, self.rows = self._model.mechanism, self._model.rows
         self.coordinates, self.velocities = self._model.coordinates, self._model.velocities
         self.parameters = self._model.parameters
-        self._made: dict[object, ArrayFunction] = {}
+        self._functions: dict[object, ArrayFunction] = {}
         self.p = self.values()
 
     def __repr__(self) -> str:
@@ -236,19 +236,14 @@ class Functions:
         if BY[by] != "p" and BY[by] not in _VECTORS[name]:
             taken = ", ".join(x for x, space in BY.items() if space in (*_VECTORS[name], "p"))
             raise InputError("derivative: by", f"an argument of {name} ({taken})", by)
-        key = f"{name} by {BY[by]}"
-        if key not in self._made:
-            solved = name in SOLVED and self.rows
-            quantity = f"{name} of rows" if solved else name
-            kept = self._model.kept if solved else ()
-            self._made[key] = self._compiled(
-                f"{name}_by_{BY[by]}",
-                f"{name} differentiated by {by}",
-                _VECTORS[name],
-                lambda f: f.derivative(quantity, BY[by], kept),
-                kept,
-            )
-        return self._made[key]
+        solved = name in SOLVED and self.rows
+        quantity = f"{name} of rows" if solved else name
+        rows = self._model.kept if solved else ()
+        return self.function(
+            *(f"{name}_by_{BY[by]}", f"{name} differentiated by {by}", _VECTORS[name]),
+            lambda f: f.derivative(quantity, BY[by], rows),
+            rows,
+        )
 
     def reduction(self, q: Any, independent: Sequence[str] = (), p: Any = None) -> tuple[tuple[str, ...], Array]:
         """Return names of independent velocities, and T of v = T u for these u, shape (nv, number of u).
@@ -319,11 +314,9 @@ class Functions:
     # -- making --------------------------------------------------------------------------------------------------------
 
     def _quantity(self, name: str, purpose: str) -> ArrayFunction:
-        if name not in self._made:
-            self._made[name] = self._compiled(name, purpose, _VECTORS[name], lambda f: f.values(name))
-        return self._made[name]
+        return self.function(name, purpose, _VECTORS[name], lambda f: f.values(name))
 
-    def _compiled(
+    def function(
         self,
         name: str,
         purpose: str,
@@ -331,8 +324,26 @@ class Functions:
         values: Callable[[StateFunctions], Values],
         identity: Sequence[object] = (),
     ) -> ArrayFunction:
-        made = compile_function(self.mechanism, lambda: self._derived, name, purpose, vectors, values, identity)
-        return ArrayFunction(made, self.p, self.values)
+        """Return the function of some values, compiled at its first use.
+
+        Parameters
+        ----------
+        name, purpose : str
+            What it is called in its module, and what its first line says.
+        vectors : sequence of str
+            Arguments before ``p``, by their spaces.
+        values : callable
+            Makes the values.
+        identity : sequence
+            What they depend on besides the mechanism and the name.
+        """
+        key = name, *identity
+        if key not in self._functions:
+            function = compile_function(
+                *(self.mechanism, lambda: self._derived, name, purpose, vectors, values), identity
+            )
+            self._functions[key] = ArrayFunction(function, self.p, self.values)
+        return self._functions[key]
 
     def _reduced(
         self,
@@ -344,18 +355,18 @@ class Functions:
         actuators: tuple[str, ...] = (),
     ) -> ArrayFunction:
         """Return a function that a kernel makes of what the state determines."""
-        key = name, actuators
-        if key not in self._made:
+        key = name, *actuators
+        if key not in self._functions:
             n, m, k = sizes[0], sizes[1], len(actuators)
             make = (lambda f: f.values(name)) if not k else (lambda f: f.actuated(actuators))
-            made = compile_function(
+            inputs = compile_function(
                 *(self.mechanism, lambda: self._derived, name, f"what {name} solves", vectors, make), actuators
             )
-            made = made.with_kernel(
+            function = inputs.with_kernel(
                 _NAMES[name], kernel, np.array(sizes, dtype=np.int64), projection.room(n, m, k), shape
             )
-            self._made[key] = ArrayFunction(made, self.p, self.values)
-        return self._made[key]
+            self._functions[key] = ArrayFunction(function, self.p, self.values)
+        return self._functions[key]
 
 
 _NAMES = {"system": "forward_dynamics", "balance": "inverse_dynamics"}

@@ -21,6 +21,7 @@ from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.inputs import are_words_of_data
 from symgen.result.labelled import Labelled, labelled
+from symgen.result.over_time import rms
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
@@ -105,14 +106,13 @@ class Inverse(Tables):
         too few for that.
         """
         entries, t = dict[str, dict[str, Any]](), self.t
-        span = float(t[-1] - t[0]) if len(t) else 0.0
         for i, (name, unit) in enumerate(zip(self.efforts.names, self.efforts.units, strict=True)):
             values = self.efforts.values[:, i]
             if not len(t):
                 continue
             at = int(np.argmax(np.abs(values)))
-            square = float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
-            entries[name] = {"unit": unit, "max": float(abs(values[at])), "at": float(t[at]), "rms": square**0.5}
+            entries[name] = {"unit": unit, "max": float(abs(values[at])), "at": float(t[at])}
+            entries[name]["rms"] = float(rms(t, values))
             if name in self.power:
                 power = self.power[name]
                 # a turn gives back what it takes: what is left of that is rounding

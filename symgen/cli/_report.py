@@ -119,9 +119,9 @@ def command_again() -> str:
                 flag,
                 Path(item).name if flag in _WRITTEN else str(item).removesuffix(".0"),
             ]
-    for file in loaded_files():
-        inside = Path(file).resolve().is_relative_to(Path.cwd())  # other folders are private
-        parts += ["--plugin", str(Path(file).resolve().relative_to(Path.cwd())) if inside else Path(file).name]
+    here = Path.cwd()
+    for plugin in map(Path, loaded_files()):  # with its folder only below this one: others are private
+        parts += ["--plugin", str(plugin.relative_to(here)) if plugin.is_relative_to(here) else plugin.name]
     return shlex.join(parts)
 
 

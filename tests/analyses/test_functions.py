@@ -87,6 +87,11 @@ def difference(function, x, direction, h=1e-3):
     return sum(w / h * (function(x + k * h * direction) - function(x - k * h * direction)) for k, w in weights.items())
 
 
+def of_argument(function, state, place):
+    """A function of one of its arguments, with the others as in a state."""
+    return lambda x: np.asarray(function(*state[:place], x, *state[place + 1 :]))
+
+
 @pytest.mark.slow
 def test_derivatives_of_robots_are_those_of_differences(robot):
     compare_derivatives(robot[0].functions())
@@ -113,12 +118,14 @@ def test_derivatives_with_rows_are_those_of_differences(name):
         function = getattr(f, name)
         for by in ("v", function.arguments[2]):
             exact = f.derivative(name, by)(q, v, last) @ along
-            moved = (lambda x: function(q, x, last)) if by == "v" else (lambda x: function(q, v, x))  # noqa: B023
-            assert close(exact, difference(moved, v if by == "v" else last, along), 1e-8)
+            place = function.arguments.index(by)
+            assert close(
+                exact, difference(of_argument(function, (q, v, last), place), (q, v, last)[place], along), 1e-8
+            )
         exact = f.derivative(name, "q")(q, v, last)
         if len(f.rows) == f.reduction(q)[1].shape[0] - 1 == np.linalg.matrix_rank(f.constraint_jacobian(q)):
             for k, e in enumerate(np.eye(len(q))):
-                assert close(exact[:, k], difference(lambda x: function(x, v, last), q, e, 1e-4), 1e-7)  # noqa: B023
+                assert close(exact[:, k], difference(of_argument(function, (q, v, last), 0), q, e, 1e-4), 1e-7)
 
 
 def compare_derivatives(f):
@@ -134,8 +141,8 @@ def compare_derivatives(f):
         for i, by in enumerate(function.arguments[:-1]):
             exact = f.derivative(name, by)(*state)
             for k in range(len(q)):
-                along = lambda x, i=i: np.asarray(function(*state[:i], x, *state[i + 1 :]))  # noqa: B023, E731
-                assert close(exact[..., k], difference(along, state[i], np.eye(len(q))[k]), 1e-8), (name, by)
+                slope = difference(of_argument(function, state, i), state[i], np.eye(len(q))[k])
+                assert close(exact[..., k], slope, 1e-8), (name, by)
     mass = f.derivative("mass_matrix", "q")(q).reshape(len(q), len(q), len(q))
     assert close(mass @ v, difference(f.mass_matrix, q, v), 1e-8)
 
@@ -155,9 +162,8 @@ def test_loops_are_those_of_differences_and_numpy(name, coordinates):
     d, mass = f.constraint_jacobian(q), f.mass_matrix(q)
     free = np.linalg.svd(d)[2][np.linalg.matrix_rank(d, 1e-9 * np.abs(d).max()) :]
     v = v + free.T @ np.ones(len(free))
-    moved = lambda x: f.rates(q, x)  # noqa: E731
     for k, e in enumerate(np.eye(len(v))):
-        along = difference(f.violation, q, moved(e), 1e-4)
+        along = difference(f.violation, q, f.rates(q, e), 1e-4)
         assert close(d[:, k], along, 1e-9)
     assert np.abs(f.violation(q)).max() < 1e-9
     # the rate of D v where v' is 0, and that of the momentum: Lagrange's equations

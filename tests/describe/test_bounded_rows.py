@@ -70,14 +70,14 @@ class Brake(Friction, frozen=True):
 
 def read_brake(scope: Scope, joint: Joint, raw: object) -> Iterator[Brake]:
     label, measure = joint.coordinates[0]
-    bound: Expr = scope.constant("brake", raw)  # type: ignore[arg-type]
+    bound: Expr = scope.constant("brake", raw)
     return iter((Brake(joint.name, joint.name, measure, joint.unit(label), bound, bound, ZERO),))
 
 
 @pytest.fixture
 def braked(monkeypatch: pytest.MonkeyPatch) -> Mechanism:
     """A mechanism with a row of a kind that no room knows."""
-    loaded: dict[str, Any] = {**BOUNDS._loaded, "brake": KeyOfJoints("brake", Brake.family, float | str, read_brake)}  # type: ignore[arg-type]
+    loaded: dict[str, Any] = {**BOUNDS._loaded, "brake": KeyOfJoints("brake", Brake.family, float | str, read_brake)}
     monkeypatch.setattr(BOUNDS, "_loaded", loaded)
     return validate(parse_toml(PENDULUM + "brake = 2.0\n", "brake"), "brake.toml")
 

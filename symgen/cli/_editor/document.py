@@ -107,10 +107,9 @@ class Document:
         with self._lock:
             if not force and self._digest() != digest:
                 return {"changed": True}
-            before = self._bytes()
-            kept = before.decode("utf-8", errors="replace")
-            text = with_line_ends(text, kept)
-            if kept.startswith(_MARK) and not text.startswith(_MARK):
+            before = self._bytes().decode("utf-8", errors="replace")
+            text = with_line_ends(text, before)
+            if before.startswith(_MARK) and not text.startswith(_MARK):
                 text = _MARK + text
             write_whole(self.path, text)
             return {"saved": True, "digest": self._digest()}

@@ -59,8 +59,8 @@ class Drafts:
         try:
             raw, mechanism = self._read(text)
         except InputError:
-            found = problems(text, self.source)
-            return {"errors": [_error(problem) for problem in found[:MOST_ERRORS]], "count": len(found)}
+            wrong = problems(text, self.source)
+            return {"errors": [_error(problem) for problem in wrong[:MOST_ERRORS]], "count": len(wrong)}
         parts = outline(text)
         values = parameter_values(mechanism)
         described = Model(mechanism).initial_state(values)[0]
@@ -189,7 +189,7 @@ def parts_line(text: str, mentions: Iterable[Any], path: tuple[str, ...]) -> int
 
 
 def _for_closing(mechanism: Mechanism) -> tuple[Mechanism, Settings]:
-    """Return what decides where a mechanism closes, without what only moves it, in a shape that needs no compiling."""
+    """Return the parts of a mechanism that close it, without forces, in a shape that needs no compiling."""
     bare = msgspec.structs.replace(
         mechanism, forces=(), outputs=(), events=(), states=(), rotors=(), bounded=(), switchable=()
     )

@@ -130,15 +130,15 @@ class _Handler(BaseHTTPRequestHandler):
         if int(length) > LARGEST_REQUEST:
             return self._refuse(413)
         try:
-            given = json.loads(self.rfile.read(int(length)))
+            request = json.loads(self.rfile.read(int(length)))
         except (ValueError, RecursionError):
             return self._refuse(400)
-        self._send(200, json.dumps(self._answer(job, given if isinstance(given, dict) else {})), JSON)
+        self._send(200, json.dumps(self._answer(job, request if isinstance(request, dict) else {})), JSON)
 
-    def _answer(self, job: Job, given: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Return what a job returns, or the sentence of its error."""
+    def _answer(self, job: Job, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return the answer of a job, or the sentence of its error."""
         try:
-            return job(given)
+            return job(request)
         except InputError as error:
             return {"error": in_line(error) if error.file is None else str(error)}
         except SymgenError as error:

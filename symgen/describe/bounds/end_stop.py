@@ -82,7 +82,7 @@ class EndStop(Bounds, frozen=True):
         return "" if self.name == self.owner else self.name.rpartition(".")[0]
 
     @property
-    def reversed(self) -> bool:  # type: ignore[override]
+    def reversed(self) -> bool:
         """Whether its measure is the coordinate with the other sign."""
         return self.name == f"{self.along}.{UPPER}"
 

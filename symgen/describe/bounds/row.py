@@ -14,7 +14,11 @@ class Bounds(msgspec.Struct, frozen=True):
     """Base of the kinds: two bounds, which depend on no reaction (`symgen.describe.bounded.BoundedRow`)."""
 
     one_sided: ClassVar[bool] = False
-    reversed: ClassVar[bool] = False
+
+    @property
+    def reversed(self) -> bool:
+        """Whether its measure is the coordinate with the other sign."""
+        return False
 
     @property
     def smooth(self) -> bool:

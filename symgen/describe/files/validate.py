@@ -15,7 +15,7 @@ from symgen.base.vocabulary.expressions import ONE, call
 from symgen.base.vocabulary.measures import GROUND, Marker
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.checks import check_bounds
-from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint, sections_of_files
+from symgen.describe.bounds.keys import SectionOfFiles, keys_of_any_joint, rows_of_joint, sections_of_files
 from symgen.describe.bounds.losses import losses
 from symgen.describe.bounds.modes import with_bounded_outputs
 from symgen.describe.bounds.smooth import with_smooth
@@ -250,8 +250,12 @@ class _Validator:
         """Return the rows with bounds, those whose force has two bounds first."""
         rows = [row for joint in joints for row in self._bounded.get(joint.name, ())]
         for section, kind in sections_of_files().items():
-            rows += self.each(section, lambda name, value: kind.read(self.scope(section, name), value))  # noqa: B023
+            rows += self._entries_of(section, kind)
         return tuple(sorted(rows, key=lambda row: row.one_sided))
+
+    def _entries_of(self, section: str, kind: SectionOfFiles) -> tuple[BoundedRow, ...]:
+        """Return the rows with bounds of a section of their own."""
+        return self.each(section, lambda name, value: kind.read(self.scope(section, name), value))
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""

@@ -13,14 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
+from symgen.result.over_time import mean, rms
 from symgen.result.signals import Signal
 
 Array = NDArray[np.float64]
-
-
-def _mean(t: Array, x: Array) -> Array:
-    span = t[-1] - t[0]
-    return np.trapezoid(x, t, axis=-1) / span if span > 0.0 else x[..., -1]
 
 
 #: What is taken of a quantity over time: functions of times, shape (n,), and of values, shape (..., n).
@@ -28,8 +24,8 @@ FUNCTIONS: Mapping[str, Callable[[Array, Array], Array]] = {
     "max": lambda t, x: np.max(x, axis=-1),
     "min": lambda t, x: np.min(x, axis=-1),
     "range": lambda t, x: np.ptp(x, axis=-1),
-    "mean": _mean,
-    "rms": lambda t, x: np.sqrt(_mean(t, x**2)),
+    "mean": mean,
+    "rms": rms,
 }
 _CALL = re.compile(r"(\w+)\((.*)\)")
 
@@ -42,13 +38,13 @@ def parted(name: str) -> tuple[str, str]:
     InputError
         If there is no such function; says the nearest one.
     """
-    found = _CALL.fullmatch(name)
-    if found is None:
+    call = _CALL.fullmatch(name)
+    if call is None:
         return "", name
-    if found[1] not in FUNCTIONS:
+    if call[1] not in FUNCTIONS:
         expected = f"{', '.join(FUNCTIONS)} of a quantity over time"
-        raise InputError(f"quantity {quoted(name)}", expected, quoted(found[1]), nearest(found[1], [*FUNCTIONS]))
-    return found[1], found[2].strip()
+        raise InputError(f"quantity {quoted(name)}", expected, quoted(call[1]), nearest(call[1], [*FUNCTIONS]))
+    return call[1], call[2].strip()
 
 
 @dataclass(frozen=True)
@@ -91,25 +87,23 @@ class OverTime:
         return numbers
 
 
-def over_time(names: Sequence[str], choose: Callable[[Sequence[str]], tuple[Signal, ...]]) -> OverTime | None:
+def over_time(
+    parts: Sequence[tuple[str, str]], kept: Sequence[Signal], choose: Callable[[Sequence[str]], tuple[Signal, ...]]
+) -> OverTime | None:
     """Return what names ask for over time, None where all of them are plain quantities.
 
     Parameters
     ----------
-    names : sequence of str
-        Names of quantities, and functions of them.
+    parts : sequence of (str, str)
+        Functions and quantities, from `parted`.
+    kept : sequence of Signal
+        All these quantities, as loops leave them.
     choose : callable
         Returns the quantities that names mean.
-
-    Raises
-    ------
-    InputError
-        If a name or a function is unknown.
     """
-    parts = [parted(name) for name in names]
     if not any(function for function, _ in parts):
         return None
-    loops = {signal.name: i for i, signal in enumerate(choose([name for _, name in parts]))}
+    loops = {signal.name: i for i, signal in enumerate(kept)}
     quantities, functions, places = list[Signal](), list[str](), list[int]()
     for function, name in parts:
         for signal in choose([name]):

@@ -253,9 +253,9 @@ def make_ensemble(
     if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
         got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
         raise InputError("target 'lanes'", "a constant step", got, hint)
-    over = over_time(kept_names or (), partial(choose_quantities, mechanism, compiled.info))
-    plain = None if kept_names is None else [name for _, name in map(parted, kept_names)]
-    kept = choose_quantities(mechanism, compiled.info, plain)
+    parts, choose = [*map(parted, kept_names or ())], partial(choose_quantities, mechanism, compiled.info)
+    kept = choose(None if kept_names is None else [name for _, name in parts])
+    over = over_time(parts, kept, choose)
     integral = first_integral(mechanism, kept)
     if integral is not None and target != "cpu":
         expected = "quantities without integral(...), which are added up by cpu alone"
