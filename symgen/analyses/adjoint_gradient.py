@@ -22,9 +22,10 @@ from symgen.run.layout import abi
 from symgen.run.planning.directions import RunDirection, named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
 from symgen.run.planning.start_directions import StartDirections
-from symgen.run.single.adjoint import Adjoint, Uncovered, run_for_adjoint
+from symgen.run.single.adjoint import Adjoint, run_for_adjoint
 from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.single.directions import Course, Part, run_with_directions
+from symgen.run.single.kept_run import Uncovered
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -213,16 +214,9 @@ def adjoint_gradient(
     own = Sensitivities(Evaluated(run, ends, ends.course(adjoint)), result.outcome)
     by, n = own.table(table)[-1, place], start.count
     began = time.perf_counter()
-    y_bar, p_bar, w_bar = adjoint.back(by[n:])
+    seeds = start.seeds()
+    slopes = by[:n] + adjoint.back(by[n:], seeds)
     seconds = adjoint.outcome.run_seconds + time.perf_counter() - began
-    seeds, slopes = start.seeds(), by[:n].copy()
-    model = DirectedModel(run.compiled, lanes_of(n))
-    for first in range(0, n, model.lanes):
-        part = seeds.part(first, model.lanes)
-        p = model.parameters(run.start.p, part.p)
-        w = model.scratch(p, run.start.w)
-        slope = y_bar @ part.y + p_bar @ model.shadow(p, "p") + w_bar @ model.shadow(w, "w")
-        slopes[first : first + model.lanes] += slope[: n - first]
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
     result = replace(result, notes=(*result.notes, *notes, *start.notes))
@@ -230,4 +224,4 @@ def adjoint_gradient(
     if result.status == "ok" and doubt:
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])
-    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_of_steps, seconds, start.directions, run, result)
+    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_kept, seconds, start.directions, run, result)

@@ -65,9 +65,9 @@ class Evaluated:
 
     def _own(self, part: Part) -> Observer:
         outcome, info = part.outcome, part.model.plain.info
-        windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.kept]
         pieces = (*outcome.held, (np.inf, outcome.p))
-        return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w)
+        return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w, part.modes)
 
     def _carried(self, part: Part, first: int) -> Observer:
         """Return the motion of bodies that joints carry."""
@@ -89,9 +89,9 @@ class Evaluated:
         room[:, : seeds.shape[1]] = seeds
         pieces = tuple((t, model.parameters(p, room)) for t, p in (*carried.held, (np.inf, carried.p)))
         longer = np.concatenate([states, directions.reshape(k, -1)], axis=1)
-        windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.kept]
         w = model.scratch(pieces[-1][1], carried.w)
-        return Observer(model, part.outcome.times, longer, windings, pieces, w)
+        return Observer(model, part.outcome.times, longer, windings, pieces, w, part.modes)
 
     @cached_property
     def _motion(self) -> Outcome:
@@ -131,7 +131,7 @@ class Evaluated:
         parts = list[Array]()
         for part in self.course.parts:
             state, info = part.outcome.simulation.state, part.model.whole.info
-            windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.windings]
+            windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.kept]
             here = np.array([outcome.end]), state.y[np.newaxis, : info.ny], windings
             observer = Observer(part.model, *here, ((np.inf, state.p),), state.w)
             values, slopes = observer.observed(watched.function, 3 * count)

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
@@ -61,7 +60,6 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
     InputError
         If the scheme, the shape of the code or the start has no directions; says what works instead.
     """
-    refuse_bounds("sensitivities", mechanism)
     notes = list[str]()
     if settings.shape == "auto":
         settings = replace(settings, shape="straight")

@@ -80,7 +80,6 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     for refused in (
         lambda: model.generate(target="c"),
         lambda: model.inverse(actuators=["A"]),
-        lambda: model.simulate(until=0.1, sensitivities=["crank_mass"]),
     ):
         with pytest.raises(InputError, match=sentence):
             refused()

@@ -1,28 +1,25 @@
-"""Directions of resets: how a state after an event depends on all numbers, the time of the event among them.
+"""Directions of resets and impacts: how a state after an event depends on the state before it, and on all numbers.
 
-At an event g = 0 its time changes by ``dt = -dg / g'``, and the state there by ``dy + y' dt``. The derivative of the
-reset turns that into the change of the state behind it. From this, ``y' dt`` with the rates behind the event is taken
-back. Velocities follow from the equations of the smallest impulse, which are differentiated:
+Velocities follow from the equations of the smallest impulse, which are differentiated:
 
     M (v+ - v-) = C^T i,    C v+ = c
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.bounds.modes import MODE
 from symgen.describe.parts.events import RECORD
 from symgen.run.effects.effects import Effects, Impact
 from symgen.run.layout import abi
 from symgen.run.single.directed_observer import Observer
 
 if TYPE_CHECKING:
-    from symgen.run.loops.run_spec import RunSpec, Watched
+    from symgen.run.loops.run_spec import RunSpec
     from symgen.run.single.directed_model import DirectedModel
     from symgen.run.starts.assembly import Start
 
@@ -32,28 +29,6 @@ Array = NDArray[np.float64]
 _NONE = 1e-10
 #: Roundings of a switching function up to which it is 0 at the start.
 _AT_START = 8.0
-#: Relative difference of the derivatives of the times of two events up to which these stay together.
-_TOGETHER = 1e-8
-
-
-def with_directions(spec: RunSpec, model: DirectedModel, doubts: list[str]) -> RunSpec:
-    """Return the specification of a run whose resets change directions as well.
-
-    Parameters
-    ----------
-    spec : RunSpec
-        Of the run without directions.
-    model : DirectedModel
-        The code of the run.
-    doubts : list of str
-        Takes what is in doubt of the directions behind resets.
-    """
-    watched = spec.events
-    if watched is None or watched.effects is None:
-        return spec
-    plain = {f.name: getattr(watched.effects, f.name) for f in fields(Effects)}
-    effects = DirectedEffects(**plain, model_with=model, watched=watched, doubts=doubts)
-    return replace(spec, events=replace(watched, effects=effects))
 
 
 def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[str]:
@@ -69,7 +44,7 @@ def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[s
         With directions.
     """
     watched = spec.events
-    if watched is None or all(action == RECORD for action in watched.actions):
+    if watched is None or all(action in (RECORD, MODE) for action in watched.actions):
         return []
     count = len(watched.names) + len(watched.switches)
     windings = start.w[np.newaxis, abi.WINDING : abi.WINDING + model.plain.info.windings]
@@ -78,73 +53,21 @@ def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[s
     return [
         f"the event '{name}' is at the start: with other numbers it may happen behind it"
         for k, (name, action) in enumerate(zip(watched.names, watched.actions, strict=True))
-        if action != RECORD and abs(values[k]) <= _AT_START * values[2 * count + k] and np.any(slopes[k] != 0.0)
+        if action not in (RECORD, MODE)
+        and abs(values[k]) <= _AT_START * values[2 * count + k]
+        and np.any(slopes[k] != 0.0)
     ]
 
 
-@dataclass(frozen=True, kw_only=True)
-class DirectedEffects(Effects):
-    """The effects of events on a state with directions.
-
-    Attributes
-    ----------
-    model_with : DirectedModel
-        The code of the run.
-    watched : Watched
-        Its events.
-    doubts : list of str
-        What is in doubt of the directions behind resets.
-    """
-
-    model_with: DirectedModel
-    watched: Watched
-    doubts: list[str]
-
-    def apply(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
-        """Change a state and its directions by the effects of events at one time; see `Effects.apply`."""
-        model, ny = self.model_with, self.model_with.sizes["y"]
-        before, rate = y.copy(), self._rate(t, y, p, w)
-        later = self._later(numbers, t, y, p, w)
-        work = self.memory(len(y), len(w))
-        impact = self.applied(numbers, t, y, p, w, work)
-        change = model.shadow(before, "y") + np.outer(rate, later)
-        at = model.longer(before[:ny], "y", change)
-        scratch = np.concatenate([w, later])
-        after = _Reset(self, self.chosen(numbers), t, at, p, scratch, work, impact).directions()
-        y[ny : ny * (1 + model.lanes)] = (after - np.outer(self._rate(t, y, p, w), later)).ravel()
-        return impact
-
-    def _observer(self, t: float, y: Array, p: Array, w: Array) -> Observer:
-        y = y[: self.model_with.sizes["y"] * (1 + self.model_with.lanes)]
-        windings = w[np.newaxis, abi.WINDING : abi.WINDING + self.compiled.info.windings]
-        return Observer(self.model_with, np.array([t]), y[np.newaxis], windings, ((np.inf, p),), w)
-
-    def _rate(self, t: float, y: Array, p: Array, w: Array) -> Array:
-        """Return the rates of the state without directions."""
-        return self._observer(t, y, p, w).rates[0][0, : self.model_with.sizes["y"]]
-
-    def _later(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Array:
-        """Return the directions of the time of events, shape (L,)."""
-        watched = self.watched
-        count = len(watched.names) + len(watched.switches)
-        values, slopes = self._observer(t, y, p, w).observed(watched.function, 3 * count)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            times = np.array([-slopes[0, k] / values[0, count + k] for k in numbers])
-        names = " and ".join(f"'{watched.names[k]}'" for k in numbers)
-        if not np.all(np.isfinite(times)):
-            self.doubts.append(f"the event {names} at t = {t:.6g} s is met without speed: its time has no derivative")
-        elif np.any(np.ptp(times, axis=0) > _TOGETHER * np.abs(times).max(axis=0)):
-            self.doubts.append(f"the events {names} at t = {t:.6g} s are together for these numbers only")
-        return np.asarray(times[0])
-
-
-class _Reset:
+class ResetDirections:
     """A reset, and how it changes along the directions of the state at its event.
 
     Parameters
     ----------
-    effects : DirectedEffects
+    effects : Effects
         The effects of events.
+    model : DirectedModel
+        The code.
     chosen : Array of int
         1 for each event that happens.
     t : float
@@ -159,7 +82,8 @@ class _Reset:
 
     def __init__(
         self,
-        effects: DirectedEffects,
+        effects: Effects,
+        model: DirectedModel,
         chosen: NDArray[np.int64],
         t: float,
         y: Array,
@@ -169,7 +93,7 @@ class _Reset:
         impact: Impact,
     ) -> None:
         self.effects, self.chosen, self.t, self.y, self.p, self.w = effects, chosen, t, y, p, w
-        self.work, self.impact, self.model = work, impact, effects.model_with
+        self.work, self.impact, self.model = work, impact, model
         self.info, self.changes = effects.compiled.info, effects.changes
 
     def directions(self) -> Array:

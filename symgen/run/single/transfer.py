@@ -1,0 +1,262 @@
+"""Directions through passages: how the state behind an event depends on all numbers, the time of the event among them.
+
+At an event g = 0 its time changes by ``dt = -dg / g'``, and the state there by ``dy + y' dt``. What the event changes
+is differentiated there: velocities by the equations of the smallest impulse (`symgen.run.single.reset_directions`), the
+value at which a row is held, and the bounds of its force. From this ``y' dt`` with the rates behind the event is taken
+back, so that a transition alone changes a direction by the jump of the rates times dt.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.run.layout import abi
+from symgen.run.single.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
+from symgen.run.single.moments import Directions, Moment, Moments, modes_of
+from symgen.run.single.reset_directions import ResetDirections
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.loops.run_spec import Watched
+    from symgen.run.single.passages import Passage
+
+Array = NDArray[np.float64]
+
+#: Relative difference of the derivatives of the times of two events up to which these stay together.
+_TOGETHER = 1e-6
+#: Roundings of a switching function over its change in the whole run from which on it is met without speed.
+_GRAZES = 1e-6
+#: Derivatives of a rate at rest below this part of the largest of a velocity are rounding.
+_STAYS = 1e-6
+
+
+@dataclass
+class Transfer:
+    """Takes directions through passages.
+
+    Parameters
+    ----------
+    moments : Moments
+        The code; its last direction is that of the motion.
+    watched : Watched or None
+        Switching functions of the run.
+    until : float
+        End of the run [s].
+    consistent : bool
+        Whether directions satisfy the constraints, so that they say what rests.
+
+    Attributes
+    ----------
+    doubts : list of str
+        What is in doubt of the directions.
+    """
+
+    moments: Moments
+    watched: Watched | None
+    until: float
+    consistent: bool = True
+    doubts: list[str] = field(default_factory=list)
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """The model."""
+        return self.moments.compiled
+
+    def through(self, passage: Passage, y: Array, modes: Array) -> tuple[Array, Array]:
+        """Return the directions of state and modes behind a passage from those before it.
+
+        Parameters
+        ----------
+        passage : Passage
+            The passage.
+        y, modes : Array, shapes (ny, k), (numbers of modes, k)
+            Directions at the same time, without that of the motion.
+        """
+        before, after = (self._plain(x) for x in (passage.before, passage.after))
+        if passage.numbers:
+            rate = self.moments.rates(before)
+            later = self._later(passage.numbers, before, y, modes, rate)
+            y = y + np.outer(rate, later)
+        else:
+            later = np.zeros(y.shape[1])
+        for struck in passage.effects:
+            y = self._through_effects(struck.numbers, self._plain(struck.at), y, later)
+        here = Directions(self._with(y), self._with(later), self._with(modes))
+        modes = self._modes(passage, before, after, here)
+        if passage.numbers:
+            y = y - np.outer(self.moments.rates(after), later)
+        return y, modes
+
+    def _plain(self, x: Moment) -> Moment:
+        """Return a state without the directions behind its arrays."""
+        sizes = self.moments.model.sizes
+        return Moment(x.t, x.y[: sizes["y"]], x.p[: sizes["p"]], x.w[: sizes["w"]])
+
+    @staticmethod
+    def _with(columns: Array, last: Array | None = None) -> Array:
+        """Return directions with that of the motion, zero where it plays no part."""
+        own = np.zeros(columns.shape[:-1]) if last is None else last
+        return np.concatenate([columns, own[..., np.newaxis]], axis=-1)
+
+    # -- the time of events --------------------------------------------------------------------------------------------
+
+    def _later(self, numbers: tuple[int, ...], now: Moment, y: Array, modes: Array, rate: Array) -> Array:
+        """Return the directions of the time of events, shape (k,)."""
+        watched = self.watched
+        assert watched is not None, "the run has events"
+        count = len(watched.names) + len(watched.switches)
+        times = np.append(np.zeros(y.shape[1]), 1.0)
+        by = Directions(self._with(y, rate), times, self._with(modes))
+        values, slopes = self.moments.observed(watched.function, 3 * count, now, by)
+        own, speeds = slopes[list(numbers), :-1], slopes[list(numbers), -1]
+        names = " and ".join(f"'{watched.names[k]}'" for k in numbers)
+        rounding = values[2 * count :][list(numbers)]
+        if not np.all(np.abs(speeds) * self.until * _GRAZES > rounding):
+            self.doubts.append(
+                f"the event {names} at t = {now.t:.6g} s is met without speed: its time has no derivative"
+            )
+        with np.errstate(divide="ignore", invalid="ignore"):
+            later = -own / speeds[:, np.newaxis]
+        least = 1e-12 * max(1.0, now.t, float(np.abs(later).max(initial=0.0)))
+        spread = np.ptp(later, axis=0)
+        if self.consistent and np.any(spread > np.maximum(_TOGETHER * np.abs(later).max(axis=0), least)):
+            self.doubts.append(f"the events {names} at t = {now.t:.6g} s are together for these numbers only")
+        return np.asarray(later[int(np.argmax(np.abs(speeds) / np.where(rounding > 0.0, rounding, 1.0)))])
+
+    # -- what events change --------------------------------------------------------------------------------------------
+
+    def _through_effects(self, numbers: tuple[int, ...], now: Moment, y: Array, later: Array) -> Array:
+        """Return the directions of the state behind the effects of events."""
+        watched = self.watched
+        assert watched is not None, "the run has events"
+        effects = watched.effects
+        work = effects.memory(len(now.y), len(now.w))
+        state, scratch = now.y.copy(), now.w.copy()
+        impact = effects.applied(numbers, now.t, state, now.p.copy(), scratch, work)
+        by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
+        chosen, columns = effects.chosen(numbers), list[Array]()
+        for _, own, p, w in self.moments.chunks(now, by):
+            reset = ResetDirections(effects, self.moments.model, chosen, now.t, own, p, w, work, impact)
+            columns.append(reset.directions())
+        return np.concatenate(columns, axis=1)[:, : y.shape[1]]
+
+    @property
+    def _count(self) -> int:
+        """Number of numbers of modes."""
+        place = self.moments.place_of_modes()
+        return int(place.stop - place.start)
+
+    # -- modes ---------------------------------------------------------------------------------------------------------
+
+    def _modes(self, passage: Passage, before: Moment, after: Moment, by: Directions) -> Array:
+        """Return the directions of the numbers of modes behind a passage."""
+        rows = None if self.watched is None else self.watched.bounded
+        kept = by.modes[:, :-1]
+        if rows is None:
+            return kept
+        info, place, k = self.compiled.info, self.moments.place_of_modes(), len(rows.names)
+        own = [info.switchable.index(row) for row in info.bounded]
+        old, new = (modes_of(self.compiled, x.w[place])[own] for x in (before, after))
+        slopes = modes_of(self.compiled, kept.copy())
+        held = new[:, HELD] != 0.0
+        was = (old[:, HELD] != 0.0) & (new[:, CONSTANT] == old[:, CONSTANT])
+        if passage.starts:
+            was[:] = False
+        if not np.any(held):
+            slopes[own] = 0.0
+            return slopes.reshape(kept.shape)
+        length = 2 * k + 2 * rows.dry + (k - rows.dry)
+        values, directions = self.moments.evaluated(rows.state.function, length, after, by)
+        directions = directions[:, :-1]
+        for i in range(k):
+            line = slopes[own[i]]
+            constant = line[CONSTANT].copy() if held[i] and was[i] else directions[i] * held[i]
+            line[:] = 0.0
+            line[CONSTANT] = constant
+            if held[i] and i < rows.dry and i not in rows.pressed:
+                line[LIMIT] = directions[2 * k + i]
+        self._share(rows, own, new, slopes, values, directions, after, by)
+        self._check_rest(passage, rows.names, held, values, directions, after, by)
+        return slopes.reshape(kept.shape)
+
+    def _check_rest(
+        self,
+        passage: Passage,
+        names: tuple[str, ...],
+        held: NDArray[np.bool_],
+        values: Array,
+        directions: Array,
+        after: Moment,
+        by: Directions,
+    ) -> None:
+        """Doubt directions in which a row moves that is at rest here."""
+        if not self.consistent:
+            return
+        k, w, info = len(names), after.w, self.compiled.info
+        speeds = np.abs(directions[k : 2 * k])
+        units = np.array([w[abi.LENGTH] if info.rows[i].unit == "rad" else 1.0 for i in info.bounded])
+        sizes = np.abs(by.y[info.nq : info.work, :-1]).max(axis=0, initial=0.0)
+        sizes = np.maximum(sizes, np.abs(by.t[:-1]) * w[abi.SPEED] * w[abi.SPEED] / w[abi.LENGTH])
+        moving = (speeds > _STAYS * np.maximum(sizes, STILL) / np.minimum(units, 1.0)[:, np.newaxis]).any(axis=1)
+        moving &= held
+        if np.any(moving):
+            which = " and ".join(name for name, own in zip(names, moving, strict=True) if own)
+            rest = "rests at the start" if passage.starts else f"comes to rest at t = {after.t:.6g} s"
+            self.doubts.append(f"{which} {rest} for these numbers only: derivatives on both sides differ")
+
+    def _share(
+        self,
+        rows: Any,
+        own: list[int],
+        new: Array,
+        slopes: Array,
+        values: Array,
+        directions: Array,
+        after: Moment,
+        by: Directions,
+    ) -> None:
+        """Add the directions of bounds that a row in force carries for others, which rest with it."""
+        k, info = len(rows.names), self.compiled.info
+        carried = [
+            (i, int(new[i, CONSTANT]) - 1)
+            for i in range(rows.dry)
+            if new[i, HELD] == 0.0 and new[i, SIGN] == 0.0 and new[i, CONSTANT] > 0.0
+        ]
+        if np.any(new[:, EFFORT] != 0.0):
+            shared = " and ".join(name for name, x in zip(rows.names, new[:, EFFORT], strict=True) if x != 0.0)
+            self.doubts.append(
+                f"from t = {after.t:.6g} s on {shared} share forces at rest, whose derivatives are not followed"
+            )
+        if not carried:
+            return
+        d, by_d = self._jacobian(after, by)
+        force = [i for i in range(info.m) if i not in info.bounded]
+        force += [info.bounded[j] for j in range(k) if new[j, HELD] != 0.0]
+        base, by_base = d[force], by_d[force]
+        for i, owner in carried:
+            row = info.bounded[i]
+            parts = np.linalg.lstsq(base.T, d[row], rcond=1e-11)[0]
+            rest = by_d[row] - np.einsum("rjk,r->jk", by_base, parts)
+            change = np.linalg.lstsq(base.T, rest, rcond=1e-11)[0]
+            at = force.index(info.bounded[owner])
+            factor, slope = abs(parts[at]), np.sign(parts[at]) * change[at]
+            slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]
+
+    def _jacobian(self, now: Moment, by: Directions) -> tuple[Array, Array]:
+        """Return D and its directions, shapes (m, nv), (m, nv, k)."""
+        info, model = self.compiled.info, self.moments.model
+        geometry = model.function(self.compiled.model.geometry, timed=True).caller(abi.MEASURE.signature.arguments)
+        first, columns, d = info.sections["jacobian"][0], list[Array](), np.zeros(0)
+        for _, y, p, w in self.moments.chunks(now, by):
+            geometry(now.t, y, p, w)
+            d, own = self.compiled.jacobian(w[: model.sizes["w"]]), model.shadow(w, "w")
+            slopes = np.zeros((info.m, info.nv, model.lanes))
+            for row, column, _, slot in info.jacobian:
+                if slot is not None:
+                    slopes[row, column] = own[first + slot]
+            columns.append(slopes)
+        return d, np.concatenate(columns, axis=2)[:, :, : self.moments.count - 1]

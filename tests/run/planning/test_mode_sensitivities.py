@@ -1,0 +1,76 @@
+"""Derivatives through sticks, slips, impacts and rest, forward and by the adjoint, against closed forms."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import symgen
+
+from .lengths import model
+
+TIGHT = {"rtol": 1e-12, "atol": 1e-12, "integrator": "dop853"}
+CLOSED = json.loads((Path(__file__).parents[2] / "data" / "derivatives_through_modes.json").read_text())
+
+BALL = """
+[mechanism]
+name = "ball"
+gravity = [0.0, "-g"]
+[parameters]
+h = { value = 1.0, unit = "m" }
+e = 0.7
+g = { value = 9.81, unit = "m/s^2" }
+[bodies.ball]
+mass = 1.0
+inertia = 0.1
+position = [0.0, "h"]
+[stops.floor]
+gap = "ball.y"
+restitution = "e"
+"""
+ROTOR = """
+[mechanism]
+name = "rotor"
+gravity = [0.0, 0.0]
+[parameters]
+J = { value = 0.2, unit = "kg m^2" }
+w0 = { value = 5.0, unit = "rad/s" }
+c = { value = 0.05, unit = "N m s" }
+T = { value = 0.3, unit = "N m" }
+[bodies.rotor]
+mass = 1.0
+inertia = "J"
+angular_velocity = "w0"
+[joints.pin]
+type = "revolute"
+between = ["ground", "rotor"]
+at = [[0.0, 0.0], "centre"]
+friction = { sliding = "T", viscous = "c" }
+"""
+QUANTITIES = {"belt": "block.x", "ball": "ball.y", "rotor": "rotor.theta"}
+NAMES = {
+    "belt": {"m": "mass", "k": "stiffness", "v": "speed", "Fs": "static", "Fd": "sliding"},
+    "ball": {name: name for name in ("h", "e", "g")},
+    "rotor": {name: name for name in ("J", "w0", "c", "T")},
+}
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("modes")
+    texts = {"ball": BALL, "rotor": ROTOR}
+    return {"belt": symgen.load("belt-oscillator"), **{name: model(folder, text) for name, text in texts.items()}}
+
+
+@pytest.mark.fast(*(f"{way}-absolute-{name}-1" for way in ("forward", "adjoint") for name in QUANTITIES))
+@pytest.mark.parametrize(("name", "row"), [(name, row) for name in QUANTITIES for row in range(len(CLOSED[name]))])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("way", ["forward", "adjoint"])
+def test_closed_forms(models, way, coordinates, name, row):
+    values, names = CLOSED[name][row], NAMES[name]
+    found = models[name].gradient(
+        QUANTITIES[name], by=tuple(names.values()), way=way, until=values["t"], coordinates=coordinates, **TIGHT
+    )
+    assert found.value == pytest.approx(values["value"], rel=1e-11)
+    assert found.by == pytest.approx({own: values[f"d_{short}"] for short, own in names.items()}, rel=1e-9)
+    assert found.result.ok
