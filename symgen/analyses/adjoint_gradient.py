@@ -116,13 +116,14 @@ class Mixed:
         return self.start.parameters(compiled) @ self.factors
 
 
-def doubt_of_steps(run: Prepared, start: StartDirections, seeds: Seeds) -> str | None:
+def doubt_of_course(run: Prepared, start: StartDirections, seeds: Seeds) -> str | None:
     """Return why derivatives by the adjoint are in doubt, by a run with directions; None where they are not.
 
     An adjoint goes back through steps that the state alone chose. Whether these are short enough for derivatives is
-    seen forward, by the embedded estimates of few mixes of all directions; constant steps have none.
+    seen forward, by the embedded estimates of few mixes of all directions; constant steps have none. Whether events are
+    together for these numbers only is seen forward as well.
     """
-    if not run.spec.adaptive:
+    if not run.spec.adaptive and run.spec.events is None:
         return None
     p, n = run.start.p, seeds.count
     sizes = np.abs(seeds.p[p != 0.0] / p[p != 0.0, np.newaxis]).max(axis=0, initial=0.0)
@@ -131,6 +132,8 @@ def doubt_of_steps(run: Prepared, start: StartDirections, seeds: Seeds) -> str |
     factors[number, number * factors.shape[1] // n] = (1.0 - 2.0 * (number % 2)) / np.where(sizes > 0.0, sizes, 1.0)
     mixed = Seeds(seeds.y @ factors, seeds.p @ factors)
     course = run_with_directions(run.compiled, run.plan.integrator, run.start, run.spec, mixed)
+    if course.doubts:
+        return course.doubts[0]
     return Sensitivities(Evaluated(run, Mixed(start, factors), course), course.outcome).doubt_of_steps(run.spec)
 
 
@@ -215,12 +218,13 @@ def adjoint_gradient(
     by, n = own.table(table)[-1, place], start.count
     began = time.perf_counter()
     seeds = start.seeds()
-    slopes = by[:n] + adjoint.back(by[n:], seeds)
+    back, doubts = adjoint.back(by[n:], seeds)
+    slopes = by[:n] + back
     seconds = adjoint.outcome.run_seconds + time.perf_counter() - began
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
     result = replace(result, notes=(*result.notes, *notes, *start.notes))
-    doubt = doubt_of_motion(result) or (doubt_of_steps(run, start, seeds) if checked else None)
+    doubt = doubt_of_motion(result) or (doubt_of_course(run, start, seeds) if checked or doubts else None)
     if result.status == "ok" and doubt:
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])

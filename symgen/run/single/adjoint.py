@@ -137,8 +137,10 @@ class Adjoint:
     outcome: Outcome
     run: KeptRun
 
-    def back(self, end: Array, seeds: Seeds) -> Array:
+    def back(self, end: Array, seeds: Seeds) -> tuple[Array, list[str]]:
         """Return the derivatives of a number at the end by directions of the start, shape (n,).
+
+        With these what may be in doubt of some directions, which runs with these directions decide.
 
         Parameters
         ----------
@@ -153,7 +155,7 @@ class Adjoint:
         way.undo_correction()
         for item in reversed(run.course[: run.corrected]):
             way.through(item)
-        return way.slopes()
+        return way.slopes(), way.doubts
 
 
 class WayBack:
@@ -228,6 +230,11 @@ class WayBack:
         call = self._corrections[int(run.first[CORRECTIONS])].caller(CORRECTION.signature.arguments)
         call(run.start.t, y, *self._now, self._y, self._p, self._w)
 
+    @property
+    def doubts(self) -> list[str]:
+        """What may be in doubt."""
+        return self._transfer.doubts if "_transfer" in vars(self) else []
+
     # -- passages ------------------------------------------------------------------------------------------------------
 
     def _through_passage(self, passage: Passage) -> None:
@@ -263,7 +270,7 @@ class WayBack:
         run, n, ny = self.run, self.seeds.count, self.run.sizes.ny
         columns = np.zeros((len(self.seeds.p), ny + n + len(self._places) + 1))
         columns[:, ny : ny + n] = self.seeds.p
-        return Transfer(Moments(run.compiled, columns), run.spec.events, run.spec.until, False)
+        return Transfer(Moments(run.compiled, columns), run.spec, False)
 
     # -- numbers -------------------------------------------------------------------------------------------------------
 

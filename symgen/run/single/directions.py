@@ -130,7 +130,7 @@ class DirectedSimulation(PassingSimulation):
         super().__init__(model.whole, integrator, start, spec)
         self.directed = model
         columns = np.hstack([seeds, np.zeros((len(seeds), 1))])
-        self.transfer = Transfer(Moments(model.plain, columns), spec.events, spec.until)
+        self.transfer = Transfer(Moments(model.plain, columns), spec)
         self.modes = list[tuple[float, Array]]()
 
     @property

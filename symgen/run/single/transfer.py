@@ -16,22 +16,24 @@ from numpy.typing import NDArray
 
 from symgen.run.layout import abi
 from symgen.run.single.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
+from symgen.run.single.free_directions import TOGETHER, Free, jacobian
 from symgen.run.single.moments import Directions, Moment, Moments, modes_of
 from symgen.run.single.reset_directions import ResetDirections
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
-    from symgen.run.loops.run_spec import Watched
+    from symgen.run.loops.run_spec import RunSpec, Watched
     from symgen.run.single.passages import Passage
 
 Array = NDArray[np.float64]
 
-#: Relative difference of the derivatives of the times of two events up to which these stay together.
-_TOGETHER = 1e-6
-#: Roundings of a switching function over its change in the whole run from which on it is met without speed.
-_GRAZES = 1e-6
+#: Part of a time up to which two times are the same, beside the tolerance of steps; least derivative of a time that is
+#: no rounding, over the largest.
+_NEAR, _LEAST = 1e-11, 1e-12
 #: Derivatives of a rate at rest below this part of the largest of a velocity are rounding.
 _STAYS = 1e-6
+#: Roundings of a switching function over its change in the whole run from which on it is met without speed.
+_GRAZES = 1e-6
 
 
 @dataclass
@@ -42,12 +44,10 @@ class Transfer:
     ----------
     moments : Moments
         The code; its last direction is that of the motion.
-    watched : Watched or None
-        Switching functions of the run.
-    until : float
-        End of the run [s].
+    spec : RunSpec
+        Of the run.
     consistent : bool
-        Whether directions satisfy the constraints, so that they say what rests.
+        Whether directions satisfy the constraints; else they are all directions there are.
 
     Attributes
     ----------
@@ -56,10 +56,15 @@ class Transfer:
     """
 
     moments: Moments
-    watched: Watched | None
-    until: float
+    spec: RunSpec
     consistent: bool = True
     doubts: list[str] = field(default_factory=list)
+    _last: tuple[Passage, Array] | None = None
+
+    @property
+    def watched(self) -> Watched | None:
+        """Switching functions of the run."""
+        return self.spec.events
 
     @property
     def compiled(self) -> CompiledModel:
@@ -77,16 +82,18 @@ class Transfer:
             Directions at the same time, without that of the motion.
         """
         before, after = (self._plain(x) for x in (passage.before, passage.after))
+        free = Free(self.moments, before, Directions(*(self._with(x) for x in (y, np.zeros(y.shape[1]), modes))))
         if passage.numbers:
             rate = self.moments.rates(before)
-            later = self._later(passage.numbers, before, y, modes, rate)
+            later = self._later(passage, before, y, modes, rate, free)
             y = y + np.outer(rate, later)
         else:
             later = np.zeros(y.shape[1])
+        self._compare(passage, later, free)
         for struck in passage.effects:
             y = self._through_effects(struck.numbers, self._plain(struck.at), y, later)
         here = Directions(self._with(y), self._with(later), self._with(modes))
-        modes = self._modes(passage, before, after, here)
+        modes = self._modes(passage, before, after, here, free)
         if passage.numbers:
             y = y - np.outer(self.moments.rates(after), later)
         return y, modes
@@ -98,34 +105,66 @@ class Transfer:
 
     @staticmethod
     def _with(columns: Array, last: Array | None = None) -> Array:
-        """Return directions with that of the motion, zero where it plays no part."""
+        """Return directions with the motion as the last one, zero where it plays no part."""
         own = np.zeros(columns.shape[:-1]) if last is None else last
         return np.concatenate([columns, own[..., np.newaxis]], axis=-1)
 
     # -- the time of events --------------------------------------------------------------------------------------------
 
-    def _later(self, numbers: tuple[int, ...], now: Moment, y: Array, modes: Array, rate: Array) -> Array:
+    def _later(self, passage: Passage, now: Moment, y: Array, modes: Array, rate: Array, free: Free) -> Array:
         """Return the directions of the time of events, shape (k,)."""
-        watched = self.watched
+        watched, numbers = self.watched, list(passage.numbers)
         assert watched is not None, "the run has events"
         count = len(watched.names) + len(watched.switches)
         times = np.append(np.zeros(y.shape[1]), 1.0)
         by = Directions(self._with(y, rate), times, self._with(modes))
         values, slopes = self.moments.observed(watched.function, 3 * count, now, by)
-        own, speeds = slopes[list(numbers), :-1], slopes[list(numbers), -1]
-        names = " and ".join(f"'{watched.names[k]}'" for k in numbers)
-        rounding = values[2 * count :][list(numbers)]
-        if not np.all(np.abs(speeds) * self.until * _GRAZES > rounding):
-            self.doubts.append(
-                f"the event {names} at t = {now.t:.6g} s is met without speed: its time has no derivative"
-            )
+        own, speeds, rounding = slopes[numbers, :-1], slopes[numbers, -1], values[2 * count :][numbers]
+        if not np.all(np.abs(speeds) * self.spec.until * _GRAZES > rounding):
+            where = f"the event {self._named(passage)} at t = {now.t:.6g} s"
+            self.doubts.append(f"{where} is met without speed: its time has no derivative")
         with np.errstate(divide="ignore", invalid="ignore"):
             later = -own / speeds[:, np.newaxis]
-        least = 1e-12 * max(1.0, now.t, float(np.abs(later).max(initial=0.0)))
-        spread = np.ptp(later, axis=0)
-        if self.consistent and np.any(spread > np.maximum(_TOGETHER * np.abs(later).max(axis=0), least)):
-            self.doubts.append(f"the events {names} at t = {now.t:.6g} s are together for these numbers only")
+        if len(numbers) > 1 and self._differ(later[1:] - later[0], later, now.t, free):
+            self.doubts.append(
+                f"the events {self._named(passage)} at t = {now.t:.6g} s are together for these numbers only"
+            )
         return np.asarray(later[int(np.argmax(np.abs(speeds) / np.where(rounding > 0.0, rounding, 1.0)))])
+
+    def _named(self, passage: Passage) -> str:
+        assert self.watched is not None, "the run has events"
+        return " and ".join(f"'{self.watched.names[k]}'" for k in passage.numbers)
+
+    def _differ(self, rows: Array, of: Array, t: float, free: Free) -> bool:
+        """Whether differences of times do not vanish in directions that satisfy the constraints."""
+        if not np.all(np.isfinite(rows)):
+            return False
+        if not self.consistent:
+            return free.moves(rows, of)
+        size = np.abs(of).max(axis=0)
+        return bool(
+            np.any(np.abs(rows) > np.maximum(TOGETHER * size, _LEAST * max(1.0, t, float(size.max(initial=0.0)))))
+        )
+
+    def _compare(self, passage: Passage, later: Array, free: Free) -> None:
+        """Doubt directions where the passage before is at the same time for these numbers only."""
+        near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(passage.before.t))
+        last, self._last = self._last, (passage, later)
+        t = passage.before.t
+        if passage.numbers and any(
+            abs(seam.t - t) <= near and (seam.values or seam.skips) and seam.t > 0.0 for seam in self.spec.seams
+        ):
+            if self._differ(later[np.newaxis], later[np.newaxis], t, free):
+                what = f"the event {self._named(passage)}"
+                self.doubts.append(f"{what} and a jump at t = {t:.6g} s are together for these numbers only")
+            return
+        if last is None or not (passage.numbers and last[0].numbers):
+            return
+        if abs(t - last[0].before.t) <= near and passage.numbers != last[0].numbers:
+            both = np.stack([last[1], later])
+            if not self.consistent or self._differ(both[1:] - both[:1], both, t, free):
+                names = f"{self._named(last[0])} and {self._named(passage)}"
+                self.doubts.append(f"the events {names} at t = {t:.6g} s are together for these numbers only")
 
     # -- what events change --------------------------------------------------------------------------------------------
 
@@ -152,7 +191,7 @@ class Transfer:
 
     # -- modes ---------------------------------------------------------------------------------------------------------
 
-    def _modes(self, passage: Passage, before: Moment, after: Moment, by: Directions) -> Array:
+    def _modes(self, passage: Passage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
         """Return the directions of the numbers of modes behind a passage."""
         rows = None if self.watched is None else self.watched.bounded
         kept = by.modes[:, :-1]
@@ -180,33 +219,42 @@ class Transfer:
             if held[i] and i < rows.dry and i not in rows.pressed:
                 line[LIMIT] = directions[2 * k + i]
         self._share(rows, own, new, slopes, values, directions, after, by)
-        self._check_rest(passage, rows.names, held, values, directions, after, by)
+        rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
+        self._check_rest(passage, rows.names, rests, directions, after, by, free)
         return slopes.reshape(kept.shape)
 
     def _check_rest(
         self,
         passage: Passage,
         names: tuple[str, ...],
-        held: NDArray[np.bool_],
-        values: Array,
+        rests: NDArray[np.bool_],
         directions: Array,
         after: Moment,
         by: Directions,
+        free: Free,
     ) -> None:
-        """Doubt directions in which a row moves that is at rest here."""
-        if not self.consistent:
-            return
+        """Doubt directions in which a row moves that has come to rest here, or a gap that is closed at the start."""
         k, w, info = len(names), after.w, self.compiled.info
-        speeds = np.abs(directions[k : 2 * k])
-        units = np.array([w[abi.LENGTH] if info.rows[i].unit == "rad" else 1.0 for i in info.bounded])
-        sizes = np.abs(by.y[info.nq : info.work, :-1]).max(axis=0, initial=0.0)
-        sizes = np.maximum(sizes, np.abs(by.t[:-1]) * w[abi.SPEED] * w[abi.SPEED] / w[abi.LENGTH])
-        moving = (speeds > _STAYS * np.maximum(sizes, STILL) / np.minimum(units, 1.0)[:, np.newaxis]).any(axis=1)
-        moving &= held
+        if len(passage.numbers) == 1:  # the row of the event rests by what the event is
+            own = self._named(passage)[1:-1].rpartition(".")[0]
+            rests = rests & np.array([name != own for name in names])
+        rows, which = directions[k : 2 * k][rests], np.array(names)[rests]
+        if passage.starts and self.watched is not None and self.watched.bounded is not None:
+            pushes = rests & (np.arange(k) >= self.watched.bounded.dry)
+            rows = np.concatenate([rows, directions[:k][pushes]])
+            which = np.concatenate([which, np.array(names)[pushes]])
+        if not len(rows):
+            return
+        if self.consistent:
+            sizes = np.abs(by.y[: info.work, :-1]).max(axis=0, initial=0.0)
+            sizes = np.maximum(sizes, np.abs(by.t[:-1]) * w[abi.SPEED] * max(1.0, w[abi.SPEED] / w[abi.LENGTH]))
+            moving = (np.abs(rows) > _STAYS * np.maximum(sizes, STILL) * max(1.0, 1.0 / w[abi.LENGTH])).any(axis=1)
+        else:
+            moving = np.array([free.moves(x[np.newaxis], x[np.newaxis]) for x in rows])
         if np.any(moving):
-            which = " and ".join(name for name, own in zip(names, moving, strict=True) if own)
+            found = " and ".join(dict.fromkeys(which[moving].tolist()))
             rest = "rests at the start" if passage.starts else f"comes to rest at t = {after.t:.6g} s"
-            self.doubts.append(f"{which} {rest} for these numbers only: derivatives on both sides differ")
+            self.doubts.append(f"{found} {rest} for these numbers only: derivatives on both sides differ")
 
     def _share(
         self,
@@ -233,7 +281,7 @@ class Transfer:
             )
         if not carried:
             return
-        d, by_d = self._jacobian(after, by)
+        d, by_d, *_ = jacobian(self.moments, after, by)
         force = [i for i in range(info.m) if i not in info.bounded]
         force += [info.bounded[j] for j in range(k) if new[j, HELD] != 0.0]
         base, by_base = d[force], by_d[force]
@@ -245,18 +293,3 @@ class Transfer:
             at = force.index(info.bounded[owner])
             factor, slope = abs(parts[at]), np.sign(parts[at]) * change[at]
             slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]
-
-    def _jacobian(self, now: Moment, by: Directions) -> tuple[Array, Array]:
-        """Return D and its directions, shapes (m, nv), (m, nv, k)."""
-        info, model = self.compiled.info, self.moments.model
-        geometry = model.function(self.compiled.model.geometry, timed=True).caller(abi.MEASURE.signature.arguments)
-        first, columns, d = info.sections["jacobian"][0], list[Array](), np.zeros(0)
-        for _, y, p, w in self.moments.chunks(now, by):
-            geometry(now.t, y, p, w)
-            d, own = self.compiled.jacobian(w[: model.sizes["w"]]), model.shadow(w, "w")
-            slopes = np.zeros((info.m, info.nv, model.lanes))
-            for row, column, _, slot in info.jacobian:
-                if slot is not None:
-                    slopes[row, column] = own[first + slot]
-            columns.append(slopes)
-        return d, np.concatenate(columns, axis=2)[:, :, : self.moments.count - 1]

@@ -12,6 +12,8 @@ from .lengths import model
 TIGHT = {"rtol": 1e-12, "atol": 1e-12, "integrator": "dop853"}
 CLOSED = json.loads((Path(__file__).parents[2] / "data" / "derivatives_through_modes.json").read_text())
 
+PULLED = Path(symgen.__file__).parent / "describe" / "catalogue" / "machines" / "belt-oscillator.toml"
+PUSH = '\n[inputs]\npush = { default = 0.0, unit = "N" }\n'
 BALL = """
 [mechanism]
 name = "ball"
@@ -74,3 +76,42 @@ def test_closed_forms(models, way, coordinates, name, row):
     assert found.value == pytest.approx(values["value"], rel=1e-11)
     assert found.by == pytest.approx({own: values[f"d_{short}"] for short, own in names.items()}, rel=1e-9)
     assert found.result.ok
+
+
+def status_of(found):
+    return found.result.status, found.result.reason or ""
+
+
+@pytest.mark.parametrize("way", ["forward", "adjoint"])
+def test_what_is_together_for_these_numbers_only_is_in_doubt(tmp_path, models, way):
+    text, settings = PULLED.read_text(), {"way": way, "until": 2.5, **TIGHT}
+    pulled = model(tmp_path, text.replace("-stiffness*block.x", "push - stiffness*block.x") + PUSH)
+    # static friction of 6 N holds the block up to 0.9 s, when the force of 3 N ends
+    for end, status in ((0.9, "unverified"), (0.8, "ok")):
+        push = f"3.0 if t > 0.25 and t < {end} else 0.0"
+        found = pulled.gradient("block.x", by=("stiffness", "static"), inputs={"push": push}, **settings)
+        assert found.result.status == status
+        if status != "ok":
+            expected = "the event 'contact.slip' and a jump at t = 0.9 s are together for these numbers only"
+            assert found.result.reason == expected
+    body, stop = BALL[BALL.index("[bodies.ball]") :].split("[stops.floor]")
+    other = (body + "[stops.other_floor]" + stop).replace("ball", "other").replace('"h"', '"2 - h"')
+    two = model(tmp_path, BALL + other)
+    status, reason = status_of(two.gradient("ball.y", by=("h",), **settings | {"until": 1.0}))
+    assert status == "unverified"
+    assert reason.startswith("the events 'floor.hit' and 'other_floor.hit' at t = 0.451524 s are together for these")
+    assert two.gradient("ball.y", by=("g",), **settings | {"until": 1.0}).result.ok
+
+
+@pytest.mark.parametrize("way", ["forward", "adjoint"])
+def test_what_rests_at_the_start_has_one_side(models, way):
+    rests = "rests at the start for these numbers only: derivatives on both sides differ"
+    still = models["rotor"].gradient("rotor.theta", by=("w0", "T"), parameters={"w0": 0.0}, way=way, until=1.0, **TIGHT)
+    assert status_of(still) == ("unverified", f"pin {rests}")
+    closed = models["ball"].gradient("ball.y", by=("h", "g"), parameters={"h": 0.0}, way=way, until=1.0, **TIGHT)
+    assert status_of(closed) == ("unverified", f"floor {rests}")
+    assert (
+        models["rotor"]
+        .gradient("rotor.theta", by=("T",), parameters={"w0": 0.0}, way=way, until=1.0, **TIGHT)
+        .result.ok
+    )
