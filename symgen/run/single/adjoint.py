@@ -241,21 +241,26 @@ class WayBack:
         """Go back through a passage: the transposed derivative of what it changes."""
         before = passage.before
         if passage.numbers or passage.effects or self._places:
-            ny, n, m = self.run.sizes.ny, self.seeds.count, len(self._places)
-            place = self._transfer.moments.place_of_modes()
-            y, modes = np.zeros((ny, ny + n + m)), np.zeros((place.stop - place.start, ny + n + m))
-            y[:, :ny] = np.eye(ny)
-            modes[self._places, np.arange(ny + n, ny + n + m)] = 1.0
+            own, n, place = self._elements, self.seeds.count, self._transfer.moments.place_of_modes()
+            c, count = len(own), len(own) + n + len(self._places)
+            y, modes = np.zeros((self.run.sizes.ny, count)), np.zeros((place.stop - place.start, count))
+            y[own, np.arange(c)] = modes[self._places, np.arange(c + n, count)] = 1.0
             after, after_modes = self._transfer.through(passage, y, modes)
-            by = self._y[:ny] @ after + self._w[place] @ after_modes
-            self._y[:ny], self._w[place] = by[:ny], 0.0
-            self._found += by[ny : ny + n]
-            self._w[place][self._places] = by[ny + n :]
+            by = self._y[: len(y)] @ after + self._w[place] @ after_modes
+            self._y[own], self._w[place] = by[:c], 0.0
+            self._found += by[c : c + n]
+            self._w[place][self._places] = by[c + n :]
         p, w, _ = self._now
         if not np.array_equal(p, before.p):
             self._take_parameters()
             p[:] = before.p
         w[:] = before.w
+
+    @functools.cached_property
+    def _elements(self) -> list[int]:
+        """Elements of the state that a passage may depend on: work and integrals go on from what they are."""
+        info = self.run.compiled.info
+        return [*range(info.work), *range(info.own_states.start, info.own_states.stop)]
 
     @functools.cached_property
     def _places(self) -> list[int]:
@@ -267,9 +272,9 @@ class WayBack:
     @functools.cached_property
     def _transfer(self) -> Transfer:
         """What takes directions of the state, of the numbers, and of modes through passages."""
-        run, n, ny = self.run, self.seeds.count, self.run.sizes.ny
-        columns = np.zeros((len(self.seeds.p), ny + n + len(self._places) + 1))
-        columns[:, ny : ny + n] = self.seeds.p
+        run, n, c = self.run, self.seeds.count, len(self._elements)
+        columns = np.zeros((len(self.seeds.p), c + n + len(self._places) + 1))
+        columns[:, c : c + n] = self.seeds.p
         return Transfer(Moments(run.compiled, columns), run.spec, False)
 
     # -- numbers -------------------------------------------------------------------------------------------------------

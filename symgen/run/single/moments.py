@@ -142,8 +142,11 @@ class Moments:
         for first in range(0, self.count, model.lanes):
             room, part = np.zeros((len(p), model.lanes)), self._seeds[:, first : first + model.lanes]
             room[:, : part.shape[1]] = part
-            longer = model.parameters(p, room)
-            w = model.scratch(longer, now.w[: model.sizes["w"]])
+            if np.any(part):
+                longer = model.parameters(p, room)
+                w = model.scratch(longer, now.w[: model.sizes["w"]])
+            else:
+                longer, w = model.longer(p, "p"), model.longer(now.w, "w")
             self._templates.append((longer, np.concatenate([w, np.zeros(model.lanes)])))
 
     def evaluated(self, function: Any, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:

@@ -32,6 +32,8 @@ Array = NDArray[np.float64]
 _NEAR, _LEAST = 1e-11, 1e-12
 #: Derivatives of a rate at rest below this part of the largest of a velocity are rounding.
 _STAYS = 1e-6
+#: Part of a time to which events are located.
+_CROSSES = 1e-9
 #: Roundings of a switching function over its change in the whole run from which on it is met without speed.
 _GRAZES = 1e-6
 
@@ -120,6 +122,11 @@ class Transfer:
         by = Directions(self._with(y, rate), times, self._with(modes))
         values, slopes = self.moments.observed(watched.function, 3 * count, now, by)
         own, speeds, rounding = slopes[numbers, :-1], slopes[numbers, -1], values[2 * count :][numbers]
+        resolved = np.abs(speeds) * _CROSSES * max(1.0, abs(now.t)) + rounding / _GRAZES
+        if np.any(np.abs(values[numbers]) > resolved):  # a jump has carried it beyond zero
+            if not self._seams_near(now.t):
+                self.doubts.append(f"the event {self._named(passage)} at t = {now.t:.6g} s happens by a jump")
+            return np.zeros(y.shape[1])
         if not np.all(np.abs(speeds) * self.spec.until * _GRAZES > rounding):
             where = f"the event {self._named(passage)} at t = {now.t:.6g} s"
             self.doubts.append(f"{where} is met without speed: its time has no derivative")
@@ -130,6 +137,11 @@ class Transfer:
                 f"the events {self._named(passage)} at t = {now.t:.6g} s are together for these numbers only"
             )
         return np.asarray(later[int(np.argmax(np.abs(speeds) / np.where(rounding > 0.0, rounding, 1.0)))])
+
+    def _seams_near(self, t: float) -> bool:
+        """Whether inputs or formulas jump at a time."""
+        near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(t))
+        return any(abs(seam.t - t) <= near and seam.t > 0.0 for seam in self.spec.seams)
 
     def _named(self, passage: Passage) -> str:
         assert self.watched is not None, "the run has events"
@@ -151,9 +163,7 @@ class Transfer:
         near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(passage.before.t))
         last, self._last = self._last, (passage, later)
         t = passage.before.t
-        if passage.numbers and any(
-            abs(seam.t - t) <= near and (seam.values or seam.skips) and seam.t > 0.0 for seam in self.spec.seams
-        ):
+        if passage.numbers and self._seams_near(t):
             if self._differ(later[np.newaxis], later[np.newaxis], t, free):
                 what = f"the event {self._named(passage)}"
                 self.doubts.append(f"{what} and a jump at t = {t:.6g} s are together for these numbers only")
