@@ -7,6 +7,7 @@ Velocities follow from the equations of the smallest impulse, which are differen
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -78,6 +79,8 @@ class ResetDirections:
         Working memory after the reset.
     impact : Impact
         What it changed.
+    losses : mapping of int to int
+        By number of the event, the place in the state of the energy that its impacts take, where outputs read it.
     """
 
     def __init__(
@@ -91,24 +94,32 @@ class ResetDirections:
         w: Array,
         work: Any,
         impact: Impact,
+        losses: Mapping[int, int],
     ) -> None:
         self.effects, self.chosen, self.t, self.y, self.p, self.w = effects, chosen, t, y, p, w
-        self.work, self.impact, self.model = work, impact, model
+        self.work, self.impact, self.model, self.losses = work, impact, model, losses
         self.info, self.changes = effects.compiled.info, effects.changes
 
     def directions(self) -> Array:
         """Return the directions of the state after the reset at its event, shape (ny, L)."""
         info, changes, after = self.info, self.changes, self.model.shadow(self.y, "y").copy()
         out, count = self._evaluated(self.effects.formulas, len(self.work.out), self.y), len(changes.owners)
+        numbers = self._values
         writes = changes.writes.reshape(-1, 2)
         for (event, place), slopes in zip(writes, out[2 * count :], strict=False):
             if self.chosen[event]:
                 after[place] = slopes
         struck = [k for k, event in enumerate(changes.owners) if self.chosen[event]]
         if struck:
-            velocities, energy = self._struck(struck, out[count : 2 * count], out[2 * count + len(writes) :])
+            velocities, energy, impulses = self._struck(struck, out[count : 2 * count], out[2 * count + len(writes) :])
             after[info.nq : info.work] = velocities
             after[info.work] += energy
+            for k, event in enumerate(struck):
+                place = self.losses.get(int(changes.owners[event]))
+                if place is not None:  # half of the impulse times both rates
+                    rates = numbers[event] + numbers[count + event]
+                    loss = rates * impulses[k] + self.impact.impulses[info.m + k] * (out[event] + out[count + event])
+                    after[place] -= 0.5 * loss
         return after
 
     def _evaluated(self, function: Any, length: int, y: Array) -> Array:
@@ -116,6 +127,7 @@ class ResetDirections:
         call = self.model.function(function, length, timed=True).caller(abi.OBSERVE.signature.arguments)
         out = np.zeros(length * (1 + self.model.lanes))
         call(self.t, y, self.p, self.w.copy(), np.zeros_like(y), out)
+        self._values = out[:length]
         return out[length:].reshape(length, self.model.lanes)
 
     def _probed(self, function: Any, length: int) -> tuple[Array, Array]:
@@ -130,8 +142,8 @@ class ResetDirections:
             still[j] = 0.0
         return np.stack(coefficients, axis=1), rest
 
-    def _struck(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array]:
-        """Return the directions of velocities after the smallest impulse, and of its energy."""
+    def _struck(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:
+        """Return the directions of velocities after the smallest impulse, of its energy, and of impulses at events."""
         info, impulse, n = self.info, self.work.impulse, self.info.nv
         k = info.m + len(struck)
         c, m = impulse.rows[: k * n].reshape(k, n), impulse.mass.reshape(n, n)
@@ -167,7 +179,10 @@ class ResetDirections:
             + np.einsum("i,ijk,j->k", change, mass, after + before)
             + (velocities + directions).T @ (m @ change)
         )
-        return velocities, energy + more(change, velocities - directions)
+        # C^T di = M (dv+ - dv-) + dM (v+ - v-) - dC^T i
+        pull = unit[:, np.newaxis] * (m @ velocities - loads)
+        impulses = scale[:, np.newaxis] * np.linalg.lstsq(rows.T, pull, rcond=_NONE)[0]
+        return velocities, energy + more(change, velocities - directions), impulses[info.m :]
 
     def _joints(self) -> tuple[Array, Array]:
         """Return the directions of D and nu, shapes (m, nv, L), (m, L)."""

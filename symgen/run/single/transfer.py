@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.bounds.modes import HIT
 from symgen.run.layout import abi
 from symgen.run.single.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
 from symgen.run.single.free_directions import TOGETHER, Free, jacobian
@@ -189,9 +190,19 @@ class Transfer:
         by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
         chosen, columns = effects.chosen(numbers), list[Array]()
         for _, own, p, w in self.moments.chunks(now, by):
-            reset = ResetDirections(effects, self.moments.model, chosen, now.t, own, p, w, work, impact)
+            reset = ResetDirections(effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses)
             columns.append(reset.directions())
         return np.concatenate(columns, axis=1)[:, : y.shape[1]]
+
+    @property
+    def _losses(self) -> dict[int, int]:
+        """By number of the event, the place in the state of the energy that its impacts take."""
+        watched = self.watched
+        if watched is None or watched.bounded is None:
+            return {}
+        rows = watched.bounded
+        places = zip(rows.names[rows.dry :], rows.losses, strict=True)
+        return {watched.names.index(f"{name}.{HIT}"): place for name, place in places if place is not None}
 
     @property
     def _count(self) -> int:
