@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.ir.program import MODE_NUMBERS
 from symgen.describe.parts.events import STOP
 from symgen.result.step_errors import least_sizes
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import Prepared
+from symgen.run.single.bounded_rows import CONSTANT, HELD, SIGN
 from symgen.run.single.directed_model import DirectedModel
 from symgen.run.single.directed_observer import Observer
 from symgen.run.single.directions import Course, Part
@@ -139,6 +141,21 @@ class Evaluated:
             with np.errstate(divide="ignore", invalid="ignore"):
                 parts.append(-slopes[0, at] / values[0, count + at])
         return np.concatenate(parts)[: self.course.count]
+
+    def resting_together(self) -> tuple[str, ...]:
+        """Return the rows with two bounds that share forces at rest at some output, which joints do not determine."""
+        watched = self.run.spec.events
+        rows = None if watched is None else watched.bounded
+        if rows is None or not len(self.course.outcome.times):
+            return ()
+        info = self.course.parts[0].model.plain.info
+        first = abi.N_STATUS + info.windings
+        modes = self.course.outcome.status_columns[:, first : first + MODE_NUMBERS * len(info.switchable)]
+        lines = modes.reshape(len(modes), len(info.switchable), MODE_NUMBERS)
+        own = lines[:, [info.switchable.index(row) for row in info.bounded[: rows.dry]]]
+        rests = (own[:, :, HELD] != 0.0) | ((own[:, :, CONSTANT] != 0.0) & (own[:, :, SIGN] == 0.0))
+        carried = (rests & (own[:, :, HELD] == 0.0)).any(axis=1)
+        return tuple(name for name, x in zip(rows.names, rests[carried].any(axis=0), strict=False) if x)
 
     def apart(self) -> Array:
         """Return by how much directions leave the constraints, over their size, shape (n,); rounding is left out."""

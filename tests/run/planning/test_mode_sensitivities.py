@@ -8,11 +8,12 @@ import pytest
 import symgen
 
 from .lengths import model
+from .mode_models import MACHINES, chain, loop, richardson
 
 TIGHT = {"rtol": 1e-12, "atol": 1e-12, "integrator": "dop853"}
 CLOSED = json.loads((Path(__file__).parents[2] / "data" / "derivatives_through_modes.json").read_text())
 
-PULLED = Path(symgen.__file__).parent / "describe" / "catalogue" / "machines" / "belt-oscillator.toml"
+PULLED = MACHINES / "belt-oscillator.toml"
 PUSH = '\n[inputs]\npush = { default = 0.0, unit = "N" }\n'
 BALL = """
 [mechanism]
@@ -115,3 +116,66 @@ def test_what_rests_at_the_start_has_one_side(models, way):
         .gradient("rotor.theta", by=("T",), parameters={"w0": 0.0}, way=way, until=1.0, **TIGHT)
         .result.ok
     )
+
+
+def compare_with_differences(own, quantity, names, until, **settings):
+    """Compare both ways with differences of runs that have the same events in the same order."""
+    settings = {"until": until, **TIGHT, **settings}
+    run = own.simulate(sensitivities=names, times=[until], **settings)
+    assert run.status == "ok"
+    events, found = [event.name for event in run.events], run.gradient(quantity).row()
+    back = own.gradient(quantity, by=names, way="adjoint", **settings)
+    assert back.by == pytest.approx(found, rel=1e-8, abs=1e-8)
+    values = {p.name: p.value for p in own.mechanism.parameters}
+    for name in names:
+        value = float(getattr(values[name], "value", values[name]))
+
+        def end(x, name=name):
+            other = own.simulate(parameters={name: x}, times=[until], verify=False, **settings)
+            assert [event.name for event in other.events] == events
+            return float(other[quantity][-1])
+
+        slope, error = richardson(end, value, 2.5e-4 * value)
+        assert error < 1e-6 * max(1.0, abs(slope))
+        assert found[name] == pytest.approx(slope, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_the_dry_four_bar(coordinates):
+    dry = symgen.load("dry-four-bar")
+    compare_with_differences(dry, "crank.theta", ("torque", "crank_mass", "rocker_mass"), 10.0, coordinates=coordinates)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("make", "seed", "until"),
+    [*((chain, seed, 1.0) for seed in (1, 3, 4, 7, 8)), *((loop, seed, 2.0) for seed in (0, 2, 3, 6, 7))],
+)
+def test_random_chains_and_loops(tmp_path, make, seed, until):
+    text, names = make(seed)
+    used = tuple(name for name in names if text.count(name) > 1)
+    compare_with_differences(model(tmp_path, text), "b0.theta" if make is chain else "crank.theta", used, until)
+
+
+@pytest.mark.slow
+def test_energy_that_an_impact_takes_and_a_force_that_jumps():
+    press = symgen.load("toggle-press")
+    compare_with_differences(press, "lost", ("ram_mass", "push", "rubbing"), 0.35)
+    compare_with_differences(press, "guide.lower.force", ("ram_mass", "push"), 0.2)
+
+
+def test_forces_that_rows_at_rest_share_are_named():
+    run = symgen.load("dry-four-bar").simulate(
+        until=0.1, parameters={"torque": 10.0}, sensitivities=("torque",), integrator="dop853"
+    )
+    assert any("rest together: derivatives of their forces there" in text for text in run.warnings)
+
+
+def test_sweeps_have_derivatives_through_modes(models):
+    rows = models["rotor"].sweep({"T": [0.2, 0.3]}, quantities=["rotor.theta"], until=6.0, integrator="dop853")
+    slopes = rows.sensitivities(("J", "T"))["rotor.theta"][:, -1]
+    for torque, slope in zip((0.2, 0.3), slopes, strict=True):
+        angle = {"until": 6.0, "parameters": {"T": torque}, "way": "adjoint", "integrator": "dop853"}
+        found = models["rotor"].gradient("rotor.theta", by=("J", "T"), **angle)
+        assert dict(zip(("J", "T"), slope, strict=True)) == pytest.approx(found.by, rel=1e-6)
