@@ -13,6 +13,8 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
 from symgen.base.settings import Settings, is_set
+from symgen.cli._editor.joints import joint_equations
+from symgen.cli._editor.made import made
 from symgen.describe.facts.lifted import lifted, numbers_of_file
 from symgen.describe.files.changes import changed, wide_units
 from symgen.describe.files.handles import handles, numbers_of_parameters
@@ -48,7 +50,7 @@ class Drafts:
     """
 
     def __init__(self, path: Path) -> None:
-        self.source = Source.of(path)
+        self.path, self.source = path, Source.of(path)
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
         self._asked: dict[str, int] = {}
         self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
@@ -65,9 +67,13 @@ class Drafts:
         values = parameter_values(mechanism)
         described = Model(mechanism).initial_state(values)[0]
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
+        freedoms: dict[str, Any] = {}
         try:
-            start = prepare(*_for_closing(mechanism), Purpose.STATE).start
+            run = prepare(*_for_closing(mechanism), Purpose.STATE)
+            start = run.start
             q, warnings = start.y[: len(described)], start.warnings
+            count = run.compiled.info.nv - start.rank
+            freedoms = {"count": count, "redundant": list(start.redundant_rows)}
         except AssemblyError as error:
             q = np.array(error.q) if error.q else described
             open_joints = error.joints
@@ -86,6 +92,9 @@ class Drafts:
             "errors": errors,
             "count": len(errors),
             "data": data,
+            "freedoms": freedoms,
+            "joints": [joint.name for joint in mechanism.joints],
+            "bounded": {row.name: [row.family.off, row.family.in_force] for row in mechanism.bounded if row.one_sided},
             "handles": [
                 {**handle._asdict(), "followers": [_in_page(follower, wide) for follower in handle.followers]}
                 for handle in movable
@@ -139,6 +148,18 @@ class Drafts:
                 result = Model(mechanism).simulate()
             data, script = view_data(result)
             return {"data": data, "script": script}
+
+    def joint(self, text: str, name: str) -> dict[str, Any]:
+        """Return the equations of a joint of a text."""
+        self._refuse_large(text)
+        return joint_equations(self._read(text)[1], name)
+
+    def make(self, text: str, kind: str) -> dict[str, Any]:
+        """Return a file that a command would write for a text."""
+        self._refuse_large(text)
+        raw, mechanism = self._read(text)
+        with self._running:
+            return made(kind, raw, mechanism, self.path)
 
     def change(self, kind: str, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return a text with something added, renamed or taken out."""

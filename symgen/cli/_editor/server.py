@@ -64,6 +64,8 @@ class Editor(ThreadingHTTPServer):
             "check": lambda given: drafts.check(_text(given)),
             "motion": lambda given: drafts.motion(_text(given), str(given.get("tab", "")), int(given.get("asked", 0))),
             "live": lambda given: drafts.live(_text(given), str(given.get("tab", ""))),
+            "joint": lambda given: drafts.joint(_text(given), str(given.get("name", ""))),
+            "make": lambda given: drafts.make(_text(given), str(given.get("kind", ""))),
             **{kind: partial(drafts.change, kind) for kind in ("add", "rename", "remove")},
         }
 

@@ -129,6 +129,7 @@ function checked(answer, text, own, began) {
   checkedText = text;
   showErrors(answer.errors, answer.count);
   if (!playing || answer.errors.length) display(answer.data, "start");
+  insideOf(answer);
   render();
   times.drawing = performance.now() - began;
   times.frames = (times.frames || 0) + 1;
@@ -143,6 +144,7 @@ async function move(own, text) {
   if (answer.error) return say(answer.error, true);
   if (answer.data) display(answer.data, "motion");
   render();
+  askJoint();
   times.motion = performance.now() - began;
   times.moved = own;
   say(answer.reason || (answer.data && answer.data.note) || "", answer.status === "failed");
@@ -211,7 +213,7 @@ async function save(force = false) {
   say(`saved ${editor.file}`);
 }
 $("save").addEventListener("click", () => save());
-for (const [id, act] of [["over", () => save(true)], ["take", () => open(true)], ["back", () => {}]]) {
+for (const [id, act] of [["overwrite", () => save(true)], ["take", () => open(true)], ["back", () => {}]]) {
   $(id).addEventListener("click", () => {
     $("ask").close();
     act();
