@@ -14,6 +14,7 @@ from tests.browser.editor_page import Page
 
 pytestmark = pytest.mark.browser
 
+
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
     own = catalogue.file_of("four-bar")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -161,21 +161,24 @@ class Drafts:
         with self._running:
             return made(kind, raw, mechanism, self.path)
 
-    def change(self, kind: str, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a text with something added, renamed or taken out."""
-        text = str(given["text"])
+    def add(self, text: str, part: str, spots: Sequence[Spot]) -> dict[str, Any]:
+        """Return a text with a part added at spots, and the path of what was added."""
         self._refuse_large(text)
-        if kind == "rename":
-            return {"text": renamed(text, str(given["path"]), str(given["name"]), self.source)}
-        if kind == "remove":
-            return {"text": removed(text, str(given["path"]), self.source)}
         raw = parse_toml(text, self.source)
-        spots = [_spot(spot) for spot in given["spots"]]
-        angle = self._angle(kind, text, spots)
-        added, path = snippet(str(given["part"]), spots, raw, outline(text), text, angle)
+        added, path = snippet(part, spots, raw, outline(text), text, self._angle(text, spots))
         return {"text": changed(text, added), "path": path}
 
-    def _angle(self, kind: str, text: str, spots: Iterable[Spot]) -> float:
+    def rename(self, text: str, path: str, name: str) -> dict[str, Any]:
+        """Return a text with another name of a part, wherever it is named."""
+        self._refuse_large(text)
+        return {"text": renamed(text, path, name, self.source)}
+
+    def remove(self, text: str, path: str) -> dict[str, Any]:
+        """Return a text without a part, and without what needs it."""
+        self._refuse_large(text)
+        return {"text": removed(text, path, self.source)}
+
+    def _angle(self, text: str, spots: Iterable[Spot]) -> float:
         """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""
         spot = next(iter(spots), None)
         if spot is None or not spot.body:
@@ -256,15 +259,6 @@ def _changeable(number: tuple[str, Place, float]) -> str:
 
 def _error(problem: Problem) -> dict[str, Any]:
     return {"line": problem.line, "text": str(problem)}
-
-
-def _spot(given: Mapping[str, Any]) -> Spot:
-    """Return a spot of a page."""
-    x, y = float(given["x"]), float(given["y"])
-    at = tuple(float(e) for e in given.get("at") or (0.0, 0.0))
-    words = (str(given.get(key) or "") for key in ("body", "point", "joint"))
-    body, point, joint = words
-    return Spot(x, y, "" if body == "ground" else body, point, (at[0], at[1]), joint)
 
 
 def _span(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:

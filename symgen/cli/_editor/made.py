@@ -53,7 +53,11 @@ def made(kind: str, raw: Mapping[str, Any], mechanism: Mechanism, file: Path) ->
         else:
             _WRITERS[kind](Model(mechanism), path, file.name)
         content = base64.b64encode(path.read_bytes()).decode()
-        return {"name": f"{file.stem}{'-report' if kind == 'report' else ''}{ending}", "type": type_, "content": content}
+        return {
+            "name": f"{file.stem}{'-report' if kind == 'report' else ''}{ending}",
+            "type": type_,
+            "content": content,
+        }
 
 
 def _report(model: Model, path: Path, name: str) -> None:

@@ -14,7 +14,7 @@ photoPlace.setAttribute("aria-label", "Picture: x, y of its lower left corner an
 photoPlace.title = photoPlace.getAttribute("aria-label");
 photoBox.append(photoButton, chosenFile, photoPlace);
 bench.append(photoBox);
-$("picture").prepend(sketched);
+$("picture").insertBefore(sketched, layer); // the canvas is opaque
 sketched.hidden = true;
 
 photoButton.addEventListener("click", () => {
