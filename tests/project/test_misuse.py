@@ -402,7 +402,7 @@ def rows():
         "builder", names, lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build(), "mechanism.name"
     )
     further = {
-        **dict.fromkeys(("body", "beam", "event"), ()),
+        **dict.fromkeys(("body", "beam", "event", "stop"), ()),
         **{"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)},
         **{"joint": ("rigid",), "force": ("torque",), "state": (1.0,)},
     }
