@@ -145,12 +145,13 @@ def markdown(document: Document, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {markdown_text(document.title)}", ""]
     lines += [x for text in document.lead for x in (markdown_text(text), "")]
+    for section in document.sections:
+        lines += _section(section, 2, folder)
+    lines += ["## Settings and versions", ""]
     lines += _table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
         lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
-    for section in document.sections:
-        lines += _section(section, 2, folder)
     return "\n".join(lines).rstrip() + "\n"
 
 

@@ -130,7 +130,7 @@ def test_links_lead_to_parts_of_the_page(page):
     places = [a["id"] for _, a in page.elements if "id" in a]
     assert len(places) == len(set(places))
     targets = [a["href"].removeprefix("#") for a in page.all("a")]
-    assert targets == ["side-by-side", "four-bar", "pendulum", "compared-with-the-source"]
+    assert targets == ["side-by-side", "four-bar", "pendulum", "compared-with-the-source", "made-with"]
     assert set(targets) <= set(places)
 
 
