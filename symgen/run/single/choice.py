@@ -93,7 +93,7 @@ def find_mobility(c: Any) -> int:
 def accelerate(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
     """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
 
-    A coordinate whose bounds depend on a reaction may be ``pushed`` by a force of -1.
+    A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
     """
     for i in range(w.shape[0]):
         c.w[i] = w[i]
@@ -138,11 +138,15 @@ def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> in
         if j >= c.dry and c.alone[j] > 0.0:  # accelerations as large as those that are there
             force = larger(abs(c.offset[j]), usual_of(c, w, j)) / c.alone[j]
             sign = -force
-        if force > 0.0:
+        if force > 0.0 or c.varying[j] != 0:
             for i in range(k):
                 c.trial[i] = c.signs[i]
             c.trial[j] = sign
-            if accelerate(t, c, y, p, w, iw, control) != SAME:
+            if force == 0.0:  # a bound that is 0 now holds what it holds at rest as soon as it rises
+                force, c.trial[j], c.pushed[0] = 1.0, 0.0, j
+            code = accelerate(t, c, y, p, w, iw, control)
+            c.pushed[0] = -1
+            if code != SAME:
                 return NOT_FINITE
             for i in range(k):
                 c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force
