@@ -330,17 +330,18 @@ class ByAllModes:
         assert len(found) == 1
         return found[0]
 
+    def margin(self, i: int, modes: tuple[int, ...]) -> Any:
+        """Return what falls to 0 where a clutch leaves its mode: the rate that is left, or the torque."""
+        if modes[i] != 0:
+            return lambda t, w: modes[i] * (self.rows[i] @ w)
+        return lambda t, w: self.bounds(t)[i] - abs(self.solved(t, modes)[1][i])
+
     def run(self, until: float) -> tuple[np.ndarray, list[float]]:
         t, w, times, resting = 0.0, np.array([2.0, 0.0, 0.0, 0.0]), [], {1, 2}
         while t < until:
             modes = self.modes(t, w, resting)
 
-            def margin(i, modes=modes):
-                if modes[i] != 0:
-                    return lambda t, w: modes[i] * (self.rows[i] @ w)
-                return lambda t, w: self.bounds(t)[i] - abs(self.solved(t, modes)[1][i])
-
-            margins = [margin(i) for i in range(3)]
+            margins = [self.margin(i, modes) for i in range(3)]
             for each in margins:
                 each.terminal, each.direction = True, -1
             run = solve_ivp(
