@@ -190,6 +190,8 @@ class Friction(Bounds, frozen=True):
             return call("mul", _HALF, call("add", sliding, at_rate(self.backwards, rate)))
         if self.stribeck_speed is None:
             return sliding
+        if rate == ZERO:  # rounding of the sum would put it above that at rest
+            return self.static
         ratio = call("div", rate, self.stribeck_speed)
         power = call("mul", ratio, ratio)
         if self.exponent is not None:

@@ -23,7 +23,7 @@ class ElasticStop(Bounds, frozen=True):
     Parameters
     ----------
     name, owner : str
-        As those of a rigid one, see `symgen.describe.bounds.end_stop.EndStop`.
+        As for a rigid stop, see `symgen.describe.bounds.end_stop.EndStop`.
     measure : Measure
         The gap is ``measure - value``.
     value : Expr
@@ -100,7 +100,7 @@ class ElasticStop(Bounds, frozen=True):
 
     @property
     def taking(self) -> Expr:
-        """The part of the force that takes energy: all but that of the spring."""
+        """The part of the force that takes energy: all but the force of the spring."""
         spring = self._spring(call("max", difference(self.value, rate_of(self, 0)), ZERO))
         return call("sub", Reading(f"{self.name}.force", Exerted((self.smooth_effort,))), spring)
 

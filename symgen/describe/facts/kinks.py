@@ -351,7 +351,8 @@ def longest_step(
 @remembered
 def _groups(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the groups of integrated formulas that may hide short changes."""
-    parts = zip(("drivers", "forces", "integrals"), integrated(mechanism), strict=True)
+    formulas = *integrated(mechanism), _bounds_of(mechanism)
+    parts = zip(("drivers", "forces", "integrals", "bounds"), formulas, strict=True)
     return tuple(group for group, part in parts if _may_hide(part, mechanism))
 
 

@@ -31,6 +31,7 @@ from symgen.run.single.bounded_rows import (
     NOT_FINITE,
     OTHERS,
     OUT_OF_RANGE,
+    ROUNDED,
     SAME,
     SIGN,
     STILL,
@@ -59,6 +60,8 @@ def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
         valid = valid and math.isfinite(out[i]) and math.isfinite(out[k + i])
         if i < dry:
             static, sliding = out[2 * k + i], out[2 * k + dry + i]
+            if c.varying[i] != 0 and static < sliding and sliding <= static * (1.0 + ROUNDED):
+                static = sliding
             c.static[i], c.sliding[i] = static, sliding
             valid = valid and math.isfinite(static) and sliding >= 0.0 and static >= sliding
             valid = valid and not (sliding == 0.0 and static > 0.0)

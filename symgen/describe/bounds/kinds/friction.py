@@ -141,7 +141,7 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
 def _bounds(
     scope: Scope, key: str, section: FrictionSection, names: tuple[str, str]
 ) -> tuple[Expr, Expr, Expr | None, bool]:
-    """Return the bounds in motion and at rest, that of motions backwards, and whether any is more than a number."""
+    """Return the bounds in motion, at rest and of motions backwards, and whether any is more than a number."""
     (least, most), backwards = (getattr(section, name) for name in names), None
     if isinstance(least, dict):
         sliding, backwards = _both_ways(scope, f"{key}.{names[0]}", section, least)
@@ -176,7 +176,7 @@ def _both_ways(scope: Scope, key: str, section: FrictionSection, raw: Mapping[st
 
 
 def _exponent(scope: Scope, key: str, section: FrictionSection) -> Expr | None:
-    """Return the exponent of the fall over the rate, None for that of its own."""
+    """Return the exponent of the fall over the rate; None for 2."""
     if section.stribeck_exponent is None:
         return None
     if section.stribeck_speed is None:
