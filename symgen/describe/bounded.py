@@ -156,6 +156,11 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def unequal(self) -> bool:
+        """Whether its bounds differ in the two directions."""
+        ...
+
+    @property
     def taking(self) -> Expr:
         """The effort that takes energy, a formula of outputs."""
         ...

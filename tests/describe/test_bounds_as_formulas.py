@@ -2,6 +2,7 @@
 
 import pytest
 
+import symgen
 from symgen.base.errors import InputError
 from symgen.describe.bounds.modes import mode_events
 from symgen.describe.facts.kinks import changes_in_time, discontinuities_of, jumps_in_time
@@ -141,3 +142,18 @@ def test_units_of_the_new_keys() -> None:
     assert elastic.forces == described(
         "stop = { lower = 0.001, stiffness = 2000.0, damping = 3.0 }", "translational"
     ).forces  # fmt: skip
+
+
+def test_bands_say_why_there_is_none() -> None:
+    """A band of positions that friction holds has bounds that are numbers, the same in both directions."""
+    for sliding, why in (
+        ("pressure", "are formulas of more"),
+        ("forwards = 0.0, backwards = 2.0", "differ in the two"),
+    ):
+        bound = f'"{sliding}"' if sliding == "pressure" else f"{{ {sliding} }}"
+        text = PIN.format(keys=f"friction = {{ sliding = {bound} }}", kind="revolute").replace("[states]", "[outputs]")
+        text = text.replace('heat = { rate = "0.0", start = 0.0 }', 'heat = "t"').replace('"centre"', "[0.0, 0.1]")
+        text = text.replace('name = "pin"', 'name = "pin"\ngravity = [0.0, -9.81]')
+        model = symgen.load(validate(parse_toml(text, "pin.toml"), "pin.toml"))
+        (note,) = [note for note in model.equilibrium().notes if "no band" in note]
+        assert why in note

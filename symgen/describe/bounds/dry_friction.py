@@ -139,6 +139,11 @@ class Friction(Bounds, frozen=True):
         return self.speed is not None
 
     @property
+    def unequal(self) -> bool:
+        """Whether its bounds differ in the two directions."""
+        return self.backwards is not None
+
+    @property
     def where(self) -> str:
         """Its place in a file."""
         return f"joints.{self.joint}.friction"
@@ -166,7 +171,9 @@ class Friction(Bounds, frozen=True):
         """The effort of a smooth force: the bound times tanh(rate / `speed`), or times the sign of the rate."""
         rate = Name("rate")
         way = call("sign", rate) if self.speed is None else call("tanh", call("div", rate, self.speed))
-        dry = sum_of_terms(self.shift(rate), call("mul", way, self.bound_in_motion(rate)))
+        dry = call("mul", way, self.bound_in_motion(rate))
+        if self.backwards is not None:
+            dry = call("add", dry, call("mul", call("abs", way), self.shift(rate)))
         against = call("add", dry, call("mul", self.viscous, rate))
         return Effort("friction", self.measure, call("neg", against))
 

@@ -63,7 +63,10 @@ def smoothed(where: str, rows: Sequence[BoundedRow], speed: float, values: Mappi
             raise InputError(where, expected, f"that of {row.name} by the reaction")
         if not isinstance(row, Friction):
             raise InputError(where, expected, f"the {row.family.one} {row.name}")
-        low, high = (evaluate(bound, values, where) for bound in (row.sliding, row.static))
+        if row.changing and row.numbers[0][1] != row.numbers[1][1] and row.stribeck_speed is None:
+            raise InputError(where, expected, f"that of {row.name}, two formulas")
+        bounds = () if row.changing else tuple(evaluate(bound, values, where) for _, bound in row.numbers)
+        low, high = min(bounds, default=0.0), max(bounds, default=0.0)
         if high != low and row.stribeck_speed is None:
             raise InputError(where, expected, f"that of {row.name}, {high:g} at rest and {low:g} in motion")
         smooth.append(msgspec.structs.replace(row, speed=Number(speed)))
