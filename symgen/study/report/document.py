@@ -83,7 +83,7 @@ class DocumentTable:
 class Section:
     """A part of a report, in this order: text, findings, tables, pictures, parts of its own.
 
-    Where `beside` is set, its pictures stand left of its tables.
+    Where `beside` is set, its pictures stand left of its tables; with `pictures_first` they stand above all else.
     """
 
     title: str
@@ -93,6 +93,7 @@ class Section:
     pictures: tuple[Picture, ...] = ()
     parts: tuple[Section, ...] = ()
     beside: bool = False
+    pictures_first: bool = False
 
     @property
     def anchor(self) -> str:

@@ -157,16 +157,24 @@ def markdown(document: Document, folder: str) -> str:
 
 def _section(section: Section, level: int, folder: str) -> list[str]:
     lines = [f"{'#' * level} {markdown_text(section.title)}", ""]
+    shown = _pictures(section, folder)
+    lines += shown if section.pictures_first else []
     lines += [x for text in section.text for x in (markdown_text(text), "")]
     lines += [f"- {markdown_text(text)}" for text in section.findings]
     lines += [""] if section.findings else []
     for table in section.tables:
         lines += _table(table)
+    lines += [] if section.pictures_first else shown
+    for part in section.parts:
+        lines += _section(part, level + 1, folder)
+    return lines
+
+
+def _pictures(section: Section, folder: str) -> list[str]:
+    lines = list[str]()
     for picture in section.pictures:
         address = quote(f"{folder}/{picture.name}.{picture.kind}")
         lines += [f"![{markdown_text(picture.alternative)}]({address})", "", markdown_text(picture.caption), ""]
-    for part in section.parts:
-        lines += _section(part, level + 1, folder)
     return lines
 
 
