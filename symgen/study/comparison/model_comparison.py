@@ -62,7 +62,8 @@ class ReferenceTask:
                 decay = fastest_decay(mechanism, compiled, start)
                 motion = two_routes(mechanism, values, self.times, decay, settings.start)
             else:
-                motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
+                own = start.y[compiled.info.own_states]
+                motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start, own)
         except SimulationError as error:
             return {"unusable": str(error)}
         rates = exact_rates(mechanism, motion, compiled, start).tolist() if two_sided(mechanism) else None
