@@ -157,10 +157,9 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, rotors on joints or rows with bounds, or if rows may be off.
+        If the file has rotors on joints or rows with bounds, or if rows may be off.
     """
     for what, some in (
-        ("states of its own", mechanism.states),
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
         *((family.noun, rows) for family, rows in families_of(mechanism).items()),
