@@ -195,8 +195,9 @@ class Base:
         raw.setdefault("parameters", {}).update(
             {name: {"value": value, "unit": unit} for name, (value, unit) in HANDLES.items()}
         )
-        heavy = raw["bodies"][self.middle]
-        for key in ("mass", "inertia"):
+        own = self.middle in raw.get("bodies", {})
+        heavy = raw["bodies"][self.middle] if own else raw["beams"][self.middle.rpartition(".")[0]]
+        for key in ("mass", "inertia" if own else "rotary"):
             value = heavy.get(key, 0.0)
             if isinstance(value, list):  # the inertia of a spatial body
                 heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]
