@@ -184,8 +184,7 @@ restitution = "bounce"
 
 @pytest.mark.slow
 def test_restitution_of_a_ball_from_noisy_heights(tmp_path):
-    (tmp_path / "ball.toml").write_text(BOUNCE)
-    ball, t, true = symgen.load(tmp_path / "ball.toml"), np.linspace(0.0, 2.0, 101), {"bounce": 0.7, "height": 1.0}
+    ball, t, true = model(tmp_path, BOUNCE), np.linspace(0.0, 2.0, 101), {"bounce": 0.7, "height": 1.0}
     clean = np.array(ball.simulate(until=2.0, times=t, parameters=true, rtol=1e-10, atol=1e-10)["ball.y"])
     rng, covered, runs = np.random.default_rng(5), 0, 0
     for _ in range(12):

@@ -237,7 +237,7 @@ class Transfer:
             constant = line[CONSTANT].copy() if held[i] and was[i] else directions[i] * held[i]
             line[:] = 0.0
             line[CONSTANT] = constant
-            if held[i] and i < rows.dry and i not in rows.pressed:
+            if held[i] and i < rows.dry and i not in rows.pressed and i not in rows.varying:
                 line[LIMIT] = directions[2 * k + i]
         self._share(rows, own, new, slopes, values, directions, after, by)
         rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
@@ -313,4 +313,7 @@ class Transfer:
             change = np.linalg.lstsq(base.T, rest, rcond=1e-11)[0]
             at = force.index(info.bounded[owner])
             factor, slope = abs(parts[at]), np.sign(parts[at]) * change[at]
-            slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]
+            if i in rows.varying:  # margins read the bound itself, times this factor
+                slopes[own[i], LIMIT] = slope
+            else:
+                slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]

@@ -27,12 +27,8 @@ def richardson(function, x, width, levels=4):
 def chain(seed):
     """Return the text of a chain of one to three rods, and the names of its parameters."""
     own = random.Random(seed)
-    count, lines, x, y = (
-        own.choice([1, 2, 2, 3]),
-        ["[mechanism]", f'name = "chain{seed}"', 'gravity = [0.0, "-g"]'],
-        "",
-        "",
-    )
+    count, x, y = own.choice([1, 2, 2, 3]), "", ""
+    lines = ["[mechanism]", f'name = "chain{seed}"', 'gravity = [0.0, "-g"]']
     lines += ["[parameters]", "g = 9.81", f"e = {own.uniform(0.2, 0.8):.3f}", f"up = {own.uniform(0.5, 1.2):.3f}"]
     lines.append(f"ratio = {own.uniform(1.0, 1.6):.3f}")
     for i in range(count):

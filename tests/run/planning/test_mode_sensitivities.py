@@ -172,6 +172,7 @@ def test_forces_that_rows_at_rest_share_are_named():
     assert any("rest together: derivatives of their forces there" in text for text in run.warnings)
 
 
+@pytest.mark.slow
 def test_sweeps_have_derivatives_through_modes(models):
     rows = models["rotor"].sweep({"T": [0.2, 0.3]}, quantities=["rotor.theta"], until=6.0, integrator="dop853")
     slopes = rows.sensitivities(("J", "T"))["rotor.theta"][:, -1]
