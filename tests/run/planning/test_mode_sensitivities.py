@@ -65,7 +65,9 @@ def models(tmp_path_factory):
     return {"belt": symgen.load("belt-oscillator"), **{name: model(folder, text) for name, text in texts.items()}}
 
 
-@pytest.mark.fast(*(f"{way}-absolute-{name}-1" for way in ("forward", "adjoint") for name in QUANTITIES))
+@pytest.mark.fast(
+    "adjoint-absolute-belt-1", "adjoint-absolute-rotor-1", "forward-absolute-ball-1", "forward-absolute-rotor-1"
+)
 @pytest.mark.parametrize(("name", "row"), [(name, row) for name in QUANTITIES for row in range(len(CLOSED[name]))])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("way", ["forward", "adjoint"])
@@ -83,6 +85,7 @@ def status_of(found):
     return found.result.status, found.result.reason or ""
 
 
+@pytest.mark.fast("adjoint")
 @pytest.mark.parametrize("way", ["forward", "adjoint"])
 def test_what_is_together_for_these_numbers_only_is_in_doubt(tmp_path, models, way):
     text, settings = PULLED.read_text(), {"way": way, "until": 2.5, **TIGHT}
@@ -165,6 +168,7 @@ def test_energy_that_an_impact_takes_and_a_force_that_jumps():
     compare_with_differences(press, "guide.lower.force", ("ram_mass", "push"), 0.2)
 
 
+@pytest.mark.slow
 def test_forces_that_rows_at_rest_share_are_named():
     run = symgen.load("dry-four-bar").simulate(
         until=0.1, parameters={"torque": 10.0}, sensitivities=("torque",), integrator="dop853"
