@@ -103,6 +103,7 @@ def locked(slope: float) -> tuple[float, float]:
     return float(np.sqrt(2.0 * 10.0 / (slope * (1.0 / 2.0 + 1.0 / 3.0)))), 2.0 * 10.0 / 5.0
 
 
+@pytest.mark.fast("dop853-joint", "picard-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
 def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinates: str) -> None:
@@ -117,6 +118,7 @@ def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinate
         assert result["motor.omega"][-1] == pytest.approx(speed, abs=1e-10)
 
 
+@pytest.mark.fast("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_lock_as_runs_do(coordinates: str) -> None:
     """In the slowest row the clutch still slips at the end."""
@@ -265,6 +267,7 @@ torque = 2.0
 """
 
 
+@pytest.mark.fast("2 - t-2 - t/10-0.9523809523809523-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("one", "two", "time"), [("2 - t", "2 - t/10", 1.0 / 1.05), ("3 - t", "1 - t/10", 1.5 / 1.05)])
 def test_brakes_on_both_shafts_of_a_gear_hold_together(one: str, two: str, time: float, coordinates: str) -> None:
@@ -356,6 +359,7 @@ class ByAllModes:
         return w, times
 
 
+@pytest.mark.fast("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_three_clutches_in_a_chain(coordinates: str) -> None:
     """Of all modes at each transition only one is consistent; it and its times are found."""
@@ -370,8 +374,11 @@ def test_three_clutches_in_a_chain(coordinates: str) -> None:
 # -- a freewheel -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.fast("dop853-absolute", "rk4-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}, {"integrator": "rk4", "step": 0.01}])
+@pytest.mark.parametrize(
+    "steps", [TIGHT, {"integrator": "picard"}, {"integrator": "rk4", "step": 0.01}], ids=["dop853", "picard", "rk4"]
+)
 def test_a_freewheel(steps: dict[str, Any], coordinates: str) -> None:
     """Free forwards, held backwards: under 3 sin t N m it turns from rest to 3 rad/s, and stands again behind a period.
 
