@@ -229,6 +229,39 @@ def test_a_bound_over_the_rate_and_another_exponent() -> None:
         assert times_of(result) == [("pin.stick", pytest.approx(exact, abs=1e-10))]
 
 
+SLOPE = """
+[mechanism]
+name = "slope"
+gravity = [0.0, -10.0]
+
+[bodies.block]
+mass = 2.0
+inertia = 1.0
+velocity = [1.6, 1.2]
+
+[joints.slope]
+type = "translational"
+between = ["ground", "block"]
+at = [[0.0, 0.0], "centre"]
+axis = [4.0, 3.0]
+angle = 0.0
+friction = { coefficient = "0.25 + 0.1*rate", static_coefficient = "0.8 - 0.1*t" }
+"""
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_coefficients_are_formulas_too(coordinates: str) -> None:
+    """A block on a slope of 3 in 4 under 16 N stops by v' = -(8 + 0.8 v), and is held until 0.8 - 0.1 t is 12/16."""
+    result = model(SLOPE).simulate(until=1.0, coordinates=coordinates, **TIGHT)
+    stick = np.log(9.6 / 8.0) / 0.8
+    assert times_of(result) == [
+        ("slope.stick", pytest.approx(stick, abs=1e-10)),
+        ("slope.slip", pytest.approx(0.5, abs=1e-10)),
+    ]
+    speed = 5.0 * (1.0 - np.exp(-0.8 * 0.5))  # v' = 4 - 0.8 v down the slope
+    np.testing.assert_allclose(result["block.vx"][-1], -0.8 * speed, rtol=0.0, atol=1e-9)
+
+
 # -- several that hold one motion --------------------------------------------------------------------------------------
 
 GEARED = """
