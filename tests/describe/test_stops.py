@@ -79,7 +79,6 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     sentence = "expected a mechanism without stops, got A.lower"
     for refused in (
         lambda: model.generate(target="c"),
-        lambda: model.inverse(actuators=["A"]),
         lambda: model.simulate(until=0.1, sensitivities=["crank_mass"]),
     ):
         with pytest.raises(InputError, match=sentence):

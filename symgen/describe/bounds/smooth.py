@@ -37,15 +37,15 @@ def with_smooth(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
     )
 
 
-def with_sliding(where: str, mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism with its dry friction as forces against the rates, 0 at rest.
+def with_sliding(where: str, mechanism: Mechanism, apart: Sequence[BoundedRow] = ()) -> Mechanism:
+    """Return a mechanism with its dry friction as forces against the rates, 0 at rest; some rows stay as they are.
 
     Raises
     ------
     InputError
         If bounds depend on reactions.
     """
-    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction)]
+    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction) and row not in apart]
     if names := ", ".join(row.name for row in rows if row.pressed):
         raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
     return with_smooth(without_bounds(mechanism, rows), rows) if rows else mechanism

@@ -156,10 +156,10 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    if mechanism.states or mechanism.rotors or mechanism.has_modes:
+    if mechanism.rotors or mechanism.has_modes:
         if shape == "looped":
             refuse_loops(mechanism)
-        return Taken("straight", "loops have no states of a file, no rotors and no rows that may be off")
+        return Taken("straight", "loops have no rotors and no rows that may be off")
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
     size = f"{counted(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")

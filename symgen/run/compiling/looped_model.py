@@ -140,4 +140,5 @@ def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables
         operations=operations,
         inputs=mechanism.inputs,
         alone=shape.gram.alone,
+        states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
     )

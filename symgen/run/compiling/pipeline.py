@@ -157,16 +157,20 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, rotors on joints or rows with bounds, or if rows may be off.
+        If the file has rotors on joints or rows with bounds, or if rows may be off.
     """
-    for what, some in (
-        ("states of its own", mechanism.states),
+    if what := straight_alone(mechanism):
+        raise InputError("shape", f"straight code where a file has {what}", "looped")
+
+
+def straight_alone(mechanism: Mechanism) -> str:
+    """Return what of a file exists as straight code alone; empty where loops take all of it."""
+    parts = (
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
         *((family.noun, rows) for family, rows in families_of(mechanism).items()),
-    ):
-        if some:
-            raise InputError("shape", f"straight code where a file has {what}", "looped")
+    )
+    return next((what for what, some in parts if some), "")
 
 
 def generate(

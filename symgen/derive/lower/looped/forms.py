@@ -50,8 +50,11 @@ class FormInfo(msgspec.Struct, frozen=True):
 FormProgram = ElementProgram[FormInfo]
 
 
-def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") -> str:
-    """Return a short name of a method's formula for a kind of elements: equal formulas have equal names."""
+def form_key(method: Method, options: Mapping[str, str], kind: str = "joint", shifted: bool = False) -> str:
+    """Return a short name of a method's formula for a kind of elements: equal formulas have equal names.
+
+    `shifted`: rows for projections stand behind equations of states of the file.
+    """
     record = record_form(method, options, kind)
     (part,) = record.parts
     operations = record.operations
@@ -63,6 +66,7 @@ def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") ->
     for o in (operations[i] for i in indices):
         payload = parameters.index(str(o.payload[0])) if o.kind == "parameter" else o.payload
         text.append((o.kind, [place[i] for i in o.operands], payload))
+    text += ["shifted"] if shifted else []
     return hashlib.sha256(repr(text).encode()).hexdigest()[:8]
 
 
@@ -93,12 +97,15 @@ def lower_form(
     g = scalars.graph
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
+    if instance.kind == "state":
+        rows = [("z", 1, g.sub(g.input("k_z", 1), e.state_rates[0]))]
     explicit = record.form == "explicit"  # M and D are enough
     last = len(EQUATIONS) - BEHIND.get(record.form, 0)
-    counted = [row for row in rows if (row[0] == "v" if explicit else row[0] in EQUATIONS[:last])]
+    counted = [row for row in rows if (row[0] == "v" if explicit else row[0] in (*EQUATIONS[:last], "z"))]
     sizes = {"k_q": e.nq, "k_v": e.nv, "k_first": e.m, "k_second": e.m, "q": e.nq, "v": e.nv}
     unknowns = UNKNOWNS[: UNKNOWNS.index("k_second")] if explicit else UNKNOWNS
     keys = [(group, i) for group in unknowns for i in range(sizes[group])]
+    keys += [] if explicit else [("z", i) for i in range(1, len(e.states) + 1)] + [("k_z", 1)]
     entries: list[tuple[str, int, str, int]] = []
     slopes: list[int] = []
     for (group, i, _), derivatives in zip(counted, jacobian(g, [n for _, _, n in counted], keys), strict=True):

@@ -36,13 +36,13 @@ class RowShape(msgspec.Struct, frozen=True):
     angular: bool
 
 
-class KernelInfo(msgspec.Struct, frozen=True):
+class KernelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     """Facts about a kernel for the tables.
 
     Parameters
     ----------
     kind : str
-        ``body``, ``joint`` or ``force``.
+        ``body``, ``joint``, ``force`` or ``state``.
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
@@ -59,6 +59,8 @@ class KernelInfo(msgspec.Struct, frozen=True):
         Velocities whose mass is the literal 0.
     functions : dict
         Operations of each function that is not empty.
+    states : int
+        States of the file that an instance reads; a state is its own first.
     """
 
     kind: str
@@ -72,6 +74,7 @@ class KernelInfo(msgspec.Struct, frozen=True):
     mass: tuple[tuple[int, ...], ...]
     massless: tuple[int, ...]
     functions: dict[str, int]
+    states: int = 0
 
     @property
     def computed(self) -> int:
@@ -110,7 +113,7 @@ def lower_kernel(element: Element, instance: Instance) -> KernelProgram:
 _PURPOSES = {
     "frame": "records of bodies: coordinates, velocities, entries of the rotation matrix",
     "speeds": "velocities in the records",
-    "rates": "q' = N v",
+    "rates": {"body": "q' = N v", "state": "rates of states"},
     "move": "q += N change",
     "geometry": "Phi, nu and D",
     "motion": {"body": "weights and inertia forces", "joint": "nu, D and gamma", "force": "applied forces and power"},
@@ -132,7 +135,8 @@ class _Kernel:
         return self.element.over_records(nodes, self.graph)
 
     def program(self) -> KernelProgram:
-        outputs = {"body": self.body, "joint": self.joint, "force": self.force}[self.instance.kind]()
+        kinds = {"body": self.body, "joint": self.joint, "force": self.force, "state": self.state}
+        outputs = kinds[self.instance.kind]()
         blocks = []
         for name, written in outputs.items():
             purpose: Any = _PURPOSES[name]
@@ -159,6 +163,7 @@ class _Kernel:
             mass=tuple(b.columns for b in e.mass) if self.instance.kind == "body" else (),
             massless=tuple(j for b in e.mass for k, j in enumerate(b.columns) if e.graph.value(b.entries[k][k]) == 0.0),
             functions={b.name: b.operations for b in blocks},
+            states=len(self.instance.states),
         )
         return KernelProgram(kernel_stem(self.instance), self.instance.label, kernel, tuple(blocks), e.tables)
 
@@ -247,6 +252,10 @@ class _Kernel:
             motion.append((Target("power", 0), power))
         energy: Outputs = [(Target("potential", 0), potential)] if potential != g.zero else []
         return {"motion": motion, "energy": energy, "wind": self.winding()}
+
+    def state(self) -> dict[str, Outputs]:
+        """Return the outputs of a state's functions; joints count the turns of angles that it reads."""
+        return {"rates": [(Target("own", 0), self.copied(self.e.state_rates[:1])[0])]}
 
     def winding(self) -> Outputs:
         """Return the angles whose turns are counted."""

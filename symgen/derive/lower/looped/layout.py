@@ -20,7 +20,7 @@ SECTIONS = (
 STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "frames": (("body", "frame"),),
     "speeds": (("body", "speeds"),),
-    "rates": (("body", "rates"),),
+    "rates": (("body", "rates"), ("state", "rates")),
     "move": (("body", "move"),),
     "turn": (("body", "turn"),),
     "normalise": (("body", "normalise"),),
@@ -30,8 +30,8 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "full": (("body", "motion"), ("joint", "full"), ("force", "motion")),
     "energy": (("body", "energy"), ("force", "energy")),
     "report": (("joint", "report"),),
-    "residuals": (("body", "residual"), ("joint", "residual"), ("force", "residual")),
-    "slopes": (("body", "tangent"), ("joint", "tangent"), ("force", "tangent")),
+    "residuals": tuple((kind, "residual") for kind in ("body", "joint", "force", "state")),
+    "slopes": tuple((kind, "tangent") for kind in ("body", "joint", "force", "state")),
 }
 
 #: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then the beginnings of tables.

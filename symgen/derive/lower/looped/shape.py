@@ -68,7 +68,7 @@ class LoopedShape:
     Parameters
     ----------
     instances : sequence of Instance
-        Bodies, then joints, then forces.
+        Bodies, then joints, then forces, then states.
     stems : sequence of str
         Module of each instance's kernel.
     infos : mapping of str to KernelInfo
@@ -146,6 +146,8 @@ class LoopedShape:
             computed += info.computed
         self.m, self.jacobian, self.coordinates, self.computed = len(self.holonomic), entry, coordinate, computed
         self.windings = len(self.angle_index)
+        states = [instance.name for instance in self.instances if instance.kind == "state"]
+        self.state_index = {name: i for i, name in enumerate(states)}
 
     # -- p -------------------------------------------------------------------------------------------------------------
 

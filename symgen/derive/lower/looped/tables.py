@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from symgen.base.ir.program import STATUS
 from symgen.derive.lower.looped.forms import FormInfo
+from symgen.derive.lower.looped.instances import Instance
 from symgen.derive.lower.looped.law import LoopedLawInfo
 from symgen.derive.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
 from symgen.derive.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
@@ -99,7 +100,7 @@ class Builder:
         """Unknowns of a stage."""
         shape = self.shape
         rows = {"": 0, "stabilised": 2}.get(self.level, 1)
-        return shape.nq + shape.nv + rows * shape.m if self.level else 0
+        return shape.nq + shape.nv + rows * shape.m + len(shape.state_index) if self.level else 0
 
     def tables(self) -> IndexTables:
         """Return the finished tables."""
@@ -162,17 +163,24 @@ class Builder:
                 self.numbers += bodies[0][:2]
             elif info.kind == "joint":
                 self.numbers += [shape.row_of[k], shape.entry_of[k], shape.coordinate_of[k]]
-            else:
+            elif info.kind == "force":
                 self.numbers += [b[1] for b in bodies]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
+            self.numbers += self.places_of_states(instance)
             self.numbers.append(computed + shape.computed_of[k])
             self.numbers += [constants + index[c] for c in instance.constants]
         return at
+
+    def places_of_states(self, instance: Instance) -> list[int]:
+        """Return the places in the state, behind the work, of the states of the file that an instance reads."""
+        work = self.shape.nq + self.shape.nv
+        return [work + 1 + self.shape.state_index[name] for name in instance.states]
 
     def part(self, group: KernelGroup, info: FormInfo) -> int:
         """Write the table of a group's part of the descriptor form; return its beginning."""
         shape, at = self.shape, len(self.numbers)
         self.numbers.append(len(group.members))
+        own = self.unknowns - len(shape.state_index)
         owners = [[(f, i) for f, sizes in enumerate(group.info.frames) for i in range(sizes[s])] for s in (0, 1)]
         for k in group.members:
             instance = shape.instances[k]
@@ -183,9 +191,12 @@ class Builder:
             place |= {("v", j): shape.nq + bodies[f][1] + i for j, (f, i) in enumerate(owners[1])}
             for name, start in (("first", rows), ("second", rows + shape.m)):
                 place |= {(name, j): start + j for j in range(len(group.info.rows))}
+            place |= {("z", j): own + shape.state_index[name] for j, name in enumerate(instance.states, 1)}
             self.numbers += [b[2] for b in bodies] + [b[0] for b in bodies] + [b[1] for b in bodies]
             self.numbers += [row, len(self.tangent)]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
+            self.numbers += self.places_of_states(instance)
+            self.numbers += [place["z", 1]] if group.info.kind == "state" else []
             self.numbers += [shape.first_constant + shape.constant_index[c] for c in instance.constants]
             for equation, i, unknown, j in info.entries:
                 of_state = 0 if unknown.startswith("k_") else self.unknowns
