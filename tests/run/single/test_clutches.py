@@ -438,3 +438,58 @@ def test_a_ratchet_whose_pawl_slips() -> None:
     assert times_of(result) == [("pin.slip", pytest.approx(4.0 / 3.0, abs=1e-10))]
     assert result["pin.force"][-1] == pytest.approx(4.0, abs=1e-12)
     assert result["wheel.omega"][-1] == pytest.approx(-3.0 * (2.0 - 4.0 / 3.0) ** 2 / 2.0 / 2.0, abs=1e-10)
+
+
+RING = """
+[mechanism]
+name = "ring"
+
+[inputs]
+one = 1.5
+
+[bodies.a]
+mass = 1.0
+inertia = 2.0
+
+[bodies.b]
+mass = 1.0
+inertia = 2.0
+
+[joints.p]
+type = "revolute"
+between = ["ground", "a"]
+at = [[0.0, 0.0], "centre"]
+friction = { sliding = "one" }
+
+[joints.q]
+type = "revolute"
+between = ["ground", "b"]
+at = [[0.0, 0.0], "centre"]
+friction = { sliding = 2.0 }
+
+[joints.c]
+type = "revolute"
+between = ["a", "b"]
+at = ["centre", "centre"]
+friction = { sliding = 0.5 }
+
+[forces.drive]
+type = "torque"
+body = "a"
+torque = "t"
+"""
+
+
+@pytest.mark.fast("1.5-2.0-1.0-picard", "0.0-0.5-1.0-picard", "2 - t/4-2.0-1.25-dop853")
+@pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
+@pytest.mark.parametrize(("one", "time", "rate"), [(1.5, 2.0, 1.0), (0.0, 0.5, 1.0), ("2 - t/4", 2.0, 1.25)])
+def test_two_brakes_and_a_clutch_that_hold_two_wheels(
+    one: Any, time: float, rate: float, steps: dict[str, Any]
+) -> None:
+    """The first wheel slips where its brake and the clutch together hold no more: one + 0.5 = t."""
+    result = model(RING).simulate(until=3.0, inputs={"one": one}, **steps)
+    slips = dict(times_of(result))
+    assert set(slips) == {"p.slip", "c.slip"}
+    assert slips["c.slip"] == pytest.approx(time, abs=1e-7)
+    assert result["a.omega"][-1] == pytest.approx(rate * (3.0 - time) ** 2 / 2.0 / 2.0, abs=1e-8)
+    assert result["b.omega"][-1] == 0.0
