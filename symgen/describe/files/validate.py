@@ -114,7 +114,7 @@ class _Validator:
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
-        self._bounded: dict[str, tuple[BoundedRow, ...]] = {}  # rows with bounds of joints
+        self._scopes: dict[str, tuple[Scope, Joint]] = {}  # of joints, in the order in which they are resolved
         self._keys = tuple(keys_of_any_joint())
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
@@ -248,7 +248,14 @@ class _Validator:
 
     def bounded(self, joints: Sequence[Joint]) -> tuple[BoundedRow, ...]:
         """Return the rows with bounds, those whose force has two bounds first."""
-        rows = [row for joint in joints for row in self._bounded.get(joint.name, ())]
+        of_joints, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
+        for name, (scope, joint) in self._scopes.items():  # behind all joints, as formulas may read any
+            with self.errors.apart(name):
+                of_joints[name] = tuple(rows_of_joint(scope, joint, self.raw["joints"][name]))
+            if name in self._cuts or any(row.pressed for row in of_joints.get(name, ())):
+                cuts.append(name)  # its reaction is a multiplier
+        self._cuts = cuts
+        rows = [row for joint in joints for row in of_joints.get(joint.name, ())]
         for section, kind in sections_of_files().items():
             rows += self._entries_of(section, kind)
         return tuple(sorted(rows, key=lambda row: row.one_sided))
@@ -403,9 +410,7 @@ class _Validator:
                 raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
             self._cuts.append(name)
         self.rotor(scope, joint, self.raw["joints"][name])
-        self._bounded[name] = tuple(rows_of_joint(scope, joint, self.raw["joints"][name]))
-        if any(row.pressed for row in self._bounded[name]) and name not in self._cuts:
-            self._cuts.append(name)  # its reaction is a multiplier
+        self._scopes[name] = scope, joint
         return joint
 
     def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:
