@@ -126,5 +126,5 @@ def test_friction_by_reactions_has_straight_code_alone():
     raw, source = read_raw("four-bar")
     raw = copy.deepcopy(raw)
     raw["joints"]["A"]["friction"] = {"coefficient": 0.1, "radius": 0.01}
-    with pytest.raises(InputError, match="shape: expected straight code where a file has friction by reactions"):
+    with pytest.raises(InputError, match="shape: expected straight code where a file has dry friction by reactions"):
         symgen.load(validate(raw, source)).simulate(until=0.1, shape="looped")

@@ -156,7 +156,7 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has rotors on joints or friction by reactions, or if rows of joints may be off.
+        If the file has rotors on joints or bounds by reactions, or if rows of joints may be off.
     """
     if what := straight_alone(mechanism):
         raise InputError("shape", f"straight code where a file has {what}", "looped")
@@ -167,7 +167,7 @@ def straight_alone(mechanism: Mechanism) -> str:
     parts = (
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
-        ("friction by reactions", held_by_reactions(mechanism)),
+        *((f"{row.family.noun} by reactions", True) for row in held_by_reactions(mechanism)),
     )
     return next((what for what, some in parts if some), "")
 
