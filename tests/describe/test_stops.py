@@ -83,8 +83,6 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     ):
         with pytest.raises(InputError, match=sentence):
             refused()
-    with pytest.raises(InputError, match="straight code where a file has stops"):
-        model.simulate(until=0.1, shape="looped")
 
 
 @pytest.mark.parametrize("method", ["auto", "lagrange"])
