@@ -105,9 +105,12 @@ FEATURES: Mapping[str, str] = {
     "rotor": cart(pin="rotor_inertia = 1e-3\ngear_ratio = 10.0"),
     "friction": cart(pin="friction = { sliding = 0.3, static = 0.4 }"),
     "friction by a reaction": cart(pin="friction = { coefficient = 0.2, radius = 0.05 }"),
+    "friction of the state": cart(pin='friction = { sliding = "0.2 + cart.x**2" }'),
     "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
     "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),
     "stop": cart(pin=_STOP),
+    "stop, elastic": cart(pin="stop = { lower = -2.2, upper = -1.0, stiffness = 50.0 }"),
+    "stop, moving": cart(more='[stops.wall]\ngap = "0.2 - 0.02*t - cart.x"'),
     "friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}"),
     "rope": cart(more=_ROPE),
     "beam element": cart(

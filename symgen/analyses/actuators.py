@@ -271,7 +271,7 @@ def _with_contacts(
     contacts: Contacts,
 ) -> tuple[Array, Array, NDArray[np.int64], Array, list[str]]:
     """Return efforts, accelerations left and ranks as `_solved` does, multipliers, and sentences on `contacts`."""
-    count, first = len(weighed), len(weighed) + len(contacts.frictions)
+    count, first = len(weighed), len(weighed) + len(contacts.sliding)
     base = still.responses
     ways = [other.responses.multipliers - base.multipliers for other in others]
 

@@ -1,8 +1,8 @@
-"""Forces of rows with bounds along a recorded motion: closed stops, and sliding friction by reactions.
+"""Forces of rows with bounds along a recorded motion: closed stops, and what slides with bounds by a reaction.
 
-Along a motion the modes are known: a stop is closed where its gap and the rate of it are 0, and friction acts against
-the rate. A closed stop pushes as much as spares the actuators. The force of friction by a reaction depends on the
-efforts, which change the reaction, so that both are found in turn.
+Along a motion the modes are known: a stop is closed where its gap and the rate of it are 0, and what slides acts
+against the rate. A closed stop pushes as much as spares the actuators. A force by a reaction depends on the efforts,
+which change the reaction, so that both are found in turn.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from symgen.base.errors import counted
 from symgen.base.vocabulary.expressions import Expr, Name, Reading, call
 from symgen.base.vocabulary.measures import Effort
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.dry_friction import Friction
-from symgen.describe.bounds.modes import one_sided, rate_of, two_sided
+from symgen.describe.bounds.by_motion import beside_reaction, over_reaction
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import one_sided, rate_of
 from symgen.describe.mechanism import Force, Mechanism, Parameter
 from symgen.run.compiling.side import compile_side
 
@@ -34,7 +35,7 @@ Flags = NDArray[np.bool_]
 _MARK = "~bound"
 #: A stop is closed where its gap, of lengths in those of the mechanism, and the rate of it, of the largest, are below.
 TOUCH, REST = 1e-8, 1e-6
-#: Rounds of forces of friction, and the part of the largest by which they change in the last one.
+#: Rounds of forces by reactions, and the part of the largest by which they change in the last one.
 ROUNDS, SETTLED = 200, 1e-14
 #: What an effort of a closed stop costs beside one of an actuator.
 CHEAP = 1e-6
@@ -46,25 +47,24 @@ class Contacts:
 
     Attributes
     ----------
-    frictions : tuple of Friction
+    sliding : tuple of BoundedRow
         Those whose bounds depend on reactions.
     stops : tuple of BoundedRow
         One-sided rows.
     """
 
-    frictions: tuple[Friction, ...] = ()
+    sliding: tuple[BoundedRow, ...] = ()
     stops: tuple[BoundedRow, ...] = ()
 
     @classmethod
     def of(cls, mechanism: Mechanism) -> Contacts:
         """Return these rows of a mechanism."""
-        pressed = tuple(row for row in two_sided(mechanism) if isinstance(row, Friction) and row.pressed)
-        return cls(pressed, one_sided(mechanism))
+        return cls(held_by_reactions(mechanism), one_sided(mechanism))
 
     @property
     def rows(self) -> tuple[BoundedRow, ...]:
-        """All of them, friction first."""
-        return (*self.frictions, *self.stops)
+        """All of them, those by reactions first."""
+        return (*self.sliding, *self.stops)
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -72,12 +72,10 @@ class Contacts:
         return tuple(f"{row.row}{_MARK}" for row in self.rows)
 
     def exerted(self, mechanism: Mechanism) -> Mechanism:
-        """Return a mechanism with their forces as inputs; those of friction have its viscous part beside."""
-        forces, viscous = list[Force](), {row.row: row.viscous for row in self.frictions}
+        """Return a mechanism with their forces as inputs, beside what does not depend on reactions."""
+        forces = list[Force]()
         for row, parameter in zip(self.rows, self.parameters, strict=True):
-            magnitude: Expr = Name(parameter)
-            if row.row in viscous:
-                magnitude = call("sub", magnitude, call("mul", viscous[row.row], Name("rate")))
+            magnitude = call("add", Name(parameter), beside_reaction(row))
             forces.append(Force(parameter, "force", (), (Effort("bound", row.measure, magnitude),)))
         inputs = tuple(Parameter(name, 0.0, "", input=True) for name in self.parameters)
         whole = (*mechanism.parameters, *inputs)
@@ -86,20 +84,18 @@ class Contacts:
     def along(self, mechanism: Mechanism, motion: PrescribedMotion, length: float) -> Along:
         """Return what a motion says of them."""
         formulas = list[tuple[str, Expr]]()
-        for friction in self.frictions:
-            rate = rate_of(friction)
-            bound = call("mul", call("sign", rate), friction.bound_in_motion(rate))
-            cosines = (cosine for line in friction.across for cosine in line)
-            formulas += [(f"{friction.name} against", call("neg", bound))]
-            formulas += [(f"{friction.name} across {i}", Reading("", cosine)) for i, cosine in enumerate(cosines)]
+        for row in self.sliding:
+            cosines = (cosine for line in row.across for cosine in line)
+            formulas += [(f"{row.name} over its reaction", over_reaction(row))]
+            formulas += [(f"{row.name} across {i}", Reading("", cosine)) for i, cosine in enumerate(cosines)]
         for stop in self.stops:
             formulas += [stop.place, (f"rate of {stop.name}", rate_of(stop))]
         side = compile_side(mechanism, motion.compiled, "bounds", "places of rows with bounds", formulas)
         columns = iter(motion.observed(side.function, len(formulas)).T)
         names, reactions = [row.name for row in motion.compiled.info.rows], list[Reaction]()
-        for friction in self.frictions:
-            factor, rows = next(columns), [names.index(name) for name in friction.pressed]
-            cosines_of = [[next(columns) for _ in line] for line in friction.across]
+        for row in self.sliding:
+            factor, rows = next(columns), [names.index(name) for name in row.pressed]
+            cosines_of = [[next(columns) for _ in line] for line in row.across]
             reactions.append(Reaction(factor, rows, cosines_of))
         closed = np.zeros((len(motion.times), len(self.stops)), dtype=np.bool_)
         for i, stop in enumerate(self.stops):
@@ -111,7 +107,7 @@ class Contacts:
 
 @dataclass(frozen=True)
 class Reaction:
-    """Friction by a reaction along a motion: its force over the size of the reaction, and how that is made of rows."""
+    """A force over the size of a reaction along a motion, and how the reaction is made of rows."""
 
     factor: Array
     rows: list[int]
@@ -126,7 +122,7 @@ class Reaction:
         return force
 
 
-#: Takes the forces of friction and which stops push; returns efforts with the forces of stops behind them, and
+#: Takes the forces by reactions and which stops push; returns efforts with the forces of stops behind them, and
 #: multipliers.
 Solve = Callable[[Array, Flags], tuple[Array, Array]]
 
@@ -140,7 +136,7 @@ class Along:
     closed: Flags
 
     def found(self, solve: Solve) -> tuple[Array, Flags, list[str]]:
-        """Return forces of friction, the stops that push, and sentences on both."""
+        """Return forces by reactions, the stops that push, and sentences on both."""
         forces = np.zeros((len(self.closed), len(self.reactions)))
         pushing, apart, count = self.closed.copy(), np.inf, self.closed.shape[1]
         for _ in range(ROUNDS):
@@ -162,6 +158,6 @@ class Along:
                     f"{stop.name} is closed at {counted(times, 'time')}: efforts are the least with what it can bear"
                 )
         if apart > 1e-9 * float(np.abs(forces).max(initial=0.0)):
-            names = ", ".join(friction.name for friction in self.contacts.frictions)
-            said.append(f"forces of friction by reactions ({names}) are not found: they jam, or nearly do")
+            names = ", ".join(row.name for row in self.contacts.sliding)
+            said.append(f"forces by reactions at {names} are not found: they jam, or nearly do")
         return said

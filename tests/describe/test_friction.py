@@ -140,8 +140,6 @@ def test_what_chooses_no_modes_refuses_friction() -> None:
             model.generate(target=target)
     with pytest.raises(InputError, match=sentence):
         model.sweep({"crank_mass": [1.0, 2.0]}, target="lanes", integrator="rk4", until=0.1)
-    with pytest.raises(InputError, match="straight code where a file has dry friction"):
-        model.simulate(shape="looped", until=0.1)
 
 
 @pytest.mark.parametrize("method", ["half-explicit", "rattle"])

@@ -241,8 +241,11 @@ def nut(thread: str, version: str = "1.10") -> str:
       <dynamics><damping>0.1</damping></dynamics></axis>{thread}</joint></model></sdf>"""
 
 
+@pytest.mark.fast("old")
 @pytest.mark.parametrize(
-    "thread", ["<screw_thread_pitch>0.5</screw_thread_pitch>", "<thread_pitch>-12.566370614359172</thread_pitch>"]
+    "thread",
+    ["<screw_thread_pitch>0.5</screw_thread_pitch>", "<thread_pitch>-12.566370614359172</thread_pitch>"],
+    ids=["new", "old"],
 )
 def test_a_nut_sinks_on_its_thread(thread: str, tmp_path: Path) -> None:
     """A right-handed thread of 0.5 m a turn: the weight turns the nut, a = m g / (m + I (2 pi / pitch)^2)."""
@@ -278,6 +281,7 @@ SECOND = {
 }
 
 
+@pytest.mark.fast("0 0 1--1.0-down", "0 0 -2-1.0-back")
 @pytest.mark.parametrize("second", SECOND)
 @pytest.mark.parametrize(("axis2", "sign"), [("0 0 1", -1.0), ("0 0 -2", 1.0)])
 def test_a_gearbox_couples_the_joints_of_its_wheels(second: str, axis2: str, sign: float, tmp_path: Path) -> None:
@@ -298,6 +302,7 @@ def test_a_gearbox_without_joints_of_its_wheels_is_refused(tmp_path: Path) -> No
         imported(tmp_path, re.sub("<gearbox_reference_body>.*</gearbox_reference_body>", "", text))
 
 
+@pytest.mark.fast("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_two_axes_in_a_row_move_as_two_hinges_in_mjcf(coordinates: str, tmp_path: Path) -> None:
     """A fork that is steered and a wheel in it: each axis has its damper, its spring and its limits."""

@@ -79,8 +79,6 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     sentence = "expected a mechanism without stops, got A.lower"
     with pytest.raises(InputError, match=sentence):
         model.generate(target="c")
-    with pytest.raises(InputError, match="straight code where a file has stops"):
-        model.simulate(until=0.1, shape="looped")
 
 
 @pytest.mark.parametrize("method", ["auto", "lagrange"])

@@ -72,7 +72,7 @@ _READ = {"q": ("y", "q"), "v": ("y", "nq", "v"), "change": ("w", "change", "v")}
 _WRITTEN = {
     **{"record": ("w", "f0"), "ydot": ("out", "q"), "y": ("y", "q"), "force=": ("w", "force", "v")},
     "own": ("out", "own0"),
-    **{"jacobian": ("w", "jacobian", "entry"), "report": ("out", "m", "coordinate")},
+    **{"jacobian": ("w", "jacobian", "entry"), "left": ("w", "left", "entry"), "report": ("out", "m", "coordinate")},
     **{"mass_diagonal": ("p", "mass_diagonal", "v"), "inverse_mass": ("p", "inverse_mass", "v")},
 }
 
@@ -109,6 +109,8 @@ class InstanceAccess(Access):
             return f"h{computed}", self.element("p", "computed", plus=computed)
         if space == "winding":
             return f"winding_{index}", self.element("w", str(len(STATUS)), f"u{index}")
+        if space == "modes":
+            return f"mode{index}", self.element("w", "modes", plus=index)
         if space == "z":
             return f"state_{index - 1}", self.element("y", f"own{index - 1}")
         return f"{space}_{index}", self.element(*_READ[space], plus=index)
@@ -143,12 +145,14 @@ class InstanceAccess(Access):
         """Return (local name, expression) of all numbers of an instance's table."""
         frames = range(len(self.info.frames))
         own: dict[str, list[str]] = {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"], "state": []}
+        own["bound"] = ["row", "entry", *(f"v{i}" for i in frames)]
         names = [*(f"f{i}" for i in frames), *own.get(self.info.kind, [f"v{i}" for i in frames])]
         return self.numbered([*names, *self.beside(), "computed"])
 
     def beside(self) -> list[str]:
-        """Return the names of the places of counted turns and of states."""
-        return [*(f"u{i}" for i in range(self.info.windings)), *(f"own{i}" for i in range(self.info.states))]
+        """Return the names of the places of counted turns, of states and of modes."""
+        turns = [f"u{i}" for i in range(self.info.windings)]
+        return [*turns, *(f"own{i}" for i in range(self.info.states)), *["modes"] * (self.info.kind == "bound")]
 
     def numbered(self, names: list[str]) -> list[tuple[str, str]]:
         """Return the numbers of a table, constants last; records and coordinates are counted from 0."""

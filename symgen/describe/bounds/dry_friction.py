@@ -236,14 +236,15 @@ class Friction(Bounds, frozen=True):
     def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
         """Return the events at which its mode is chosen anew.
 
-        Where its effort at rest is a number of its own, as several rows share it, a bound that varies may reach that.
+        Where its effort at rest is a number of its own, as several rows share it, a bound that varies may reach that;
+        ``limit`` is then what counts as none.
         """
         held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
         limit_at_rest, off = sum_of_terms(limit, *carried_bounds(self, beside)), call("sub", ONE, held)
         if self.changing and not self.pressed:
             limit_at_rest = call("add", self.static, limit_at_rest)
             shares = is_whole(number_of(self, "constant"), -1)
-            own = call("sub", self.static, call("abs", number_of(self, "effort")))
+            own = call("sub", call("add", self.static, limit), call("abs", number_of(self, "effort")))
             off = call("mul", off, call("add", call("sub", ONE, shares), call("mul", shares, own)))
         if self.pressed:
             limit_at_rest = call("add", call("mul", self.static, reaction_of(self)), limit)

@@ -24,7 +24,10 @@ def with_smooth(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
     """Return a mechanism with some rows as forces, dry friction and elastic stops, which ``NAME.force`` reports."""
     smooth = [row for row in rows if isinstance(row, Friction | ElasticStop)]
     bodies = {joint.name: joint.bodies for joint in mechanism.joints}
-    forces = tuple(Force(x.row, SMOOTH, bodies.get(x.owner, ()), (x.smooth_effort,)) for x in smooth)
+    forces = tuple(
+        Force(x.row, SMOOTH if isinstance(x, Friction) else x.family.one, bodies.get(x.owner, ()), (x.smooth_effort,))
+        for x in smooth
+    )
     outputs = tuple(
         Output(f"{row.name}.force", Reading(f"{row.name}.force", Exerted(force.efforts)), unit_of_effort(row))
         for row, force in zip(smooth, forces, strict=True)

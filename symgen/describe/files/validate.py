@@ -22,6 +22,7 @@ from symgen.describe.bounds.smooth import with_smooth
 from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
+from symgen.describe.formulas.readings import rows_read
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
@@ -210,7 +211,7 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self._seats.items()),
-            cuts=tuple(self._cuts),
+            cuts=self._joints_with_multipliers(joints, outputs),
             holds=tuple(holds),
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
@@ -222,6 +223,12 @@ class _Validator:
             check_bounds(mechanism, self.source)
             holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
+
+    def _joints_with_multipliers(self, joints: Sequence[Joint], outputs: Sequence[Output]) -> tuple[str, ...]:
+        """Return joints that carry nothing in a tree, as their reactions are read: those that cut, and of outputs."""
+        read = {row.rpartition(".")[0] for output in outputs for row in rows_read(output.value)}
+        drivers = {joint.name for joint in joints if joint.kind == "driver"}
+        return (*self._cuts, *(j.name for j in joints if j.name in read - drivers - set(self._cuts)))
 
     # Names ---------------------------------------------------------------------------------------------------------
 

@@ -101,7 +101,7 @@ class Needs:
         choice = self.choice
         if not choice.implicit:
             return {}
-        kinds = ("body", "joint", "force", "state")
+        kinds = ("body", "joint", "bound", "force", "state")
         keys = {kind: form_key(choice.method, choice.options, kind, self.shifted) for kind in kinds}
         return {stem: form_stem(keys[instance.kind], stem) for stem, instance in self.elements.items()}
 
@@ -284,7 +284,7 @@ def generate_looped(
 
 
 #: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
-_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
+_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
 
 
 def numbered(stems: Iterable[str]) -> dict[str, str]:

@@ -28,7 +28,8 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 TOUCHING = 1e-9
 #: A gap that a change of parameters or inputs leaves is closed from this part of the mechanism's length behind it on.
 DEEP = 1e-6
-#: A formula for a bound in motion may be this part above that for the bound at rest, by rounding.
+#: A formula for a bound in motion may be this part above that for the bound at rest, by rounding; a bound that falls
+#: may be below an effort that several rows share by this part of forces.
 ROUNDED = 1e-9
 #: A force above this part of its bound is at its bound, where the row has broken loose.
 AT_BOUND = 1.0 - 1e-9

@@ -20,6 +20,7 @@ from symgen.run.single.bounded_rows import (
     NO_ACCELERATION,
     NO_FACTOR,
     NOT_DETERMINED,
+    ROUNDED,
     SAME,
     SIGN,
     usual_of,
@@ -181,4 +182,7 @@ def share_force(c: Any, i: int, count: int) -> int:
             c.named[j] = -1
         return NOT_DETERMINED
     after[at + CONSTANT], after[at + EFFORT] = AT_REST, c.forces[i]
+    if is_followed(c, i):  # an effort at its bound is not watched at zero, and none is not watched
+        slack = ROUNDED * (c.scale[i] + abs(c.forces[i]) + c.static[i])
+        after[at + LIMIT] = slack if abs(c.forces[i]) > slack else 1.0
     return SAME

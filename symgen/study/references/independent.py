@@ -140,7 +140,7 @@ class IndependentEquations:
         return self._parted(self._numbers(t, q, v))
 
     def _numbers(self, t: float, q: Array, v: Array) -> Array:
-        """Return all outputs: those of `evaluate`, the rates of states, and the masses of rotors."""
+        """Return the numbers that `evaluate` parts, then the rates of states and the masses of rotors."""
         rest = np.zeros(self.n + len(self.mechanism.states) - len(v))
         return np.array(self._function(t, q.tolist(), [*v.tolist(), *rest.tolist()]), dtype=float)
 

@@ -4,8 +4,8 @@ The second derivation of a mechanism in space (`symgen.study.references.independ
 many motions of a stress study. Without one are beam elements, rows with bounds, and events that change the state.
 Compiled code can differ in the formulation of the equations and in the integrator. The motion is that of
 `direct-correction` with Runge-Kutta steps at a tight tolerance; its error is estimated from
-`index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps. Where friction
-depends on reactions, which that system finds by iteration, `lagrange` in joint coordinates takes its place.
+`index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps. Where bounds
+depend on reactions, which that system finds by iteration, `lagrange` in joint coordinates takes its place.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def derivable(mechanism: Mechanism) -> Mechanism:
 
 
 def _fitting(mechanism: Mechanism, routes: tuple[Route, ...]) -> tuple[Route, ...]:
-    """Return routes for massless bodies, which have no metric of masses, and for friction by reactions."""
+    """Return routes for massless bodies, which have no metric of masses, and for bounds by reactions."""
     first, second = routes
     if mechanism.has_massless:
         first = first._replace(options={})

@@ -127,7 +127,7 @@ class Base:
         return cls(str(model), raw)
 
     def without_events(self, but: Collection[str] = ()) -> Base:
-        """Return the base without its events, or with those of some actions alone."""
+        """Return the base without its events, but for events of some actions."""
         kept = {event.name for event in self.mechanism.events if event.action in but}
         events = {name: table for name, table in self.raw.get("events", {}).items() if name in kept}
         rest = {key: value for key, value in self.raw.items() if key != "events"}

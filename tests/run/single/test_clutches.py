@@ -103,6 +103,7 @@ def locked(slope: float) -> tuple[float, float]:
     return float(np.sqrt(2.0 * 10.0 / (slope * (1.0 / 2.0 + 1.0 / 3.0)))), 2.0 * 10.0 / 5.0
 
 
+@pytest.mark.fast("dop853-joint", "picard-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
 def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinates: str) -> None:
@@ -117,6 +118,7 @@ def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinate
         assert result["motor.omega"][-1] == pytest.approx(speed, abs=1e-10)
 
 
+@pytest.mark.fast("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_lock_as_runs_do(coordinates: str) -> None:
     """In the slowest row the clutch still slips at the end."""
@@ -227,6 +229,39 @@ def test_a_bound_over_the_rate_and_another_exponent() -> None:
         assert times_of(result) == [("pin.stick", pytest.approx(exact, abs=1e-10))]
 
 
+SLOPE = """
+[mechanism]
+name = "slope"
+gravity = [0.0, -10.0]
+
+[bodies.block]
+mass = 2.0
+inertia = 1.0
+velocity = [1.6, 1.2]
+
+[joints.slope]
+type = "translational"
+between = ["ground", "block"]
+at = [[0.0, 0.0], "centre"]
+axis = [4.0, 3.0]
+angle = 0.0
+friction = { coefficient = "0.25 + 0.1*rate", static_coefficient = "0.8 - 0.1*t" }
+"""
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_coefficients_are_formulas_too(coordinates: str) -> None:
+    """A block on a slope of 3 in 4 under 16 N stops by v' = -(8 + 0.8 v), and is held until 0.8 - 0.1 t is 12/16."""
+    result = model(SLOPE).simulate(until=1.0, coordinates=coordinates, **TIGHT)
+    stick = np.log(9.6 / 8.0) / 0.8
+    assert times_of(result) == [
+        ("slope.stick", pytest.approx(stick, abs=1e-10)),
+        ("slope.slip", pytest.approx(0.5, abs=1e-10)),
+    ]
+    speed = 5.0 * (1.0 - np.exp(-0.8 * 0.5))  # v' = 4 - 0.8 v down the slope
+    np.testing.assert_allclose(result["block.vx"][-1], -0.8 * speed, rtol=0.0, atol=1e-9)
+
+
 # -- several that hold one motion --------------------------------------------------------------------------------------
 
 GEARED = """
@@ -265,6 +300,7 @@ torque = 2.0
 """
 
 
+@pytest.mark.fast("2 - t-2 - t/10-0.9523809523809523-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(("one", "two", "time"), [("2 - t", "2 - t/10", 1.0 / 1.05), ("3 - t", "1 - t/10", 1.5 / 1.05)])
 def test_brakes_on_both_shafts_of_a_gear_hold_together(one: str, two: str, time: float, coordinates: str) -> None:
@@ -356,6 +392,7 @@ class ByAllModes:
         return w, times
 
 
+@pytest.mark.fast("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_three_clutches_in_a_chain(coordinates: str) -> None:
     """Of all modes at each transition only one is consistent; it and its times are found."""
@@ -370,8 +407,11 @@ def test_three_clutches_in_a_chain(coordinates: str) -> None:
 # -- a freewheel -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.fast("dop853-absolute", "rk4-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}, {"integrator": "rk4", "step": 0.01}])
+@pytest.mark.parametrize(
+    "steps", [TIGHT, {"integrator": "picard"}, {"integrator": "rk4", "step": 0.01}], ids=["dop853", "picard", "rk4"]
+)
 def test_a_freewheel(steps: dict[str, Any], coordinates: str) -> None:
     """Free forwards, held backwards: under 3 sin t N m it turns from rest to 3 rad/s, and stands again behind a period.
 
@@ -398,3 +438,58 @@ def test_a_ratchet_whose_pawl_slips() -> None:
     assert times_of(result) == [("pin.slip", pytest.approx(4.0 / 3.0, abs=1e-10))]
     assert result["pin.force"][-1] == pytest.approx(4.0, abs=1e-12)
     assert result["wheel.omega"][-1] == pytest.approx(-3.0 * (2.0 - 4.0 / 3.0) ** 2 / 2.0 / 2.0, abs=1e-10)
+
+
+RING = """
+[mechanism]
+name = "ring"
+
+[inputs]
+one = 1.5
+
+[bodies.a]
+mass = 1.0
+inertia = 2.0
+
+[bodies.b]
+mass = 1.0
+inertia = 2.0
+
+[joints.p]
+type = "revolute"
+between = ["ground", "a"]
+at = [[0.0, 0.0], "centre"]
+friction = { sliding = "one" }
+
+[joints.q]
+type = "revolute"
+between = ["ground", "b"]
+at = [[0.0, 0.0], "centre"]
+friction = { sliding = 2.0 }
+
+[joints.c]
+type = "revolute"
+between = ["a", "b"]
+at = ["centre", "centre"]
+friction = { sliding = 0.5 }
+
+[forces.drive]
+type = "torque"
+body = "a"
+torque = "t"
+"""
+
+
+@pytest.mark.fast("1.5-2.0-1.0-picard", "0.0-0.5-1.0-picard", "2 - t/4-2.0-1.25-dop853")
+@pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
+@pytest.mark.parametrize(("one", "time", "rate"), [(1.5, 2.0, 1.0), (0.0, 0.5, 1.0), ("2 - t/4", 2.0, 1.25)])
+def test_two_brakes_and_a_clutch_that_hold_two_wheels(
+    one: Any, time: float, rate: float, steps: dict[str, Any]
+) -> None:
+    """The first wheel slips where its brake and the clutch together hold no more: one + 0.5 = t."""
+    result = model(RING).simulate(until=3.0, inputs={"one": one}, **steps)
+    slips = dict(times_of(result))
+    assert set(slips) == {"p.slip", "c.slip"}
+    assert slips["c.slip"] == pytest.approx(time, abs=1e-7)
+    assert result["a.omega"][-1] == pytest.approx(rate * (3.0 - time) ** 2 / 2.0 / 2.0, abs=1e-8)
+    assert result["b.omega"][-1] == 0.0

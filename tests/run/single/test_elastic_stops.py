@@ -61,6 +61,7 @@ def bounces(until: float) -> tuple[list[float], float, float]:
 # -- stops that move ---------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.fast("formula-absolute", "input-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("lower", "inputs"),
@@ -118,6 +119,7 @@ def contact(k: float, c: float, m: float, v: float) -> tuple[float, float, float
     return end, float(np.max(k * x(times) + c * rate(times))), float(rate(end))
 
 
+@pytest.mark.fast("0.0-joint", "30.0-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("damping", [0.0, 30.0])
 def test_the_contact_with_an_elastic_stop(damping: float, coordinates: str) -> None:
@@ -137,6 +139,7 @@ def test_the_contact_with_an_elastic_stop(damping: float, coordinates: str) -> N
     assert result["taken"][-1] == pytest.approx(1.0 - speed**2, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_an_elastic_stop_in_targets_and_sweeps() -> None:
     """It is a force of the state: no modes, so code of every target has it, and a sweep its largest force."""
     model = slide('stop = { lower = "0.01*t", stiffness = 1000.0, damping = "20*part" }')

@@ -1,4 +1,4 @@
-"""Bodies, joints, forces and states as instances of kernels: structure apart from numbers.
+"""Bodies, joints, rows with bounds, forces and states as instances of kernels: structure apart from numbers.
 
 Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
 numbers and formulas of parameters become the parameters ``k0``, ``k1``, ..., states of the file ``z0``, ``z1``, ....
@@ -29,6 +29,7 @@ from symgen.base.vocabulary.expressions import (
 )
 from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 from symgen.derive.lower.windings import measures_of, turns
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.graph import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, StateVariable
@@ -48,7 +49,7 @@ class Instance:
 
     Parameters
     ----------
-    kind : {"body", "joint", "force", "state"}
+    kind : {"body", "joint", "bound", "force", "state"}
         Kind of element.
     name, label : str
         The element's name, and the readable name of its kind.
@@ -78,7 +79,7 @@ class Instance:
 
 
 def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
-    """Return all bodies, joints, forces and states of a mechanism as instances, rows that repeat others left out.
+    """Return all parts of a mechanism as instances in the order of their kinds, rows that repeat others left out.
 
     Parameters
     ----------
@@ -90,6 +91,7 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
     return (
         *(rewriting.body(body) for body in mechanism.bodies),
         *(rewriting.element("joint", joint) for joint in mechanism.joints),
+        *(rewriting.bound(row) for row in mechanism.bounded),
         *(rewriting.element("force", force) for force in mechanism.forces),
         *(rewriting.state(state) for state in mechanism.states),
     )
@@ -146,6 +148,18 @@ class _Rewriting:
         angles = turns(measures_of(element))
         return replace(instance, angles=angles) if angles else instance
 
+    def bound(self, row: BoundedRow) -> Instance:
+        """Return a row with bounds as an instance: its row, in force at times, and its effort where it is off."""
+        self.begin()
+        whole: Any = self.walk(row)
+        named = {field: "e" for field in ("name", "joint", "owner") if field in whole.__struct_fields__}
+        content = msgspec.structs.replace(whole, **named)
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance("bound", row.row, row.family.one, nothing, frames, content)
+        angles = turns([row.measure])
+        return replace(instance, angles=angles) if angles else instance
+
     def state(self, state: StateVariable) -> Instance:
         """Return a state of the file as an instance: its rate."""
         self.begin()
@@ -174,6 +188,7 @@ class _Rewriting:
             joints=(content,) if isinstance(content, Joint) else (),
             forces=(content,) if isinstance(content, Force) else (),
             states=tuple(StateVariable(alias, ZERO, ZERO) for alias in self.aliases.values()),
+            bounded=(content,) if kind == "bound" else (),
         )
         content = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
         key = kind.encode() + msgspec.json.encode(content)

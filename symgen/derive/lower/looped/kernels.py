@@ -42,13 +42,13 @@ class KernelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     Parameters
     ----------
     kind : str
-        ``body``, ``joint``, ``force`` or ``state``.
+        ``body``, ``joint``, ``bound``, ``force`` or ``state``.
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
         Number of constants of an instance, and of numbers computed from them once a run.
     rows : tuple of RowShape
-        Of a joint.
+        Of a joint, or of a row with bounds.
     coordinates, windings : int
         Reported coordinates of a joint, and angles whose turns are counted.
     spins : tuple of (int, int)
@@ -116,7 +116,12 @@ _PURPOSES = {
     "rates": {"body": "q' = N v", "state": "rates of states"},
     "move": "q += N change",
     "geometry": "Phi, nu and D",
-    "motion": {"body": "weights and inertia forces", "joint": "nu, D and gamma", "force": "applied forces and power"},
+    "motion": {
+        "body": "weights and inertia forces",
+        "joint": "nu, D and gamma",
+        "bound": "nu, D, gamma, force and power",
+        "force": "applied forces and power",
+    },
     "full": "Phi, nu, D and gamma",
     "energy": "energies",
     "wind": "angles whose turns are counted",
@@ -135,8 +140,7 @@ class _Kernel:
         return self.element.over_records(nodes, self.graph)
 
     def program(self) -> KernelProgram:
-        kinds = {"body": self.body, "joint": self.joint, "force": self.force, "state": self.state}
-        outputs = kinds[self.instance.kind]()
+        outputs: dict[str, Outputs] = getattr(self, self.instance.kind)()
         blocks = []
         for name, written in outputs.items():
             purpose: Any = _PURPOSES[name]
@@ -243,6 +247,39 @@ class _Kernel:
             "wind": self.winding(),
         }
 
+    def bound(self) -> dict[str, Outputs]:
+        """Return the outputs of the functions of a row with bounds.
+
+        Where it is off the row of D is zero, so that it takes no part in anything. Its entries as they are in force
+        stand behind its blocks, for transitions and starts, which know themselves which rows are off. The square of the
+        last slot is added to the diagonal of D W D^T, whatever W is, and keeps the pivot of a row that is off above 0.
+        """
+        e, g = self.e, self.graph
+        (row,) = e.rows
+        assert row.held is not None and row.phi is not None, "a row with bounds has a mode and a position"
+        held, phi, nu, gamma, *entries = self.copied(
+            [row.held, row.phi, row.nu, row.gamma, *(n for _, n in row.entries)]
+        )
+        slots, first = self.slots(), self.row_width
+        common: Outputs = [] if nu == g.zero else [(Target("nu", 0), g.mul(held, nu))]
+        common += [(Target("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
+        common += [(Target("jacobian", first + i), n) for i, n in enumerate(entries)]
+        size = g.call("sqrt", g.total(g.mul(n, n) for n in entries))
+        idle = g.mul(g.sub(g.one, held), size)
+        common += [(Target(section, first + len(entries)), idle) for section in ("jacobian", "left")]
+        quadratic: Outputs = [] if gamma == g.zero else [(Target("gamma", 0), g.mul(held, gamma))]
+        force = quadratic + self.force()["motion"]
+        return {
+            "geometry": [(Target("residual", 0), phi), *common],
+            "motion": common + force,
+            "full": [(Target("phi", 0), phi), *common, *force],
+        }
+
+    @property
+    def row_width(self) -> int:
+        """Length of the blocks of the first row."""
+        return sum(len(self.element.frames[f].v) for f in {f for f, _ in self.rows()[0].entries})
+
     def force(self) -> dict[str, Outputs]:
         """Return the outputs of a force's functions."""
         e, g = self.e, self.graph
@@ -272,11 +309,11 @@ class _Kernel:
 
     def rows(self) -> tuple[RowShape, ...]:
         """Return the shapes of a joint's rows."""
-        g = self.e.graph
+        g, varies = self.e.graph, self.instance.kind == "bound"
         return tuple(
             RowShape(
                 tuple(self.owner(j) for j, _ in row.entries),
-                tuple(g.value(n) for _, n in row.entries),
+                tuple(None if varies else g.value(n) for _, n in row.entries),
                 row.phi is not None,
                 row.nu != g.zero,
                 row.unit == "rad",

@@ -25,13 +25,13 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "turn": (("body", "turn"),),
     "normalise": (("body", "normalise"),),
     "wind": (("joint", "wind"), ("force", "wind")),
-    "geometry": (("joint", "geometry"),),
-    "motion": (("body", "motion"), ("joint", "motion"), ("force", "motion")),
-    "full": (("body", "motion"), ("joint", "full"), ("force", "motion")),
+    "geometry": (("joint", "geometry"), ("bound", "geometry")),
+    "motion": (("body", "motion"), ("joint", "motion"), ("bound", "motion"), ("force", "motion")),
+    "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("force", "motion")),
     "energy": (("body", "energy"), ("force", "energy")),
     "report": (("joint", "report"),),
-    "residuals": tuple((kind, "residual") for kind in ("body", "joint", "force", "state")),
-    "slopes": tuple((kind, "tangent") for kind in ("body", "joint", "force", "state")),
+    "residuals": tuple((kind, "residual") for kind in ("body", "joint", "bound", "force", "state")),
+    "slopes": tuple((kind, "tangent") for kind in ("body", "joint", "bound", "force", "state")),
 }
 
 #: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then the beginnings of tables.
