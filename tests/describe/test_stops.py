@@ -78,7 +78,7 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     model = symgen.load(four_bar({"lower": -1.0}))
     sentence = "expected a mechanism without stops, got A.lower"
     for refused in (
-        lambda: model.generate(target="c"),
+        lambda: model.generate(target="cuda"),
         lambda: model.inverse(actuators=["A"]),
         lambda: model.simulate(until=0.1, sensitivities=["crank_mass"]),
     ):
