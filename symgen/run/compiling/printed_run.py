@@ -21,14 +21,14 @@ from symgen.describe.bounds.modes import MODE
 from symgen.describe.parts.events import STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.printed import meanings_of
-from symgen.run.compiling.run_memory import modes_of_runs
+from symgen.run.compiling.run_memory import modes_of_runs, new_transitions
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import RowChunk, Span
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.loops.searching import decide
-from symgen.run.rows.kept_run import KeptModes, KeptOutput, Visible, kept_run, new_transitions
+from symgen.run.rows.kept_run import KeptModes, KeptOutput, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import new_state, sizes_of, span_of
@@ -92,7 +92,7 @@ class PrintedRun:
 
     @cached_property
     def functions(self) -> dict[str, lang.Function]:
-        """Emitted functions by their names in the text, beside those of a law and its model."""
+        """Emitted functions that a run has besides a law and its model, by their names in the text."""
         rows = self._rows
         sides = {
             SWITCHING: self.watched.function,
@@ -109,7 +109,7 @@ class PrintedRun:
         return functions
 
     def emitted(self, named: Mapping[str, lang.Function]) -> dict[int, lang.Function]:
-        """Return all emitted functions by their identity; `named` has those of the law, its model and here."""
+        """Return emitted functions by their identity; `named` has all that the text has, by name."""
         law, model, rows, effects = self.compiled.law_module, self.compiled.model, self._rows, self.watched.effects
         places = {
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},

@@ -11,6 +11,7 @@ from symgen.describe.parts.events import RESET
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
 from symgen.run.layout.probe import rate_functions
+from symgen.run.rows.kept_run import OF_LOG, Transitions
 from symgen.run.rows.row_events import OfEffects
 from symgen.run.rows.row_modes import OfModes
 from symgen.run.single.bounded_rows import first_step, new_choice
@@ -68,3 +69,9 @@ def modes_of_runs(compiled: CompiledModel, watched: Watched, rows: BoundedRows, 
     places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM, LEAVE))
     numbers = (np.array([at.get(name, -1) for name in watched.names]) for at in places)
     return OfModes(choice, strikes, effects, choosing, *numbers)
+
+
+def new_transitions(rows: int) -> Any:
+    """Return memory for the transitions of some rows with bounds."""
+    integers = (np.zeros(size, dtype=np.int64) for size in (OF_LOG, OF_LOG, 1))
+    return Transitions(np.zeros(OF_LOG), *integers, np.zeros(rows), np.zeros(rows, dtype=np.int64))

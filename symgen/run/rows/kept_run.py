@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import called, compiled_loop
 from symgen.compile.native import types
@@ -68,12 +66,6 @@ KeptOutput: Any = KEPT_OUTPUT.constructor
 #: - ends (shape (events,)): 1 for events that end the run.
 VISIBLE = record_type("Visible", __name__, ("y clock", _A), ("numbers ends", _K))
 Visible: Any = VISIBLE.constructor
-
-
-def new_transitions(rows: int) -> Any:
-    """Return memory for the transitions of some rows with bounds."""
-    integers = (np.zeros(size, dtype=np.int64) for size in (OF_LOG, OF_LOG, 1))
-    return Transitions(np.zeros(OF_LOG), *integers, np.zeros(rows), np.zeros(rows, dtype=np.int64))
 
 
 # -- transitions -------------------------------------------------------------------------------------------------------
