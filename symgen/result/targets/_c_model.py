@@ -232,7 +232,7 @@ class CModel:
         run, compiled = self.run, self.compiled
         watched = compile_events(self.mechanism, compiled, run.plan.events)
         assert watched is not None, "rows with bounds have events"
-        return PrintedRun(compiled, run.plan.integrator, run.spec, watched, run.start.datum or ())
+        return PrintedRun(compiled, run.plan.integrator, run.spec, watched, run.start.datum or (), run.plan.seams)
 
     @cached_property
     def events(self) -> PrintedEvents:

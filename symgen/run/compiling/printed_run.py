@@ -27,8 +27,9 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import RowChunk, Span
 from symgen.run.layout.redundancy import room_of_choice
+from symgen.run.loops.seams import preparing, seams_of
 from symgen.run.loops.searching import decide
-from symgen.run.rows.kept_run import KeptModes, KeptOutput, Visible, kept_run
+from symgen.run.rows.kept_run import KeptLoops, KeptModes, KeptOutput, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import new_state, sizes_of, span_of
@@ -37,7 +38,7 @@ from symgen.run.starts.assembler import layout_of
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.integrator import Integrator
-    from symgen.run.loops.run_spec import BoundedRows, RunSpec, Watched
+    from symgen.run.loops.run_spec import BoundedRows, RunSpec, Seam, Watched
 
 #: Names of emitted functions of a run in the text, by the places where a run has them.
 SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
@@ -82,6 +83,8 @@ class PrintedRun:
         Switching functions of events and modes.
     datum : sequence of float
         What coordinates are measured from.
+    seams : tuple of Seam
+        Times at which formulas jump or have kinks.
     """
 
     compiled: CompiledModel
@@ -89,6 +92,7 @@ class PrintedRun:
     spec: RunSpec
     watched: Watched
     datum: Sequence[float] = ()
+    seams: tuple[Seam, ...] = ()
 
     @cached_property
     def functions(self) -> dict[str, lang.Function]:
@@ -112,6 +116,7 @@ class PrintedRun:
         """Return emitted functions by their identity; `named` has all that the text has, by name."""
         law, model, rows, effects = self.compiled.law_module, self.compiled.model, self._rows, self.watched.effects
         places = {
+            **{"prepare_model": model.prepare, "prepare_law": law.prepare},
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
             **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
             **{"rates": getattr(law, "rates", None), SWITCHING: self.watched.function, ROWS: rows.state.function},
@@ -129,10 +134,10 @@ class PrintedRun:
         named : mapping of str to Function
             Emitted functions by their names in the text, those of `functions` among them.
         """
-        start, advance = kept_run(
-            self.integrator.loop(self.spec.adaptive), self.watched.effects is not None, bool(self._rows.pressed)
-        )
         emitted, (model, scheme, span, chunk, state, outputs, visible) = self.emitted(named), self._arguments
+        start, advance, steps = self._loops
+        if steps is not None:
+            emitted[id(steps)] = read_loop(steps, steps.signature.arguments, _plain, apart=True)
         limits = np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
         entries = dict[str, tuple[lang.Function, dict[str, Meaning]]]()
         for name, function, arguments in (
@@ -151,6 +156,11 @@ class PrintedRun:
     # -- arguments
 
     @property
+    def _loops(self) -> KeptLoops:
+        loop = self.integrator.loop(self.spec.adaptive)
+        return kept_run(loop, self.watched.effects is not None, bool(self._rows.pressed), bool(self.seams))
+
+    @property
     def _rows(self) -> BoundedRows:
         assert self.watched.bounded is not None, "a run with modes"
         return self.watched.bounded
@@ -166,7 +176,10 @@ class PrintedRun:
         modes = modes_of_runs(compiled, watched, self._rows, span, info.ny, len(state.w))
         kept = KeptModes(*modes, new_transitions(len(self._rows.names)))
         rates = rate_functions(compiled.law_module)
-        model = (sizes, *setup.functions, watched.function, decide, rates[0])
+        model: tuple[Any, ...] = (sizes, *setup.functions, watched.function, decide, rates[0])
+        if self.seams:
+            seams = seams_of(compiled, self.spec.adaptive, (self.seams,))
+            model = model, seams, self._loops.steps, *preparing(compiled)
         observers = sizes, *rates, compiled.law_module.accept, observe_nothing
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
         own = sum(action != MODE for action in watched.actions)  # a row keeps no events of modes, which end no run
@@ -216,6 +229,8 @@ def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
 def _is_constant(path: str) -> bool:
     """Whether an array never changes."""
     *owners, field = path.split(".")
+    if owners[:3] == ["model", "0", "1"]:  # seams
+        return True
     return not _TABLES.isdisjoint(owners) or field in _CONSTANT.get(owners[-1], ())
 
 

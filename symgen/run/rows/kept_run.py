@@ -8,7 +8,7 @@ may stand at the end of the step behind it. Where a caller changes what is shown
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import called, compiled_loop
@@ -19,10 +19,13 @@ from symgen.run.layout.records import CHUNK, SPAN, Span
 from symgen.run.layout.start_records import record_type
 from symgen.run.loops import frame
 from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS
+from symgen.run.loops.seams import SEAMS, between_seams, due
 from symgen.run.rows.row_modes import (
     OF_MODES,
     OfModes,
     begin_modes,
+    begin_modes_between_seams,
+    choose_after_change,
     forget_modes,
     strike_gaps,
     take_modes,
@@ -137,6 +140,30 @@ def return_to_shown(until: float, visible: Any, state: Any, outputs: Any) -> Non
     control[abi.BEGUN] = abi.AFRESH if control[abi.BEGUN] != 0 else 0
 
 
+# -- seams -------------------------------------------------------------------------------------------------------------
+
+
+def begin_at_seams(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where a run without seams begins; return `DONE` or the code of an end."""
+    return int(begin_modes(model, span, state))
+
+
+def return_before_seams(system: Any, state: Any) -> None:
+    """Do nothing: a run without seams has passed none."""
+
+
+def take_change(model: Any, span: Any, state: Any) -> int:
+    """Return the end code of a run without seams, whose inputs no seam changes."""
+    return int(abi.UNPREPARED)
+
+
+def forget_later_seams(system: Any, state: Any) -> None:
+    """Forget that seams behind the present time have been passed."""
+    _, seams, _, _, _ = system
+    while state.control[abi.PASSED] > 0 and due(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
+        state.control[abi.PASSED] -= 1
+
+
 # -- the run -----------------------------------------------------------------------------------------------------------
 
 
@@ -197,7 +224,9 @@ def go_on(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: A
     if visible.numbers[STANDS] != 0:
         code = meet(model, chunk, state, visible)
     if code == abi.MET and visible.numbers[CHANGED] != 0:
-        code = abi.MET if begin_modes(model, span, state) == abi.DONE else e.NO_MODES
+        return_before_seams(system, state)
+        code = begin_at_seams(model, span, state) if control[abi.BEGUN] == 0 else begin_modes(model, span, state)
+        code = abi.MET if code == abi.DONE else code
     visible.numbers[CHANGED] = 0
     while code < abi.DONE:
         ahead = 1.0 if until - clock[abi.TIME] > near else 0.0
@@ -205,6 +234,8 @@ def go_on(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: A
         code = integrate(system, scheme, part, state, outputs)
         if code == abi.CHOOSE:
             follow_rows(chunk, state, state.w)
+        elif code == abi.CHANGED:
+            code = take_change(model, part, state)
         elif code == abi.NOTED:
             take_modes(code, 0, model, chunk, state)
         elif code == abi.MET and control[abi.OUTPUTS] > 0 and until < clock[abi.TIME] - near:
@@ -274,33 +305,61 @@ def integrate(*arguments: Any) -> int:
     raise NotImplementedError
 
 
-_loops: dict[Any, tuple[Any, Any]] = {}
+_loops: dict[Any, KeptLoops] = {}
+_SEAMED = {
+    **{"begin_at_seams": begin_modes_between_seams, "return_before_seams": forget_later_seams},
+    **{"take_change": choose_after_change, "integrate": between_seams},
+}
 
 
-def kept_run(loop: Any, impacts: bool, pressed: bool) -> tuple[Any, Any]:
-    """Return `start_run` and `advance_run` around the loop of a scheme, made at the first use.
+class KeptLoops(NamedTuple):
+    """Compiled functions of runs with modes that are kept between calls.
+
+    Attributes
+    ----------
+    start, advance : compiled functions
+        `start_run` and `advance_run`.
+    steps : compiled loop or None
+        The loop between two seams, where a run has any: `advance` calls it by its address.
+    """
+
+    start: Any
+    advance: Any
+    steps: Any
+
+
+def kept_run(loop: Any, impacts: bool, pressed: bool, seams: bool) -> KeptLoops:
+    """Return the functions around the loop of a scheme, made at the first use.
 
     Parameters
     ----------
     loop : compiled loop
         From `symgen.run.loops.frame.loop`.
-    impacts, pressed : bool
-        Whether events change velocities or gaps strike; whether bounds depend on reactions.
+    impacts, pressed, seams : bool
+        Whether events change velocities or gaps strike; whether bounds depend on reactions; whether formulas jump or
+        have kinks over time.
     """
-    key = loop, impacts, pressed
+    key = loop, impacts, pressed, seams
     if key not in _loops:
         (module, own, scheme, *functions), meanings = frame.RECIPES[loop]
+        meanings = {**meanings, **MEANINGS, "store": show, "_MAX_PASSAGES": 1}
         system = types.RecordType((*frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS))
-        model = types.RecordType((system, OBSERVERS, KEPT_MODES))
-        name = f"{module.rpartition('.')[2]}_{own}" + "_striking" * impacts + "_pressed" * pressed
-        meanings = {**meanings, **MEANINGS, **MODES, **(STRIKING if impacts else {}), **(PRESSED if pressed else {})}
-        meanings |= {"store": show, "choose_here": choose_and_log, "integrate": frame.integrate, "_MAX_PASSAGES": 1}
+        steps, name = None, f"{module.rpartition('.')[2]}_{own}"
+        if seams:
+            signature = types.int64(system, scheme, SPAN, EVENT_STATE, KEPT_OUTPUT)
+            steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
+            system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+        name += "_striking" * impacts + "_pressed" * pressed + "_seamed" * seams
+        meanings |= {**MODES, **(STRIKING if impacts else {}), **(PRESSED if pressed else {})}
+        meanings |= {"choose_here": choose_and_log, **(_SEAMED if seams else {"integrate": frame.integrate})}
         meanings |= {"meet_impacts": strike_and_log} if impacts else {}
+        model = types.RecordType((system, OBSERVERS, KEPT_MODES))
         kinds = CHUNK, EVENT_STATE, KEPT_OUTPUT, VISIBLE
         start = types.int64(model, _A, CHUNK, EVENT_STATE, VISIBLE)
         advance = types.int64(types.int64, model, scheme, SPAN, *kinds)
-        _loops[key] = (
+        _loops[key] = KeptLoops(
             compiled_loop(__name__, f"{name}_start", start_run, start, **meanings),
             compiled_loop(__name__, f"{name}_advance", advance_run, advance, **meanings),
+            steps,
         )
     return _loops[key]
