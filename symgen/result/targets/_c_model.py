@@ -206,6 +206,7 @@ class CModel:
             # compilers follow loops that end after one number once more, and miss the second
             memory = {name: (kind, max(size, 2)) for name, (kind, size) in memory.items()}
             memory["step_first"] = memory["step_middle"] = "float", self.compiled.info.ny
+            memory["kept_w"], memory["kept_iw"] = ("float", len(self.run.start.w)), ("int", len(COUNTERS))
         return memory
 
     @cached_property
