@@ -19,9 +19,9 @@ from symgen.describe.parts.events import RESET, STOP
 from symgen.result.targets._c_modes import values_of_modes
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.run.compiling.checked import checked, checked_function
-from symgen.run.compiling.events import DIRECTIONS, compile_events
+from symgen.run.compiling.events import DIRECTIONS
 from symgen.run.compiling.printed import Printed, PrintedEvents
-from symgen.run.compiling.printed_run import PrintedRun
+from symgen.run.compiling.printed_run import PrintedRun, run_with_modes
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
@@ -228,12 +228,7 @@ class CModel:
     @cached_property
     def printed_run(self) -> PrintedRun | None:
         """The run, where the mechanism has rows with bounds."""
-        if not self.mechanism.bounded:
-            return None
-        run, compiled = self.run, self.compiled
-        watched = compile_events(self.mechanism, compiled, run.plan.events)
-        assert watched is not None, "rows with bounds have events"
-        return PrintedRun(compiled, run.plan.integrator, run.spec, watched, run.start.datum or (), run.plan.seams)
+        return run_with_modes(self.mechanism, self.run, self.compiled, self.run.start.datum or ())
 
     @cached_property
     def events(self) -> PrintedEvents:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.compile.native.c99 import broken_line, c_number
-from symgen.describe.bounds import modes
+from symgen.run.compiling.printed_run import WORDS
 from symgen.run.rows import kept_run
 
 if TYPE_CHECKING:
@@ -15,16 +15,6 @@ if TYPE_CHECKING:
 
     from symgen.describe.mechanism import Mechanism
     from symgen.run.compiling.printed_run import PrintedRun
-
-#: Words of transitions, in their order.
-WORDS = {
-    kept_run.SLIP: modes.SLIP,
-    kept_run.STICK: modes.STICK,
-    kept_run.REVERSE: modes.REVERSE,
-    kept_run.HIT: modes.HIT,
-    kept_run.REST: modes.REST,
-    kept_run.LEAVE: modes.LEAVE,
-}
 
 
 def values_of_modes(
@@ -43,7 +33,7 @@ def values_of_modes(
     """
     return {
         "bounded": [row.name for row in mechanism.bounded],
-        "words": [WORDS[k] for k in sorted(WORDS)],
+        "words": WORDS,
         "of_log": kept_run.OF_LOG,
         "functions_of_events": len(run.watched.names),
         "ending": kept_run.ENDING,

@@ -17,9 +17,10 @@ from symgen.compile.native.binding import Meaning
 from symgen.compile.native.loops import read_loop
 from symgen.compile.native.pieces import Piece
 from symgen.compile.store.jit import RuntimeFunction
-from symgen.describe.bounds.modes import MODE
+from symgen.describe.bounds import modes
 from symgen.describe.parts.events import STOP
 from symgen.run.compiling.checked import checked_function
+from symgen.run.compiling.events import compile_events
 from symgen.run.compiling.printed import meanings_of
 from symgen.run.compiling.run_memory import modes_of_runs, new_transitions
 from symgen.run.layout import abi
@@ -36,9 +37,11 @@ from symgen.run.single.new_state import new_state, sizes_of, span_of
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.integrator import Integrator
     from symgen.run.loops.run_spec import BoundedRows, RunSpec, Seam, Watched
+    from symgen.run.planning.prepare import Prepared
 
 #: Names of emitted functions of a run in the text, by the places where a run has them.
 SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
@@ -48,6 +51,10 @@ SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
     "formulas_of_reactions",
     "formulas_of_effects",
 )
+#: Name of the search for events inside a step, the same for all models.
+FINDER = "find_events"
+#: Words of transitions, by the numbers of `symgen.run.rows.kept_run`.
+WORDS = (modes.SLIP, modes.STICK, modes.REVERSE, modes.HIT, modes.REST, modes.LEAVE)
 #: Arrays that never change: of records with these names, and fields of others, by the name of the record.
 _TABLES = frozenset(("layout", "changes", "scheme"))
 _CONSTANT = {
@@ -106,7 +113,7 @@ class PrintedRun:
             CHANGED: None if self.watched.effects is None else self.watched.effects.formulas,
         }
         functions = {name: checked_function(f, abi.OBSERVE) for name, f in sides.items() if f is not None}
-        functions["find_events"] = checked_function(decide, abi.DECIDE)
+        functions[FINDER] = checked_function(decide, abi.DECIDE)
         law = self.compiled.law_module
         if hasattr(law, "rates"):
             functions["rates"] = checked_function(law.rates, abi.RHS)
@@ -116,11 +123,12 @@ class PrintedRun:
         """Return emitted functions by their identity; `named` has all that the text has, by name."""
         law, model, rows, effects = self.compiled.law_module, self.compiled.model, self._rows, self.watched.effects
         places = {
-            **{"prepare_model": model.prepare, "prepare_law": law.prepare},
+            **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # the latter name is that of C
+            **dict.fromkeys(("prepareLaw", "prepare_law"), law.prepare),
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
             **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
             **{"rates": getattr(law, "rates", None), SWITCHING: self.watched.function, ROWS: rows.state.function},
-            **{ACCELERATIONS: rows.accelerations.function, "find_events": decide},
+            **{ACCELERATIONS: rows.accelerations.function, FINDER: decide},
             REACTIONS: None if rows.reactions is None else rows.reactions.function,
             CHANGED: None if effects is None else effects.formulas,
         }
@@ -173,8 +181,8 @@ class PrintedRun:
         sizes, span = sizes._replace(width=info.ny), span_of(self.spec, setup)
         state: Any = new_state(compiled, sizes, setup.memory, setup.room, self.datum)
         state = event_state(watched, sizes, state)._replace(passages=np.zeros(abi.N_PASSAGE))
-        modes = modes_of_runs(compiled, watched, self._rows, span, info.ny, len(state.w))
-        kept = KeptModes(*modes, new_transitions(len(self._rows.names)))
+        of_rows = modes_of_runs(compiled, watched, self._rows, span, info.ny, len(state.w))
+        kept = KeptModes(*of_rows, new_transitions(len(self._rows.names)))
         rates = rate_functions(compiled.law_module)
         model: tuple[Any, ...] = (sizes, *setup.functions, watched.function, decide, rates[0])
         if self.seams:
@@ -182,7 +190,9 @@ class PrintedRun:
             model = model, seams, self._loops.steps, *preparing(compiled)
         observers = sizes, *rates, compiled.law_module.accept, observe_nothing
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
-        own = sum(action != MODE for action in watched.actions)  # a row keeps no events of modes, which end no run
+        own = sum(
+            action != modes.MODE for action in watched.actions
+        )  # a row keeps no events of modes, which end no run
         events = np.zeros(e.HEAD_OF_EVENTS + e.OF_EVENT * own)
         arrays = integers, nothing, np.zeros(len(state.p)), nothing, nothing, integers, nothing, nothing, events
         room = np.zeros(room_of_choice(info.m, info.nv))
@@ -214,6 +224,27 @@ class PrintedRun:
     def _room(self, name: str) -> str | None:
         """Return the name of an array in the memory; see `symgen.run.compiling.printed.Naming`."""
         return self._by_path.get(name) or None
+
+
+def run_with_modes(
+    mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float]
+) -> PrintedRun | None:
+    """Return a run for printers, None where no row of the mechanism has bounds.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With its tree in joint coordinates.
+    run : Prepared
+        Scheme, steps, limits and events.
+    compiled, datum
+        As for a `PrintedRun`.
+    """
+    if not mechanism.bounded:
+        return None
+    watched = compile_events(mechanism, compiled, run.plan.events)
+    assert watched is not None, "rows with bounds have events"
+    return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams)
 
 
 def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
