@@ -309,7 +309,7 @@ def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Liv
         if name in units and not name.endswith("tolerance")
     ]
     bodies = None if run.tree is None else run.tree.bodies
-    text, spec = live_columns(mechanism, run.compiled, run.start, bodies)
+    text, spec = live_columns(mechanism, run.compiled, run.start, bodies, run.mechanism)
     return replace(
         live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
     )

@@ -171,7 +171,7 @@ def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
         if name not in ("y", "p", "w", "iw") and np.any(array)
     }
     rows = [row.name for row in mechanism.bounded]
-    return {"rows": rows, "words": list(WORDS), "kept": kept_run.OF_LOG, "initial": initial}
+    return {"rows": rows, "words": list(WORDS), "kept": kept_run.OF_LOG, "status": abi.N_STATUS, "initial": initial}
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -114,9 +114,11 @@ def choose_and_log(model: Any, state: Any) -> int:
 
 
 def show(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
-    """Write the only output: the state, and angles with counted turns and modes of rows."""
+    """Write the only output: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[i] = y[i]
+    for i in range(abi.N_STATUS):
+        outputs.status[i] = w[i]
     for i in range(abi.N_STATUS, outputs.status.shape[0]):
         outputs.status[i] = w[abi.WINDING - abi.N_STATUS + i]
 

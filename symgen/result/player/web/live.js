@@ -6,8 +6,9 @@ function makeLive(spec, code) {
 
   // What functions of the runtime take: parameters, scratch, counters and working memory.
   const memory = code.newMemory(p, w, iw), modes = spec.modes;
-  for (const [name, numbers] of Object.entries(modes ? modes.initial : {})) {
-    for (const [i, x] of memory[name] ? numbers : []) memory[name][i] = x === null ? Infinity : x;
+  const initial = modes ? modes.initial : {};
+  for (const [name, array] of Object.entries(memory)) {
+    for (const [i, x] of initial[name] || []) array[i] = x === null ? Infinity : x;
   }
 
   // -- the start ------------------------------------------------------------------------------------------------------
@@ -37,7 +38,9 @@ function makeLive(spec, code) {
     if (!y || !modes) return y;
     told = 0;
     code.start_run(memory);
-    return code.advance_run(memory, 0, spec.step, 0) === 2 ? null : memory.y.slice();
+    const failed = code.advance_run(memory, 0, spec.step, 0) === 2;
+    stand();
+    return failed ? null : memory.y.slice();
   }
 
   // Whether it closes with another value of one parameter; the parameters stay as they are.
@@ -70,12 +73,23 @@ function makeLive(spec, code) {
     return result === 0;
   }
 
+  // The scratch of the run, which may stand at the end of a step behind what is shown; the page has the measures of that.
+  const own = { w: new Float64Array(w.length), iw: new Float64Array(iw.length) };
+  function stand() {
+    own.w.set(w);
+    own.iw.set(iw);
+    w.set(memory.run_status.subarray(0, modes.status));
+  }
+
   // The loop of runs: no step of it is shortened for the end of this one.
   function stepInModes(t, y, h) {
     const { run_shown, run_times } = memory;
+    w.set(own.w);
+    iw.set(own.iw);
     memory.y.set(y.subarray(0, ny));
     run_shown[0] = Math.abs(t - run_times[0]) < 1e-9 * h ? run_times[0] : t;
     result = code.advance_run(memory, 1, spec.step, t + h);
+    stand();
     y.set(memory.y);
     return result === 0;
   }
