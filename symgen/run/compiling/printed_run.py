@@ -28,8 +28,9 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import RowChunk, Span
 from symgen.run.layout.redundancy import room_of_choice
+from symgen.run.loops.event_loop import notes_at
 from symgen.run.loops.seams import preparing, seams_of
-from symgen.run.loops.searching import decide
+from symgen.run.loops.searching import deciding
 from symgen.run.rows.kept_run import KeptLoops, KeptModes, KeptOutput, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
@@ -51,6 +52,8 @@ SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
     "formulas_of_reactions",
     "formulas_of_effects",
 )
+#: Room for notes of events in a step, beside twice those of all events.
+_NOTES = 8
 #: Name of the search for events inside a step, the same for all models.
 FINDER = "find_events"
 #: Words of transitions, by the numbers of `symgen.run.rows.kept_run`.
@@ -113,7 +116,7 @@ class PrintedRun:
             CHANGED: None if self.watched.effects is None else self.watched.effects.formulas,
         }
         functions = {name: checked_function(f, abi.OBSERVE) for name, f in sides.items() if f is not None}
-        functions[FINDER] = checked_function(decide, abi.DECIDE)
+        functions[FINDER] = checked_function(self._decide, abi.DECIDE)
         law = self.compiled.law_module
         if hasattr(law, "rates"):
             functions["rates"] = checked_function(law.rates, abi.RHS)
@@ -128,7 +131,7 @@ class PrintedRun:
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
             **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
             **{"rates": getattr(law, "rates", None), SWITCHING: self.watched.function, ROWS: rows.state.function},
-            **{ACCELERATIONS: rows.accelerations.function, FINDER: decide},
+            **{ACCELERATIONS: rows.accelerations.function, FINDER: self._decide},
             REACTIONS: None if rows.reactions is None else rows.reactions.function,
             CHANGED: None if effects is None else effects.formulas,
         }
@@ -168,6 +171,18 @@ class PrintedRun:
         loop = self.integrator.loop(self.spec.adaptive)
         return kept_run(loop, self.watched.effects is not None, bool(self._rows.pressed), bool(self.seams))
 
+    @cached_property
+    def _decide(self) -> Any:
+        return deciding(_NOTES)
+
+    def _hunt(self, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the data of events with room for few notes: those of each step are taken before the next one."""
+        watched, width = self.watched, self.compiled.info.ny
+        if watched.switches:  # whose points stand behind the notes
+            return hunt
+        first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
+        return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
+
     @property
     def _rows(self) -> BoundedRows:
         assert self.watched.bounded is not None, "a run with modes"
@@ -180,11 +195,12 @@ class PrintedRun:
         setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), sizes_of(compiled)
         sizes, span = sizes._replace(width=info.ny), span_of(self.spec, setup)
         state: Any = new_state(compiled, sizes, setup.memory, setup.room, self.datum)
-        state = event_state(watched, sizes, state)._replace(passages=np.zeros(abi.N_PASSAGE))
+        state = event_state(watched, sizes, state)
+        state = state._replace(passages=np.zeros(abi.N_PASSAGE), hunt=self._hunt(state.hunt))
         of_rows = modes_of_runs(compiled, watched, self._rows, span, info.ny, len(state.w))
         kept = KeptModes(*of_rows, new_transitions(len(self._rows.names)))
         rates = rate_functions(compiled.law_module)
-        model: tuple[Any, ...] = (sizes, *setup.functions, watched.function, decide, rates[0])
+        model: tuple[Any, ...] = (sizes, *setup.functions, watched.function, self._decide, rates[0])
         if self.seams:
             seams = seams_of(compiled, self.spec.adaptive, (self.seams,))
             model = model, seams, self._loops.steps, *preparing(compiled)
