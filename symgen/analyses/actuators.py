@@ -16,6 +16,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.contacts import CHEAP, Contacts, Flags
 from symgen.analyses.prescribed import drivers_of, instantaneous, without
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
@@ -203,6 +204,7 @@ def balance(
     settings: Settings,
     record: Recorded,
     weights: Mapping[str, float] | None,
+    contacts: Contacts,
 ) -> Balanced:
     """Return the efforts of actuators in a recorded motion.
 
@@ -216,6 +218,8 @@ def balance(
         The motion.
     weights : mapping of str to float, optional
         Of efforts that are not unique, by actuators.
+    contacts : Contacts
+        Rows with bounds whose forces are inputs of the mechanism.
 
     Raises
     ------
@@ -231,19 +235,17 @@ def balance(
         if name not in names:
             raise InputError("weights", "the name of an actuator", quoted(name), nearest(name, names))
         arguments.number(f"weights '{name}'", value, positive=True)
-    still, *others = _motions(mechanism, actuators, settings, record)
-    length = float(still.start.w[abi.LENGTH])
-    weighed = [float(weights.get(a.name, 1.0 / length if a.turning else 1.0)) for a in actuators]
-    efforts, missing, ranks = _solved(still, others, np.array(weighed))
-    base = still.responses.multipliers
-    lam = base + sum((o.responses.multipliers - base) * efforts[:, [j]] for j, o in enumerate(others))
+    still, *others = _motions(mechanism, actuators, contacts.parameters, settings, record)
+    length, count = float(still.start.w[abi.LENGTH]), len(actuators)
+    weighed = np.array([float(weights.get(a.name, 1.0 / length if a.turning else 1.0)) for a in actuators])
+    efforts, missing, ranks, lam, found = _with_contacts(mechanism, still, others, weighed, contacts)
     motion = replace(still, prescribed_multipliers=lam)
     formulas = [(f"{a.name}.rate", a.rate) for a in actuators if a.rate is not None]
     rates = np.zeros((len(motion.times), 0))
     if formulas:
         side = compile_side(mechanism, motion.compiled, "rates", "rates of what actuators work along", formulas)
         rates = motion.observed(side.function, len(formulas))
-    notes, count, rank = list[str](), efforts.shape[1], int(ranks.max(initial=0))
+    notes, rank = found, int(ranks.max(initial=0))
     if rank < count:
         how = "weighted as asked" if weights else "torques over the mechanism's length"
         several = "1 actuator moves" if count == 1 else f"{count} actuators move"
@@ -261,10 +263,50 @@ def balance(
     return Balanced(motion, efforts, rates, missing, notes)
 
 
+def _with_contacts(
+    mechanism: Mechanism,
+    still: PrescribedMotion,
+    others: list[PrescribedMotion],
+    weighed: Array,
+    contacts: Contacts,
+) -> tuple[Array, Array, NDArray[np.int64], Array, list[str]]:
+    """Return efforts, accelerations left and ranks as `_solved` does, multipliers, and sentences on `contacts`."""
+    count, first = len(weighed), len(weighed) + len(contacts.sliding)
+    base = still.responses
+    ways = [other.responses.multipliers - base.multipliers for other in others]
+
+    def multipliers(efforts: Array, columns: Sequence[int]) -> Array:
+        found: Array = base.multipliers + sum(ways[j] * efforts[:, [i]] for i, j in enumerate(columns))
+        return found
+
+    if not contacts.rows:
+        efforts, missing, ranks = _solved(still, others, weighed)
+        return efforts, missing, ranks, multipliers(efforts, range(count)), []
+    pushes = [other.responses.accelerations - base.accelerations for other in others[count:first]]
+    free, cheap = [*range(count), *range(first, len(others))], np.full(len(others) - first, CHEAP * weighed.min())
+    acting = np.ones((len(still.times), len(free)), dtype=np.bool_)
+
+    def solve(forces: Array, pushing: Flags) -> tuple[Array, Array]:
+        nonlocal missing
+        acting[:, count:] = pushing
+        pushed = sum((a * forces[:, [i]] for i, a in enumerate(pushes)), np.zeros_like(base.accelerations))
+        efforts, missing, _ = _solved(still, [others[j] for j in free], np.append(weighed, cheap), acting, pushed)
+        return efforts, multipliers(np.column_stack([forces, efforts]), [*range(count, first), *free])
+
+    missing = np.zeros(len(still.times))
+    forces, pushing, said = contacts.along(mechanism, still, float(still.start.w[abi.LENGTH])).found(solve)
+    efforts, lam = solve(forces, pushing)
+    return efforts[:, :count], missing, _solved(still, others[:count], weighed)[2], lam, said
+
+
 def _motions(
-    mechanism: Mechanism, actuators: tuple[Actuator, ...], settings: Settings, record: Recorded
+    mechanism: Mechanism,
+    actuators: tuple[Actuator, ...],
+    loads: tuple[str, ...],
+    settings: Settings,
+    record: Recorded,
 ) -> list[PrescribedMotion]:
-    """Return the motion without efforts, then with an effort of 1 of each actuator."""
+    """Return the motion without efforts, then with an effort of 1 of each actuator, then with each load of 1."""
     plan = make_plan(mechanism, settings, Purpose.STATE)
     values, code = parameter_values(mechanism, settings.parameters), compiled_for(mechanism, plan.choice)
     info = code.info
@@ -299,34 +341,43 @@ def _motions(
     still = replace(still, status_columns=still.measured())
     places = {parameter.name: i for i, parameter in enumerate(info.parameters)}
 
-    def with_effort(actuator: Actuator, value: float) -> PrescribedMotion:
+    def with_effort(parameter: str, value: float) -> PrescribedMotion:
         other = start.p.copy()
-        other[places[actuator.parameter]] = value
+        other[places[parameter]] = value
         compiled.prepare(other)
         return replace(still, p=other)
 
     for actuator in actuators:
         still.p[places[actuator.parameter]] = 0.0
-    ones = [with_effort(actuator, 1.0) for actuator in actuators]
+    ones = [with_effort(actuator.parameter, 1.0) for actuator in actuators]
     none = still.responses.accelerations
     for actuator, one in zip(actuators, ones, strict=True):
         if actuator.rate is None:
             once = one.responses.accelerations - none
-            twice = with_effort(actuator, 2.0).responses.accelerations - none
+            twice = with_effort(actuator.parameter, 2.0).responses.accelerations - none
             if not np.abs(twice - 2.0 * once).max() <= LINEAR * np.abs(once).max(initial=1e-300):
                 raise InputError(WHERE, "inputs that efforts are proportional to", quoted(actuator.name))
-    return [still, *ones]
+    return [still, *ones, *(with_effort(name, 1.0) for name in loads)]
 
 
 def _solved(
-    still: PrescribedMotion, others: list[PrescribedMotion], weighed: Array
+    still: PrescribedMotion,
+    others: list[PrescribedMotion],
+    weighed: Array,
+    acting: Flags | None = None,
+    pushed: Array | float = 0.0,
 ) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Return efforts, shape (k, n), the accelerations left, shape (k,), and degrees of freedom moved."""
+    """Return efforts, shape (k, n), the accelerations left, shape (k,), and degrees of freedom moved.
+
+    `acting` says when each effort can act, by default always; `pushed` are accelerations by other forces.
+    """
     scale = 1.0 / np.sqrt(still.compiled.section(still.start.w, "gauge"))
     base = still.responses.accelerations
     effects = np.stack([other.responses.accelerations - base for other in others], axis=-1)
     effects = effects * scale[:, np.newaxis]
-    goals = (still.prescribed_accelerations - base) * scale
+    if acting is not None:
+        effects = np.where(acting[:, np.newaxis], effects, 0.0)
+    goals = (still.prescribed_accelerations - base - pushed) * scale
     # a motor of a crane and one of a watch: whether efforts are told apart does not depend on what they move
     sizes = np.linalg.norm(effects, axis=1)
     silent = sizes <= SILENT * np.maximum(sizes.max(axis=1), np.linalg.norm(base * scale, axis=1))[:, np.newaxis]

@@ -74,6 +74,11 @@ def band_of(mechanism: Mechanism, parameters: Mapping[str, float], rest: Settled
     pressed = ", ".join(row.name for row in rows if row.pressed)
     if pressed:
         return Band({}, f"{left_out}: no band of them, as {words.one} of {pressed} depends on reactions")
+    changing = ", ".join(row.name for row in rows if row.changing)
+    if changing:
+        return Band({}, f"{left_out}: no band of them, as bounds of {changing} are formulas of more than parameters")
+    if unequal := ", ".join(row.name for row in rows if row.unequal):
+        return Band({}, f"{left_out}: no band of them, as bounds of {unequal} differ in the two directions")
     names = [coordinate_of(mechanism, row) for row in rows]
     bounds = [evaluate(row.numbers[0][1], parameters, f"{row.family.one} of {row.name}") for row in rows]
     rates = np.abs(_rates(subject, rest.y, names))

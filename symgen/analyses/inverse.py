@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.actuators import WHERE, actuated, balance
+from symgen.analyses.contacts import Contacts
 from symgen.analyses.kinematics import Kinematics, driven_motion
 from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
 from symgen.base.digits import cleaned
 from symgen.base.errors import InputError, counted
-from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.inputs import are_words_of_data
@@ -172,8 +172,8 @@ def inverse_dynamics(
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
-    mechanism = with_sliding(WHERE, mechanism)
-    refuse_bounds(WHERE, mechanism)
+    contacts = Contacts.of(mechanism)
+    mechanism = with_sliding(WHERE, mechanism, contacts.rows)
     names = arguments.words(WHERE, actuators)
     if len(set(names)) < len(names):
         raise InputError(WHERE, "each name once", ", ".join(names))
@@ -181,13 +181,14 @@ def inverse_dynamics(
     names, moved = names or drivers, None
     if motion is None:
         moved = driven_motion(mechanism, settings, times, where="inverse")
-        if set(names) == set(drivers) and not weights:
+        if set(names) == set(drivers) and not weights and not contacts.rows:
             return _of_drivers(moved, names)
     elif times is not None:
         raise InputError("inverse: times", "the times of the motion that is given", "others")
     is_file = isinstance(motion, str | Path)
     record = read_recorded("inverse: motion", Path(motion)) if is_file else recorded(moved or motion)
-    efforts = _of_record(mechanism, _with_recorded(settings, mechanism, record, names), record, names, weights)
+    own = _with_recorded(settings, mechanism, record, names)
+    efforts = _of_record(mechanism, own, record, names, weights, contacts)
     if moved is None:
         return efforts
     return replace(efforts, ended=moved.ended, notes=tuple(dict.fromkeys((*moved.notes, *efforts.notes))))
@@ -236,6 +237,7 @@ def _of_record(
     record: Recorded,
     names: Sequence[str],
     weights: Mapping[str, float] | None,
+    contacts: Contacts,
 ) -> Inverse:
     """Return the efforts of actuators in a recorded motion."""
     if not len(record.t):
@@ -253,7 +255,8 @@ def _of_record(
         now = seams[0].values if seams else {}
         settings = replace(settings, parameters={**settings.parameters, **now})
     loose, actuators = actuated(placed.mechanism, names)
-    balanced = balance(loose, actuators, settings, record, weights)
+    loose = contacts.exerted(loose)
+    balanced = balance(loose, actuators, settings, record, weights, contacts)
     motion, info = balanced.motion, balanced.motion.compiled.info
     values = {q.name: float(x) for q, x in zip(info.parameters, motion.p, strict=False)}
     forces = Forces(motion, seats(loose, values))

@@ -280,7 +280,7 @@ def driven_motion(
         q=labelled(q, info.coordinates),
         v=velocities,
         a=acceleration_table(traced.accelerations, velocities),
-        transmission=transmission_angles(run.mechanism, motion, parameters, pins),
+        transmission=transmission_angles(run.mechanism, labelled(q, info.coordinates), parameters, pins),
         passages=traced.passages,
         ended=traced.ended,
         parameters=parameters,

@@ -20,7 +20,6 @@ from symgen.result.labelled import Labelled
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Joint, Mechanism
-    from symgen.run.single.outcome import Motion
 
 Array = NDArray[np.float64]
 
@@ -29,7 +28,7 @@ WHERE = "transmission"
 
 
 def transmission_angles(
-    mechanism: Mechanism, motion: Motion, parameters: Mapping[str, float], names: tuple[str, ...]
+    mechanism: Mechanism, q: Labelled, parameters: Mapping[str, float], names: tuple[str, ...]
 ) -> Labelled:
     """Return the transmission angles of joints, from 0 to pi.
 
@@ -37,8 +36,8 @@ def transmission_angles(
     ----------
     mechanism : Mechanism
         In the plane.
-    motion : Motion
-        Of the mechanism.
+    q : Labelled
+        Coordinates of all bodies, a row for each time.
     parameters : mapping
         Values of all parameters.
     names : tuple of str
@@ -52,15 +51,15 @@ def transmission_angles(
     """
     if names and mechanism.space != "planar":
         raise InputError(WHERE, "a mechanism in the plane", "one in space")
-    columns = [_Angle(mechanism, motion, parameters, name).values() for name in names]
-    stacked = np.column_stack(columns) if columns else np.zeros((len(motion.times), 0))
+    columns = [_Angle(mechanism, q, parameters, name).values() for name in names]
+    stacked = np.column_stack(columns) if columns else np.zeros((len(q.values), 0))
     return Labelled(stacked, names, ("rad",) * len(names))
 
 
 class _Angle:
-    def __init__(self, mechanism: Mechanism, motion: Motion, parameters: Mapping[str, float], name: str) -> None:
-        self.mechanism, self.motion, self.parameters, self.name = mechanism, motion, parameters, name
-        self.places = {c.name: i for i, c in enumerate(motion.compiled.info.coordinates)}
+    def __init__(self, mechanism: Mechanism, q: Labelled, parameters: Mapping[str, float], name: str) -> None:
+        self.mechanism, self.states, self.parameters, self.name = mechanism, q.values, parameters, name
+        self.places = {name: i for i, name in enumerate(q.names)}
         pin, bracket, rest = name.partition("(")
         self.pin = self._joint(pin.strip())
         if self.pin.kind != PIN or GROUND in self.pin.bodies:
@@ -110,15 +109,14 @@ class _Angle:
         marker = dict(self.mechanism.seats)[joint.name]
         local = np.array([evaluate(e, self.parameters, joint.name) for e in marker.point])
         if marker.body == GROUND:
-            return np.broadcast_to(local, (len(self.motion.times), 2))
+            return np.broadcast_to(local, (len(self.states), 2))
         centre = [evaluate(e, self.parameters, joint.name) for e in self.mechanism.body(marker.body).centre_of_mass]
-        states = self.motion.states
-        origin = states[:, [self.places[f"{marker.body}.x"], self.places[f"{marker.body}.y"]]]
+        origin = self.states[:, [self.places[f"{marker.body}.x"], self.places[f"{marker.body}.y"]]]
         return origin + self._turned(marker.body, local - np.array(centre))
 
     def _turned(self, body: str, local: Array) -> Array:
         if f"{body}.theta" not in self.places:  # the ground, or a point mass
-            return np.broadcast_to(local, (len(self.motion.times), 2))
-        theta = self.motion.states[:, self.places[f"{body}.theta"]]
+            return np.broadcast_to(local, (len(self.states), 2))
+        theta = self.states[:, self.places[f"{body}.theta"]]
         c, s = np.cos(theta), np.sin(theta)
         return np.column_stack([c * local[0] - s * local[1], s * local[0] + c * local[1]])

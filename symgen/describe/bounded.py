@@ -151,12 +151,22 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def changing(self) -> bool:
+        """Whether its bounds depend on more than parameters."""
+        ...
+
+    @property
+    def unequal(self) -> bool:
+        """Whether its bounds differ in the two directions."""
+        ...
+
+    @property
     def taking(self) -> Expr:
         """The effort that takes energy, a formula of outputs."""
         ...
 
-    def events(self) -> tuple[Event, ...]:
-        """Return the events at which its mode is chosen anew."""
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+        """Return the events at which its mode is chosen anew; it may carry the forces of rows beside it."""
         ...
 
     def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:

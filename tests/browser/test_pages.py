@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from support.emitted import mechanism_of
 from support.random_closed import make
 
@@ -293,6 +294,30 @@ def test_sliders_and_keys_of_a_page(chromium: Chromium, pages: dict[str, Path], 
     chromium.run("document.querySelector('#live button').click()")
     chromium.frame()
     assert chromium.said == []
+
+
+def test_a_page_in_a_frame_that_was_hidden_is_drawn_when_it_is_seen(
+    chromium: Chromium, pages: dict[str, Path], tmp_path: Path
+) -> None:
+    inner = page_of("four-bar", pages, tmp_path)
+    outer = tmp_path / "outer.html"
+    outer.write_text(f'<iframe src="{inner.as_uri()}" style="display: none; width: 900px; height: 700px"></iframe>')
+    chromium.call("Emulation.setDeviceMetricsOverride", width=1000, height=800, deviceScaleFactor=1, mobile=False)
+    chromium.said = []
+    chromium.call("Page.navigate", url=outer.as_uri())
+    frame = "document.querySelector('iframe')"
+    for _ in range(200):
+        if chromium.run(f"Boolean({frame} && document.readyState === 'complete')"):
+            break
+        chromium.frame()
+    chromium.frame()
+    before = Image.open(chromium.picture(tmp_path / "before.png")).convert("RGB")
+    chromium.run(f"{frame}.style.display = 'block'; 0")
+    for _ in range(20):
+        chromium.frame()
+    after = Image.open(chromium.picture(tmp_path / "after.png")).convert("RGB")
+    assert len(before.getcolors(10**6) or []) < 5 and len(after.getcolors(10**6) or []) > 200
+    assert [line for line in chromium.said if str(inner.name) not in line] == []
 
 
 def test_dragging_moves_a_picture_in_the_plane(chromium: Chromium, pages: dict[str, Path], tmp_path: Path) -> None:

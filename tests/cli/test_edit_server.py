@@ -6,6 +6,8 @@ import json
 import os
 import re
 import shutil
+import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import closing
@@ -143,10 +145,12 @@ def test_other_requests_are_refused(editor: Editor) -> None:
     assert asked(editor, job, JOB, Content_Length=None).status == 411
     assert asked(editor, job, b"", Content_Length=str(LARGEST_REQUEST + 1)).status == 413
     assert asked(editor, job, b"{").status == 400
-    assert asked(editor, job, b"[" * 100_000).status == 400
-    assert "expected a text" in json.loads(asked(editor, job, b"[1]").body)["error"]
-    assert "expected a text" in done(editor, "check", text=3)["error"]
-    assert "error" in done(editor, "add", text=TEXT, part="body", spots=[{"x": "here"}])
+    for deep in (b'{"text": ' + b"[" * 100_000, b'{"unknown": ' + b"[" * 100_000):
+        assert asked(editor, job, deep).status in (200, 400)  # refused by its type, or as no JSON
+    assert "expected what the page of this editor sends" in json.loads(asked(editor, job, b"[1]").body)["error"]
+    assert "expected what the page of this editor sends" in done(editor, "check", text=3)["error"]
+    assert "expected a text" in json.loads(asked(editor, job, b"{}").body)["error"]
+    assert "`$.spots[0].x`" in done(editor, "add", text=TEXT, part="body", spots=[{"x": "here"}])["error"]
     assert asked(editor, job, JOB, method="PUT").status == 501
     assert done(editor, "check", text=TEXT)["errors"] == []  # and it goes on
 
@@ -334,3 +338,49 @@ def test_refusals(
 def test_a_port_that_is_taken_is_one_sentence(editor: Editor, cli: Any) -> None:
     code, _, err = cli("edit", editor.document.path, "--no-browser", "--port", editor.server_port)
     assert code == 2 and err.startswith("symgen: --port: expected a port that is free")
+
+
+def test_an_error_of_the_editor_itself_is_said_and_shown_in_its_terminal(
+    editor: Editor, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(_: object) -> dict[str, object]:
+        raise KeyError("lost")
+
+    monkeypatch.setitem(editor.jobs, "check", broken)
+    assert "an error of its own, which its terminal shows" in done(editor, "check", text=TEXT)["error"]
+    assert "KeyError: 'lost'" in capfd.readouterr().err
+
+
+def test_a_pin_of_centres_of_mass_is_drawn(editor: Editor) -> None:
+    two = TEXT + (
+        "\n[bodies.other]\nmass = 1.0\ninertia = 0.1\n\n"
+        '[joints.middle]\ntype = "revolute"\nbetween = ["crank", "other"]\nat = ["centre", "centre"]\n'
+    )
+    answer = done(editor, "check", text=two)
+    assert answer["errors"] == [] and "joints.middle" not in [handle["name"] for handle in answer["handles"]]
+
+
+@pytest.mark.slow
+def test_killed_while_saving_leaves_one_text_or_the_other(tmp_path: Path) -> None:
+    file = tmp_path / "bar.toml"
+    texts = [TEXT + f"# {letter}\n" + f"# {letter}\n" * 20_000 for letter in "ab"]
+    file.write_text(texts[0])
+    for delay in (0.002, 0.01, 0.03):
+        command = [sys.executable, "-m", "symgen", "edit", str(file), "--no-browser"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+            assert process.stdout is not None
+            address = process.stdout.readline().strip()
+            threading.Timer(delay, process.kill).start()
+            host = address.split("/")[2]
+            for k in range(1000):
+                body = json.dumps({"text": texts[k % 2], "force": True})
+                headers = {"Content-Type": "application/json", "Origin": f"http://{host}"}
+                try:
+                    with closing(http.client.HTTPConnection(host, timeout=10)) as connection:
+                        connection.request("POST", f"/{address.split('/')[3]}/save", body, headers)
+                        connection.getresponse().read()
+                except (OSError, http.client.HTTPException):
+                    break
+            else:
+                raise AssertionError("it was not killed")
+        assert file.read_text() in texts

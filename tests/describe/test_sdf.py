@@ -180,7 +180,9 @@ REFUSED: dict[str, tuple[str, str]] = {
         "expected poses in chains, got a ring",
     ),
     "frame": (BAR.replace('"top">0', '"tap">0'), "expected the name of a frame, got 'tap'; did you mean 'top'"),
-    "kind": (BAR.replace('"ball"', '"gearbox"'), "joint 'D', type: expected one of fixed, revolute"),
+    "kind": (BAR.replace('"ball"', '"hinge"'), "joint 'D', type: expected one of fixed, revolute"),
+    "gearbox": (BAR.replace('"ball"', '"gearbox"'), "joint 'D': expected two axes of a gearbox, got less"),
+    "two axes": (BAR.replace('"ball"', '"revolute2"'), "joint 'D': expected two axes of a revolute2 joint, got less"),
     "twice": (BAR.replace('name="rod"', 'name="crank"'), "expected a name used once, got 'crank' twice"),
     "axis": (BAR.replace("0 2 0", "0 0 0"), "expected an axis other than 0 0 0"),
     "number": (BAR.replace("0.3</damping>", "x</damping>"), "damping: expected a finite number, got 'x'"),
@@ -227,3 +229,98 @@ def test_what_is_left_out_is_listed(tmp_path: Path) -> None:
     loose = read.raw["bodies"]["loose"]
     assert loose["mass"] == 1.0 and loose["inertia"] == [1.0, 1.0, 1.0]  # what SDF takes without <inertial>
     assert loose["shape"][0]["colour"] == "#ff8000"
+
+
+# -- screws, gearboxes, two axes in a row ------------------------------------------------------------------------------
+
+
+def nut(thread: str, version: str = "1.10") -> str:
+    inside = inertial(2.0, "0 0 0 0 0 0", 0.1, 0.1, 0.3)
+    return f"""<sdf version="{version}"><model name="press"><link name="nut"><pose>0 0 1 0 0 0</pose>{inside}</link>
+      <joint name="thread" type="screw"><parent>world</parent><child>nut</child><axis><xyz>0 0 1</xyz>
+      <dynamics><damping>0.1</damping></dynamics></axis>{thread}</joint></model></sdf>"""
+
+
+@pytest.mark.fast("old")
+@pytest.mark.parametrize(
+    "thread",
+    ["<screw_thread_pitch>0.5</screw_thread_pitch>", "<thread_pitch>-12.566370614359172</thread_pitch>"],
+    ids=["new", "old"],
+)
+def test_a_nut_sinks_on_its_thread(thread: str, tmp_path: Path) -> None:
+    """A right-handed thread of 0.5 m a turn: the weight turns the nut, a = m g / (m + I (2 pi / pitch)^2)."""
+    read = imported(tmp_path, nut(thread))
+    assert read.raw["joints"]["thread"]["pitch"] == pytest.approx(0.5, rel=1e-12)
+    assert [item.what for item in read.left_out] == ["a spring or damper"]
+    run = model_of(read).simulate(until=1.0, rtol=1e-11, atol=1e-12)
+    slope = 2.0 * np.pi / 0.5
+    rate = -2.0 * 9.8 / (2.0 + 0.3 * slope**2)
+    assert run["nut.vz"][-1] == pytest.approx(rate, abs=1e-9)
+    assert run["nut.wz"][-1] == pytest.approx(rate * slope, abs=1e-8)
+
+
+def wheels(axis2: str, second: str) -> str:
+    links = "".join(
+        f'<link name="{name}"><pose>{x} 0 0 0 0 0</pose>{inertial(1.0, "0 0 0 0 0 0", 0.1, 0.1, inertia)}</link>'
+        for name, x, inertia in (("frame", 0, 1.0), ("pinion", 0, 0.2), ("wheel", 1, 0.9))
+    )
+    return f"""<sdf version="1.9"><model name="gears">{links}
+      <joint name="base" type="fixed"><parent>world</parent><child>frame</child></joint>
+      <joint name="a" type="revolute"><parent>frame</parent><child>pinion</child><axis><xyz>0 0 1</xyz></axis></joint>
+      <joint name="b" type="revolute">{second}</joint>
+      <joint name="mesh" type="gearbox"><parent>pinion</parent><child>wheel</child><axis><xyz>0 0 1</xyz></axis>
+      <axis2><xyz>{axis2}</xyz></axis2><gearbox_ratio>3</gearbox_ratio>
+      <gearbox_reference_body>frame</gearbox_reference_body></joint></model></sdf>"""
+
+
+#: The joint of the second wheel, either way round and with its axis up or down.
+SECOND = {
+    "up": "<parent>world</parent><child>wheel</child><axis><xyz>0 0 1</xyz></axis>",
+    "down": "<parent>frame</parent><child>wheel</child><axis><xyz>0 0 -1</xyz></axis>",
+    "back": "<pose relative_to='wheel'/><parent>wheel</parent><child>frame</child><axis><xyz>0 0 1</xyz></axis>",
+}
+
+
+@pytest.mark.fast("0 0 1--1.0-down", "0 0 -2-1.0-back")
+@pytest.mark.parametrize("second", SECOND)
+@pytest.mark.parametrize(("axis2", "sign"), [("0 0 1", -1.0), ("0 0 -2", 1.0)])
+def test_a_gearbox_couples_the_joints_of_its_wheels(second: str, axis2: str, sign: float, tmp_path: Path) -> None:
+    """theta_2 = -3 theta_1 about the axes of the gearbox: 1 N m on the pinion moves 0.2 + 9 * 0.9 kg m^2."""
+    read = imported(tmp_path, wheels(axis2, SECOND[second]))
+    assert read.raw["joints"]["mesh_mesh"]["type"] == "coupling"
+    run = model_of(read).simulate(until=1.0, inputs={"a_torque": 1.0}, rtol=1e-11, atol=1e-12)
+    rate = 1.0 / (0.2 + 9.0 * 0.9)
+    assert run["pinion.wz"][-1] == pytest.approx(rate, abs=1e-9)
+    assert run["wheel.wz"][-1] == pytest.approx(3.0 * sign * rate, abs=1e-9)
+
+
+def test_a_gearbox_without_joints_of_its_wheels_is_refused(tmp_path: Path) -> None:
+    text = wheels("0 1 0", SECOND["up"])
+    with pytest.raises(InputError, match="expected revolute joints of both links with 'frame' about the axes"):
+        imported(tmp_path, text)
+    with pytest.raises(InputError, match="expected the element gearbox_reference_body, got none"):
+        imported(tmp_path, re.sub("<gearbox_reference_body>.*</gearbox_reference_body>", "", text))
+
+
+@pytest.mark.fast("absolute")
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_two_axes_in_a_row_move_as_two_hinges_in_mjcf(coordinates: str, tmp_path: Path) -> None:
+    """A fork that is steered and a wheel in it: each axis has its damper, its spring and its limits."""
+    wheel = inertial(1.0, "0.2 0 0 0 0 0", 0.02, 0.03, 0.02)
+    sdf = f"""<sdf version="1.9"><model name="fork"><link name="wheel"><pose>0 0 1 0 0 0</pose>{wheel}</link>
+      <joint name="fork" type="revolute2"><parent>world</parent><child>wheel</child>
+      <axis><xyz>1 0 0.2</xyz><limit><lower>-1</lower><upper>1</upper></limit>
+      <dynamics><damping>0.3</damping></dynamics></axis>
+      <axis2><xyz>0 1 0.3</xyz><dynamics><spring_stiffness>2</spring_stiffness></dynamics></axis2></joint>
+    </model></sdf>"""
+    mjcf = """<mujoco model="fork"><option gravity="0 0 -9.8"/><worldbody><body name="wheel" pos="0 0 1">
+      <joint name="fork_1" axis="1 0 0.2" damping="0.3"/><joint name="fork_2" axis="0 1 0.3" stiffness="2"/>
+      <inertial pos="0.2 0 0" mass="1" diaginertia="0.02 0.03 0.02"/></body></worldbody></mujoco>"""
+    read = imported(tmp_path, sdf, stops=True)
+    assert read.raw["joints"]["fork_1"]["stop"] == {"lower": -1.0, "upper": 1.0}
+    assert list(read.raw["inputs"]) == ["fork_1_torque", "fork_2_torque"]
+    reads, tight = (imported(tmp_path, sdf), imported(tmp_path, mjcf, "fork.xml")), {"rtol": 1e-12, "atol": 1e-13}
+    runs = [model_of(x).simulate(until=0.5, coordinates=coordinates, **tight) for x in reads]
+    assert all(run.status == "ok" for run in runs) and np.ptp(runs[0]["wheel.z"]) > 0.01
+    for axis in "xyz":
+        assert np.abs(runs[0][f"wheel.{axis}"] - runs[1][f"wheel.{axis}"]).max() < 1e-10

@@ -79,13 +79,10 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     sentence = "expected a mechanism without stops, got A.lower"
     for refused in (
         lambda: model.generate(target="cuda"),
-        lambda: model.inverse(actuators=["A"]),
         lambda: model.simulate(until=0.1, sensitivities=["crank_mass"]),
     ):
         with pytest.raises(InputError, match=sentence):
             refused()
-    with pytest.raises(InputError, match="straight code where a file has stops"):
-        model.simulate(until=0.1, shape="looped")
 
 
 @pytest.mark.parametrize("method", ["auto", "lagrange"])

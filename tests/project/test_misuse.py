@@ -402,7 +402,7 @@ def rows():
         "builder", names, lambda x, v: symgen.MechanismBuilder(v).body("a", mass=1).build(), "mechanism.name"
     )
     further = {
-        **dict.fromkeys(("body", "beam", "event"), ()),
+        **dict.fromkeys(("body", "beam", "event", "stop"), ()),
         **{"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)},
         **{"joint": ("rigid",), "force": ("torque",), "state": (1.0,)},
     }
@@ -527,7 +527,7 @@ def test_no_function_with_arguments_is_left_out():
         *(f"SteppedRun.{n}" for n in "step run every set meter restore reset".split()),
         *(
             f"MechanismBuilder.{n}"
-            for n in "run parameter input table body beam joint force state output event".split()
+            for n in "run parameter input table body beam joint force state stop output event".split()
         ),
     }
     tested |= {f"Model.{method.__name__}" for method in ANALYSIS_METHODS}

@@ -1,4 +1,4 @@
-"""The moving picture of README shows the linkage as it moves now, and its rods stay together."""
+"""The moving picture of the player's page shows the linkage as it moves now, and its rods stay together."""
 
 import re
 from itertools import pairwise

@@ -21,7 +21,6 @@ from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import with_ratios
 from symgen.study.journal import Journal
 from symgen.study.report.comparison import comparison
-from symgen.study.stress.study import stress
 
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),
@@ -407,5 +406,3 @@ def test_beams_are_compared_with_two_formulations_that_agree():
     assert [row.status for row in found.rows] == ["ok"] * 3
     coarse, fine, radau = (row.error for row in found.rows)
     assert 12.0 < coarse / fine < 20.0 and radau <= 1e-7
-    with pytest.raises(InputError, match="expected one without beam elements"):
-        stress("cantilever")

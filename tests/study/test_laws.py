@@ -127,5 +127,5 @@ def test_wrong_laws(keys: str | None, laws: list[str], sentence: str) -> None:
 
 
 def test_solvers_of_scipy_have_no_modes() -> None:
-    with pytest.raises(InputError, match="reference: expected auto, as these solvers have no modes"):
+    with pytest.raises(InputError, match="reference: expected auto, as there is no second derivation of dry friction"):
         symgen.compare(load(), ["lagrange"], ["rk4"], reference_by="scipy-radau")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,8 @@ import numpy as np
 from symgen.api import Model
 from symgen.base.errors import AssemblyError, InputError, SymgenError
 from symgen.base.settings import Settings, is_set
+from symgen.cli._editor.joints import joint_equations
+from symgen.cli._editor.made import made
 from symgen.describe.facts.lifted import lifted, numbers_of_file
 from symgen.describe.files.changes import changed, wide_units
 from symgen.describe.files.handles import handles, numbers_of_parameters
@@ -48,7 +50,7 @@ class Drafts:
     """
 
     def __init__(self, path: Path) -> None:
-        self.source = Source.of(path)
+        self.path, self.source = path, Source.of(path)
         self._running, self._results = threading.Lock(), dict[str, tuple[str, Result]]()
         self._asked: dict[str, int] = {}
         self._last: tuple[str, tuple[dict[str, Any], Mechanism]] | None = None
@@ -65,9 +67,13 @@ class Drafts:
         values = parameter_values(mechanism)
         described = Model(mechanism).initial_state(values)[0]
         q, open_joints, errors, warnings = described, tuple[str, ...](), list[dict[str, Any]](), tuple[str, ...]()
+        freedoms: dict[str, Any] = {}
         try:
-            start = prepare(*_for_closing(mechanism), Purpose.STATE).start
+            run = prepare(*_for_closing(mechanism), Purpose.STATE)
+            start = run.start
             q, warnings = start.y[: len(described)], start.warnings
+            count = run.compiled.info.nv - start.rank
+            freedoms = {"count": count, "redundant": list(start.redundant_rows)}
         except AssemblyError as error:
             q = np.array(error.q) if error.q else described
             open_joints = error.joints
@@ -86,6 +92,9 @@ class Drafts:
             "errors": errors,
             "count": len(errors),
             "data": data,
+            "freedoms": freedoms,
+            "joints": [joint.name for joint in mechanism.joints],
+            "bounded": {row.name: [row.family.off, row.family.in_force] for row in mechanism.bounded if row.one_sided},
             "handles": [
                 {**handle._asdict(), "followers": [_in_page(follower, wide) for follower in handle.followers]}
                 for handle in movable
@@ -140,21 +149,36 @@ class Drafts:
             data, script = view_data(result)
             return {"data": data, "script": script}
 
-    def change(self, kind: str, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a text with something added, renamed or taken out."""
-        text = str(given["text"])
+    def joint(self, text: str, name: str) -> dict[str, Any]:
+        """Return the equations of a joint of a text."""
         self._refuse_large(text)
-        if kind == "rename":
-            return {"text": renamed(text, str(given["path"]), str(given["name"]), self.source)}
-        if kind == "remove":
-            return {"text": removed(text, str(given["path"]), self.source)}
+        return joint_equations(self._read(text)[1], name)
+
+    def make(self, text: str, kind: str) -> dict[str, Any]:
+        """Return a file that a command would write for a text."""
+        self._refuse_large(text)
+        raw, mechanism = self._read(text)
+        with self._running:
+            return made(kind, raw, mechanism, self.path)
+
+    def add(self, text: str, part: str, spots: Sequence[Spot]) -> dict[str, Any]:
+        """Return a text with a part added at spots, and the path of what was added."""
+        self._refuse_large(text)
         raw = parse_toml(text, self.source)
-        spots = [_spot(spot) for spot in given["spots"]]
-        angle = self._angle(kind, text, spots)
-        added, path = snippet(str(given["part"]), spots, raw, outline(text), text, angle)
+        added, path = snippet(part, spots, raw, outline(text), text, self._angle(text, spots))
         return {"text": changed(text, added), "path": path}
 
-    def _angle(self, kind: str, text: str, spots: Iterable[Spot]) -> float:
+    def rename(self, text: str, path: str, name: str) -> dict[str, Any]:
+        """Return a text with another name of a part, wherever it is named."""
+        self._refuse_large(text)
+        return {"text": renamed(text, path, name, self.source)}
+
+    def remove(self, text: str, path: str) -> dict[str, Any]:
+        """Return a text without a part, and without what needs it."""
+        self._refuse_large(text)
+        return {"text": removed(text, path, self.source)}
+
+    def _angle(self, text: str, spots: Iterable[Spot]) -> float:
         """Return the angle at the start of the joint that holds a spot, or of its body; 0 where there is none."""
         spot = next(iter(spots), None)
         if spot is None or not spot.body:
@@ -235,15 +259,6 @@ def _changeable(number: tuple[str, Place, float]) -> str:
 
 def _error(problem: Problem) -> dict[str, Any]:
     return {"line": problem.line, "text": str(problem)}
-
-
-def _spot(given: Mapping[str, Any]) -> Spot:
-    """Return a spot of a page."""
-    x, y = float(given["x"]), float(given["y"])
-    at = tuple(float(e) for e in given.get("at") or (0.0, 0.0))
-    words = (str(given.get(key) or "") for key in ("body", "point", "joint"))
-    body, point, joint = words
-    return Spot(x, y, "" if body == "ground" else body, point, (at[0], at[1]), joint)
 
 
 def _span(span: tuple[int, int], wide: list[int] | None) -> tuple[int, int]:

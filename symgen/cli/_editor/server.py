@@ -10,16 +10,19 @@ import json
 import secrets
 import sys
 import threading
+import traceback
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from functools import partial
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
+
+import msgspec
 
 from symgen.base.errors import InputError, SymgenError
 from symgen.cli._editor.document import Document
 from symgen.cli._editor.drafts import Drafts
 from symgen.cli._editor.page import page
+from symgen.cli._editor.request import Request, read_request
 from symgen.describe.files.load import LARGEST_FILE
 from symgen.describe.files.problems import in_line
 
@@ -36,7 +39,7 @@ _HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
 }
 
-Job = Callable[[Mapping[str, Any]], Mapping[str, Any]]
+Job = Callable[[Request], Mapping[str, Any]]
 
 
 class Editor(ThreadingHTTPServer):
@@ -60,11 +63,15 @@ class Editor(ThreadingHTTPServer):
         self.origin = f"http://{HOST}:{self.server_port}"
         self.jobs: dict[str, Job] = {
             "load": lambda _: document.read(),
-            "save": lambda given: document.save(_text(given), str(given.get("digest", "")), given.get("force") is True),
-            "check": lambda given: drafts.check(_text(given)),
-            "motion": lambda given: drafts.motion(_text(given), str(given.get("tab", "")), int(given.get("asked", 0))),
-            "live": lambda given: drafts.live(_text(given), str(given.get("tab", ""))),
-            **{kind: partial(drafts.change, kind) for kind in ("add", "rename", "remove")},
+            "save": lambda asked: document.save(asked.draft, asked.digest, asked.force),
+            "check": lambda asked: drafts.check(asked.draft),
+            "motion": lambda asked: drafts.motion(asked.draft, asked.tab, asked.asked),
+            "live": lambda asked: drafts.live(asked.draft, asked.tab),
+            "joint": lambda asked: drafts.joint(asked.draft, asked.name),
+            "make": lambda asked: drafts.make(asked.draft, asked.kind),
+            "add": lambda asked: drafts.add(asked.draft, asked.part, [place.spot for place in asked.spots]),
+            "rename": lambda asked: drafts.rename(asked.draft, asked.path, asked.name),
+            "remove": lambda asked: drafts.remove(asked.draft, asked.path),
         }
 
     def handle_error(self, request: Any, client_address: Any) -> None:
@@ -77,7 +84,7 @@ class Editor(ThreadingHTTPServer):
 
         def read() -> None:
             with suppress(SymgenError):
-                self.jobs["check"](self.document.read())
+                self.jobs["check"](Request(self.document.read()["text"]))
 
         threading.Thread(target=read, name="symgen-edit", daemon=True).start()
 
@@ -85,13 +92,6 @@ class Editor(ThreadingHTTPServer):
     def address(self) -> str:
         """The address of the page, with its secret."""
         return f"{self.origin}/{self.secret}/"
-
-
-def _text(given: Mapping[str, Any]) -> str:
-    text = given.get("text")
-    if not isinstance(text, str):
-        raise InputError("text", "a text", type(text).__name__)
-    return text
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -130,23 +130,26 @@ class _Handler(BaseHTTPRequestHandler):
         if int(length) > LARGEST_REQUEST:
             return self._refuse(413)
         try:
-            request = json.loads(self.rfile.read(int(length)))
-        except (ValueError, RecursionError):
+            answer = self._answer(job, self.rfile.read(int(length)))
+        except msgspec.DecodeError:
             return self._refuse(400)
-        self._send(200, json.dumps(self._answer(job, request if isinstance(request, dict) else {})), JSON)
+        self._send(200, json.dumps(answer), JSON)
 
-    def _answer(self, job: Job, request: Mapping[str, Any]) -> Mapping[str, Any]:
+    def _answer(self, job: Job, body: bytes) -> Mapping[str, Any]:
         """Return the answer of a job, or the sentence of its error."""
         try:
-            return job(request)
+            return job(read_request(body))
         except InputError as error:
             return {"error": in_line(error) if error.file is None else str(error)}
         except SymgenError as error:
             return {"error": str(error)}
-        except (KeyError, TypeError, ValueError) as error:
-            return {"error": f"expected what the page of this editor sends, got something else ({error})"}
         except MemoryError:
             return {"error": "there is not enough memory for that"}
+        except (msgspec.DecodeError, RecursionError):
+            raise msgspec.DecodeError from None
+        except Exception:
+            traceback.print_exc()
+            return {"error": "symgen edit met an error of its own, which its terminal shows; the text is as it was"}
 
     def _allowed(self, method: str) -> bool:
         """Whether the request comes from the page itself, or from who has its address."""

@@ -25,10 +25,10 @@ def emit_kernel(kernel: KernelProgram, generator: str) -> str:
     return _module(kernel, InstanceAccess(info), about, generator)
 
 
-def emit_form(form: FormProgram, kernel: KernelInfo, generator: str) -> str:
-    """Return the source of the kernel of an element's part of a descriptor form."""
+def emit_form(form: FormProgram, kernel: KernelInfo, generator: str, shifted: bool = False) -> str:
+    """Return the source of the kernel of an element's part of a descriptor form; `shifted`: see `FormAccess`."""
     about = f"What a {kernel.kind} of kind {form.label} adds to a descriptor form."
-    return _module(form, FormAccess(kernel), about, generator, slopes=True)
+    return _module(form, FormAccess(kernel, shifted=shifted), about, generator, slopes=True)
 
 
 def _module(
@@ -71,7 +71,8 @@ def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
 _READ = {"q": ("y", "q"), "v": ("y", "nq", "v"), "change": ("w", "change", "v")}
 _WRITTEN = {
     **{"record": ("w", "f0"), "ydot": ("out", "q"), "y": ("y", "q"), "force=": ("w", "force", "v")},
-    **{"jacobian": ("w", "jacobian", "entry"), "report": ("out", "m", "coordinate")},
+    "own": ("out", "own0"),
+    **{"jacobian": ("w", "jacobian", "entry"), "left": ("w", "left", "entry"), "report": ("out", "m", "coordinate")},
     **{"mass_diagonal": ("p", "mass_diagonal", "v"), "inverse_mass": ("p", "inverse_mass", "v")},
 }
 
@@ -108,6 +109,10 @@ class InstanceAccess(Access):
             return f"h{computed}", self.element("p", "computed", plus=computed)
         if space == "winding":
             return f"winding_{index}", self.element("w", str(len(STATUS)), f"u{index}")
+        if space == "modes":
+            return f"mode{index}", self.element("w", "modes", plus=index)
+        if space == "z":
+            return f"state_{index - 1}", self.element("y", f"own{index - 1}")
         return f"{space}_{index}", self.element(*_READ[space], plus=index)
 
     def operator(self, target: Target) -> str:
@@ -126,7 +131,7 @@ class InstanceAccess(Access):
             return self.element("p", "computed", plus=i - self.info.constants)
         if space == "winding":
             return self.element("w", str(len(STATUS)), f"u{i}")
-        return self.element(*_WRITTEN.get(space, ("w", space, "row")), plus=i)
+        return self.element(*_WRITTEN.get(space, ("w", space, "row")), plus=None if space == "own" else i)
 
     def velocity(self, index: int, which: int = 1) -> tuple[int, int]:
         """Return frame and place in the frame of a velocity of the element, or of a coordinate (`which` 0)."""
@@ -139,9 +144,15 @@ class InstanceAccess(Access):
     def places(self) -> list[tuple[str, str]]:
         """Return (local name, expression) of all numbers of an instance's table."""
         frames = range(len(self.info.frames))
-        own = {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"]}
+        own: dict[str, list[str]] = {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"], "state": []}
+        own["bound"] = ["row", "entry", *(f"v{i}" for i in frames)]
         names = [*(f"f{i}" for i in frames), *own.get(self.info.kind, [f"v{i}" for i in frames])]
-        return self.numbered([*names, *(f"u{i}" for i in range(self.info.windings)), "computed"])
+        return self.numbered([*names, *self.beside(), "computed"])
+
+    def beside(self) -> list[str]:
+        """Return the names of the places of counted turns, of states and of modes."""
+        turns = [f"u{i}" for i in range(self.info.windings)]
+        return [*turns, *(f"own{i}" for i in range(self.info.states)), *["modes"] * (self.info.kind == "bound")]
 
     def numbered(self, names: list[str]) -> list[tuple[str, str]]:
         """Return the numbers of a table, constants last; records and coordinates are counted from 0."""
@@ -155,7 +166,15 @@ class InstanceAccess(Access):
 
 @dataclass(frozen=True)
 class FormAccess(InstanceAccess):
-    """Elements of a part of a descriptor form as text."""
+    """Elements of a part of a descriptor form as text.
+
+    Attributes
+    ----------
+    shifted : bool
+        Whether equations of states of the file stand between the others and the rows for projections.
+    """
+
+    shifted: bool = False
 
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return (local name, expression) of an input."""
@@ -163,6 +182,8 @@ class FormAccess(InstanceAccess):
             return f"option{index}", self.element("p", "method_parameters", plus=index)
         if space == "status":
             return f"status_{index}", f"w[{index}]"
+        if space == "k_z":
+            return "rate", self.element("w", "stage", "equation")
         if space.startswith("k_"):
             return f"{space}{index}", self.unknown("w", ("stage",), space.removeprefix("k_"), index)
         return super().read(space, index)
@@ -177,6 +198,8 @@ class FormAccess(InstanceAccess):
             return "power"
         if target.space == "entry":
             return self.element("out", "entry", plus=target.index)
+        if target.space == "z":
+            return self.element("out", "equation")
         return self.unknown("out", (), target.space, target.index)
 
     def unknown(self, array: str, first: tuple[str, ...], group: str, index: int) -> str:
@@ -184,11 +207,14 @@ class FormAccess(InstanceAccess):
         if group in ("q", "v"):
             frame, place = self.velocity(index, int(group == "v"))
             return self.element(array, *first, *(("nq",) if group == "v" else ()), f"{group}{frame}", plus=place)
-        behind = {"first": (), "second": ("m",), "third": ("2 * m",)}[group]
-        self.used.update("m" if behind else ())
-        return self.element(array, *first, "nq", "nv", *behind, "row", plus=index)
+        further = {"first": (), "second": ("m",), "third": ("2 * m",)}[group]
+        start = "nq", "nv", *further
+        if self.shifted and further:
+            start = ("unknowns",) if group == "second" else ("unknowns", "m")
+        self.used.update("m" if further else ())
+        return self.element(array, *first, *start, "row", plus=index)
 
     def places(self) -> list[tuple[str, str]]:
         """Return (local name, expression) of all numbers of an instance's table."""
         names = [f"{letter}{i}" for letter in "fqv" for i in range(len(self.info.frames))]
-        return self.numbered([*names, "row", "entry", *(f"u{i}" for i in range(self.info.windings))])
+        return self.numbered([*names, "row", "entry", *self.beside(), *["equation"] * (self.info.kind == "state")])

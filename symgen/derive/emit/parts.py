@@ -96,7 +96,9 @@ class Parts:
             "parameter": _Names(layout.parameter),
             "status": SimpleNamespace(**{name: i for i, name in enumerate(STATUS)}),
             "counter": SimpleNamespace(**{name: i for i, name in enumerate(COUNTERS)}),
-            "number": SimpleNamespace(**NUMBERS, newton=correction.position == "newton", rounds=correction.rounds),
+            "number": SimpleNamespace(
+                **NUMBERS, newton=correction.position == "newton", rounds=correction.rounds, modes=MODE_NUMBERS
+            ),
             "turning": layout.turning,
             "evaluation": "rhs",
             "kept": False,

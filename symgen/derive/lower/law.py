@@ -85,6 +85,9 @@ def lower_law(
     eliminates = _eliminates(recorded)
     apart = frozenset(("constrained",) if equations.drags and eliminates else ())
     record = recorded.resolved(model.plan.schur, apart)
+    loose_rows = sum(row.held is not None for row in equations.rows)
+    if loose_rows and (record.form == "tangent" or correction.metric == "independent"):
+        record = replace(record, sections=(*record.sections, ("chosen_modes", ("switchable",))))
     scalars = ScalarNodes(equations, record.operations, names, plan=model.plan)
     scalars.pushing = bool(equations.drags) and not eliminates
     _compute(scalars, record.parts[0], record.ends)
@@ -99,7 +102,9 @@ def lower_law(
     for values, part in accelerations:
         flag = None if part.flag is None else values.values[part.flag]
         hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
-    degrees = min(equations.nv, max(1, equations.nv - equations.m) + _SPARE_DEGREES) if record.form == "tangent" else 0
+    degrees = 0
+    if record.form == "tangent":
+        degrees = min(equations.nv, max(1, equations.nv - equations.m + loose_rows) + _SPARE_DEGREES)
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
     solver = scalars
     if closing.loops and closed and loose is None:
@@ -145,7 +150,7 @@ def lower_law(
 
 
 def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
-    """Refuse methods that do not take rows with bounds: those that read D of all rows.
+    """Refuse methods that do not take rows with bounds: those that project onto all rows behind their equations.
 
     Parameters
     ----------
@@ -164,8 +169,7 @@ def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pr
         With the method.
     """
     law = record_law(method, options)
-    behind = implicit and record_form(method, options).form in BEHIND
-    if behind or law.form in ("dense", "tangent") or "dense" in (name for name, _ in law.sections):
+    if implicit and record_form(method, options).form in BEHIND:
         expected = "one that eliminates multipliers or solves for them, where rows may be off"
         raise InputError(f"method '{method.name}'", expected, "one that reads D of all rows", "--method lagrange")
     if pressed and law.form != "direct":
@@ -254,7 +258,9 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
     if place == "geometry":
         return list(value)
     if place == "dense":
-        return [(Target(place, i * e.nv + j), node) for i, row in enumerate(value) for j, node in row]
+        return [
+            (Target(place, i * e.nv + j), scalars.in_force(i, node)) for i, row in enumerate(value) for j, node in row
+        ]
     section, _, name = place.partition(".")
     if section == "status":
         return [to_status(name, value)]
@@ -269,7 +275,7 @@ def _sections(
     layout: ModelLayout, record: RecordedLaw, blocks: list[Block], degrees: int
 ) -> dict[str, tuple[int, int]]:
     """Return the sections of ``w``: the model's, then the law's own."""
-    sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees}
+    sizes = {"one": 1, "nv": layout.nv, "m": layout.m, "degrees": degrees, "switchable": layout.switchable}
     sections, offset = dict(layout.sections), layout.nw
     for name, factors in record.sections:
         size = 1

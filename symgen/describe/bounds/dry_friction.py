@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
 from symgen.base.ir.program import JAMMING
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, Family
 from symgen.describe.bounds.by_reaction import reaction_of
@@ -15,7 +15,9 @@ from symgen.describe.bounds.modes import (
     MODE,
     REVERSE,
     SLIP,
+    carried_bounds,
     effort_in_force,
+    is_whole,
     number_of,
     rate_of,
     unit_of_effort,
@@ -23,6 +25,10 @@ from symgen.describe.bounds.modes import (
 from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Output
+from symgen.describe.parts.inputs import replaced
+
+#: Factor of a mean.
+_HALF = Number(0.5)
 
 
 def _line(facts: Mapping[str, Any]) -> str:
@@ -31,9 +37,11 @@ def _line(facts: Mapping[str, Any]) -> str:
     viscous = "" if x["viscous"] == "0.0" else f", {x['viscous']} times the rate beside"
     stribeck = "" if x["stribeck_speed"] is None else f", falling over a rate of {x['stribeck_speed']}"
     unit = f"times the force of {' and '.join(x['reaction'])}" if x["reaction"] else x["unit"]
-    at_rest = f"row {x['row']} in force at rest up to {x['static']} {unit}"
+    at_most = x["static"] if "backwards" not in x else f"{x['sliding']} and {x['backwards']}"
+    at_rest = f"row {x['row']} in force at rest up to {at_most} {unit}"
     jam = "" if x["jamming_number"] is None else f"; jamming number {x['jamming_number']:.3g} at the start"
-    return f"dry friction {x['name']}: {at_rest}; {x['sliding']} in motion{stribeck}{viscous}{jam}"
+    motion = f"{x['sliding']} in motion" + (f" forwards, {x['backwards']} backwards" if "backwards" in x else "")
+    return f"dry friction {x['name']}: {at_rest}; {motion}{stribeck}{viscous}{jam}"
 
 
 FRICTION = Family(
@@ -56,7 +64,10 @@ class Friction(Bounds, frozen=True):
     """Dry friction along a coordinate of a joint.
 
     At rest the force is what keeps it at rest, up to `static`; in motion it is `sliding` against the rate. Where
-    `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^2).
+    `stribeck_speed` is set, the bound falls from `static` to `sliding` as exp(-(rate / stribeck_speed)^exponent).
+
+    Bounds of two directions are a force of half their difference, and the mean bound to both sides of it: 0 and B hold
+    what a force of B/2 and a bound of B/2 hold.
 
     Parameters
     ----------
@@ -69,7 +80,8 @@ class Friction(Bounds, frozen=True):
     unit : str
         Unit of the coordinate.
     sliding, static : Expr
-        Bounds [N or N m], or these over the size of the joint's reaction [1 or m].
+        Bounds [N or N m], or these over the size of the joint's reaction [1 or m]; ``rate`` in `sliding` is the size of
+        the rate.
     viscous : Expr
         Force over rate [N s/m or N m s].
     stribeck_speed : Expr or None
@@ -81,6 +93,12 @@ class Friction(Bounds, frozen=True):
         the forces themselves are the components.
     speed : Expr or None
         Where the friction is regularised, the rate of tanh(rate / speed) in place of the sign [m/s or rad/s].
+    backwards : Expr or None
+        Bound of motions with a negative rate [N or N m], where it is not `sliding`.
+    exponent : Expr or None
+        Of the fall over `stribeck_speed`; 2 by default.
+    changing : bool
+        Whether bounds depend on more than parameters: they are read whenever they matter.
     """
 
     family: ClassVar[Family] = FRICTION
@@ -96,6 +114,9 @@ class Friction(Bounds, frozen=True):
     pressed: tuple[str, ...] = ()
     across: tuple[tuple[Measure, ...], ...] = ()
     speed: Expr | None = None
+    backwards: Expr | None = None
+    exponent: Expr | None = None
+    changing: bool = False
 
     @property
     def row(self) -> str:
@@ -118,6 +139,11 @@ class Friction(Bounds, frozen=True):
         return self.speed is not None
 
     @property
+    def unequal(self) -> bool:
+        """Whether its bounds differ in the two directions."""
+        return self.backwards is not None
+
+    @property
     def where(self) -> str:
         """Its place in a file."""
         return f"joints.{self.joint}.friction"
@@ -135,7 +161,7 @@ class Friction(Bounds, frozen=True):
         friction by a reaction only this and the viscous part are here.
         """
         rate = Name("rate")
-        against: Expr = number_of(self, "effort")
+        against: Expr = sum_of_terms(number_of(self, "effort"), self.shift(rate))
         if not self.pressed:
             against = call("add", against, call("mul", number_of(self, "sign"), self.bound_in_motion(rate)))
         return Effort("friction", self.measure, call("neg", call("add", against, call("mul", self.viscous, rate))))
@@ -145,7 +171,10 @@ class Friction(Bounds, frozen=True):
         """The effort of a smooth force: the bound times tanh(rate / `speed`), or times the sign of the rate."""
         rate = Name("rate")
         way = call("sign", rate) if self.speed is None else call("tanh", call("div", rate, self.speed))
-        against = call("add", call("mul", way, self.bound_in_motion(rate)), call("mul", self.viscous, rate))
+        dry = call("mul", way, self.bound_in_motion(rate))
+        if self.backwards is not None:
+            dry = call("add", dry, call("mul", call("abs", way), self.shift(rate)))
+        against = call("add", dry, call("mul", self.viscous, rate))
         return Effort("friction", self.measure, call("neg", against))
 
     @property
@@ -162,12 +191,26 @@ class Friction(Bounds, frozen=True):
         )
 
     def bound_in_motion(self, rate: Expr = ZERO) -> Expr:
-        """Return the bound at a rate, by default at the beginning of a motion."""
+        """Return the bound at a rate, by default at the beginning of a motion; of two bounds the mean."""
+        sliding = at_rate(self.sliding, rate)
+        if self.backwards is not None:
+            return call("mul", _HALF, call("add", sliding, at_rate(self.backwards, rate)))
         if self.stribeck_speed is None:
-            return self.sliding
+            return sliding
+        if rate == ZERO:  # rounding of the sum would put it above that at rest
+            return self.static
         ratio = call("div", rate, self.stribeck_speed)
-        fall = call("exp", call("neg", call("mul", ratio, ratio)))
-        return call("add", self.sliding, call("mul", call("sub", self.static, self.sliding), fall))
+        power = call("mul", ratio, ratio)
+        if self.exponent is not None:
+            power = call("pow", call("div", call("abs", rate), self.stribeck_speed), self.exponent)
+        fall = call("exp", call("neg", power))
+        return call("add", sliding, call("mul", call("sub", self.static, sliding), fall))
+
+    def shift(self, rate: Expr = ZERO) -> Expr:
+        """Return the force in the middle between the bounds of two directions, against a positive rate."""
+        if self.backwards is None:
+            return ZERO
+        return call("mul", _HALF, call("sub", at_rate(self.sliding, rate), at_rate(self.backwards, rate)))
 
     @property
     def coefficient(self) -> Expr:
@@ -190,14 +233,23 @@ class Friction(Bounds, frozen=True):
         against = call("mul", self.bound_in_motion(rate_of(self)), reaction_of(self))
         return call("sub", total, call("mul", number_of(self, "sign"), against))
 
-    def events(self) -> tuple[Event, ...]:
-        """Return the events at which its mode is chosen anew."""
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+        """Return the events at which its mode is chosen anew.
+
+        Where its effort at rest is a number of its own, as several rows share it, a bound that varies may reach that;
+        ``limit`` is then what counts as none.
+        """
         held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
-        limit_at_rest: Expr = limit
+        limit_at_rest, off = sum_of_terms(limit, *carried_bounds(self, beside)), call("sub", ONE, held)
+        if self.changing and not self.pressed:
+            limit_at_rest = call("add", self.static, limit_at_rest)
+            shares = is_whole(number_of(self, "constant"), -1)
+            own = call("sub", call("add", self.static, limit), call("abs", number_of(self, "effort")))
+            off = call("mul", off, call("add", call("sub", ONE, shares), call("mul", shares, own)))
         if self.pressed:
             limit_at_rest = call("add", call("mul", self.static, reaction_of(self)), limit)
         left = call("sub", limit_at_rest, call("abs", effort_in_force(self)))
-        resting = call("add", call("mul", held, left), call("sub", ONE, held))
+        resting = call("add", call("mul", held, left), off)
         moving = call("add", call("mul", sign, rate_of(self)), call("sub", ONE, call("mul", sign, sign)))
         events = (
             Event(f"{self.name}.{SLIP}", resting, "falling", MODE, (), "effort at rest at its bound"),
@@ -227,4 +279,12 @@ class Friction(Bounds, frozen=True):
         return {
             **{key: to_text(getattr(self, key)) for key in ("static", "sliding", "viscous")},
             "stribeck_speed": None if self.stribeck_speed is None else to_text(self.stribeck_speed),
+            **({} if self.backwards is None else {"backwards": to_text(self.backwards)}),
+            **({} if self.exponent is None else {"stribeck_exponent": to_text(self.exponent)}),
         }
+
+
+def at_rate(bound: Expr, rate: Expr) -> Expr:
+    """Return a bound with the size of a rate for ``rate``."""
+    size = ZERO if rate == ZERO else call("abs", rate)
+    return replaced(bound, lambda name: size if name == Name("rate") else name)

@@ -9,10 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, Family
-from symgen.describe.bounds.modes import HIT, LEAVE, MODE, effort_in_force, number_of, rate_of, unit_of_effort
+from symgen.describe.bounds.modes import (
+    HIT,
+    LEAVE,
+    MODE,
+    carried_bounds,
+    effort_in_force,
+    number_of,
+    rate_of,
+    unit_of_effort,
+)
 from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Output
@@ -122,7 +131,7 @@ class EndStop(Bounds, frozen=True):
         held, limit = number_of(self, "held"), number_of(self, "limit")
         return call("add", held, call("mul", call("sub", ONE, held), limit))
 
-    def events(self) -> tuple[Event, ...]:
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
         """Return the events at which the stop closes or opens.
 
         The number ``limit`` of a row in force is the bound of the dry friction whose force it carries: before the stop
@@ -130,7 +139,7 @@ class EndStop(Bounds, frozen=True):
         is not 0, and where impacts do not come to rest, the rate that restitution leaves.
         """
         held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
-        pulling = call("add", effort_in_force(self), limit)
+        pulling = sum_of_terms(effort_in_force(self), limit, *carried_bounds(self, beside))
         closed, rate = self.closed(), rate_of(self)
         open_gap = call("add", call("mul", call("sub", ONE, closed), self.place[1]), closed)
         pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))

@@ -14,7 +14,7 @@ import msgspec
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS, MODES
-from symgen.base.vocabulary.expressions import Expr, Name, Reading, readings
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings
 from symgen.base.vocabulary.measures import Driven, Integral
 from symgen.describe.bounded import BoundedRow, Family
 from symgen.describe.mechanism import Event, Mechanism, Output
@@ -40,6 +40,27 @@ def number_of(row: BoundedRow, number: str) -> Name:
 def effort_in_force(row: BoundedRow) -> Reading:
     """Return the effort of the row, 0 where it is off."""
     return Reading(row.row, Driven(row.row, row.measure))
+
+
+def carried_bounds(row: BoundedRow, beside: Sequence[BoundedRow]) -> tuple[Expr, ...]:
+    """Return what a row in force adds to its bound for each row whose force it carries, where bounds vary.
+
+    Constant bounds of these are in the number ``limit`` of the row. Of a carried row the number ``constant`` is the
+    place of its carrier, counted from 1, and ``limit`` is the largest force of the carrier for each of its own.
+    """
+    place = next(i for i, other in enumerate(beside, 1) if other.name == row.name)
+    terms = list[Expr]()
+    for other in beside:
+        if other.changing and not other.pressed and other.name != row.name:
+            held, constant, limit = (number_of(other, number) for number in ("held", "constant", "limit"))
+            carries = call("mul", call("sub", ONE, held), is_whole(constant, place))
+            terms.append(call("mul", call("mul", carries, limit), other.numbers[0][1]))
+    return tuple(terms)
+
+
+def is_whole(number: Expr, value: int) -> Expr:
+    """Return the formula that is 1 where a whole number has a value, and 0 where it has another one."""
+    return call("max", ZERO, call("sub", ONE, call("abs", call("sub", number, Number(float(value))))))
 
 
 def rate_of(row: BoundedRow, order: int = 1) -> Reading:
@@ -95,7 +116,7 @@ def coordinate_of(mechanism: Mechanism, row: BoundedRow) -> str:
 
 def mode_events(mechanism: Mechanism) -> tuple[Event, ...]:
     """Return the events at which modes are chosen anew. A function of another mode is 1: it sleeps."""
-    return tuple(event for row in mechanism.bounded for event in row.events())
+    return tuple(event for row in mechanism.bounded for event in row.events(mechanism.bounded))
 
 
 def bounded_outputs(rows: Sequence[BoundedRow]) -> Iterator[Output]:

@@ -31,6 +31,16 @@ class Bounds(msgspec.Struct, frozen=True):
         return ()
 
     @property
+    def changing(self) -> bool:
+        """Whether its bounds depend on more than parameters."""
+        return False
+
+    @property
+    def unequal(self) -> bool:
+        """Whether its bounds differ in the two directions."""
+        return False
+
+    @property
     def across(self) -> tuple[tuple[Measure, ...], ...]:
         """Cosines of the axes of `pressed` with directions across the joint."""
         return ()

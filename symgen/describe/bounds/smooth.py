@@ -1,4 +1,4 @@
-"""Rows with two bounds as forces of the rate: a smooth law in place of the exact one, or sliding alone."""
+"""Rows with bounds as forces of the state: a smooth law in place of the exact one, sliding alone, elastic stops."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from symgen.base.vocabulary.expressions import Number, Reading
 from symgen.base.vocabulary.measures import Exerted
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.dry_friction import Friction
+from symgen.describe.bounds.elastic_stop import ElasticStop
 from symgen.describe.bounds.modes import two_sided, unit_of_effort, without_bounds
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Force, Mechanism, Output
@@ -20,31 +21,31 @@ SMOOTH, WITH_LAWS = "friction", "dry friction"
 
 
 def with_smooth(mechanism: Mechanism, rows: Iterable[BoundedRow]) -> Mechanism:
-    """Return a mechanism with some dry friction as forces, which ``NAME.force`` reports."""
-    frictions = [row for row in rows if isinstance(row, Friction)]
-    forces = tuple(Force(x.row, SMOOTH, mechanism.joint_named(x.joint).bodies, (x.smooth_effort,)) for x in frictions)
+    """Return a mechanism with some rows as forces, dry friction and elastic stops, which ``NAME.force`` reports."""
+    smooth = [row for row in rows if isinstance(row, Friction | ElasticStop)]
+    bodies = {joint.name: joint.bodies for joint in mechanism.joints}
+    forces = tuple(
+        Force(x.row, SMOOTH if isinstance(x, Friction) else x.family.one, bodies.get(x.owner, ()), (x.smooth_effort,))
+        for x in smooth
+    )
     outputs = tuple(
-        Output(
-            f"{friction.name}.force",
-            Reading(f"{friction.name}.force", Exerted(force.efforts)),
-            unit_of_effort(friction),
-        )
-        for friction, force in zip(frictions, forces, strict=True)
+        Output(f"{row.name}.force", Reading(f"{row.name}.force", Exerted(force.efforts)), unit_of_effort(row))
+        for row, force in zip(smooth, forces, strict=True)
     )
     return msgspec.structs.replace(
         mechanism, forces=(*mechanism.forces, *forces), outputs=(*mechanism.outputs, *outputs)
     )
 
 
-def with_sliding(where: str, mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism with its dry friction as forces against the rates, 0 at rest.
+def with_sliding(where: str, mechanism: Mechanism, apart: Sequence[BoundedRow] = ()) -> Mechanism:
+    """Return a mechanism with its dry friction as forces against the rates, 0 at rest; some rows stay as they are.
 
     Raises
     ------
     InputError
         If bounds depend on reactions.
     """
-    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction)]
+    rows = [row for row in two_sided(mechanism) if isinstance(row, Friction) and row not in apart]
     if names := ", ".join(row.name for row in rows if row.pressed):
         raise InputError(where, "dry friction with constant bounds", f"friction of {names} by the reaction")
     return with_smooth(without_bounds(mechanism, rows), rows) if rows else mechanism
@@ -65,7 +66,10 @@ def smoothed(where: str, rows: Sequence[BoundedRow], speed: float, values: Mappi
             raise InputError(where, expected, f"that of {row.name} by the reaction")
         if not isinstance(row, Friction):
             raise InputError(where, expected, f"the {row.family.one} {row.name}")
-        low, high = (evaluate(bound, values, where) for bound in (row.sliding, row.static))
+        if row.changing and row.numbers[0][1] != row.numbers[1][1] and row.stribeck_speed is None:
+            raise InputError(where, expected, f"that of {row.name}, two formulas")
+        bounds = () if row.changing else tuple(evaluate(bound, values, where) for _, bound in row.numbers)
+        low, high = min(bounds, default=0.0), max(bounds, default=0.0)
         if high != low and row.stribeck_speed is None:
             raise InputError(where, expected, f"that of {row.name}, {high:g} at rest and {low:g} in motion")
         smooth.append(msgspec.structs.replace(row, speed=Number(speed)))

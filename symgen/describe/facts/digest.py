@@ -16,7 +16,7 @@ from symgen.describe.tables import Table
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
 #: Fields added after the form was fixed: empty ones are left out.
-_LATER = ("flexures", "pressed", "across", "speed")
+_LATER = ("flexures", "pressed", "across", "speed", "backwards", "exponent", "changing")
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -88,6 +88,9 @@ def identity(mechanism: Mechanism) -> str:
         ", pressed=()",
         ", across=()",
         ", speed=None",
+        ", backwards=None",
+        ", exponent=None",
+        ", changing=False",
         ", shown=''",
     ):
         text = text.replace(absent, "")

@@ -65,7 +65,7 @@ def jumps_in_time(mechanism: Mechanism, events: Sequence[Event] = ()) -> tuple[t
     whatever their pieces are: of a cubic one the third derivative jumps. Where comparisons and `sign` are passed,
     formulas may jump. Arguments are formulas of t and parameters; those of state pass at times unknown before.
     """
-    return _jumps_in(mechanism, (*integrated(mechanism), two_sided(mechanism), tuple(e.when for e in events)))
+    return _jumps_in(mechanism, (*integrated(mechanism), _bounds_of(mechanism), tuple(e.when for e in events)))
 
 
 def jumps_of_gaps(mechanism: Mechanism) -> tuple[Jump, ...]:
@@ -90,9 +90,16 @@ def _jumps_in(mechanism: Mechanism, formulas: tuple[Any, ...]) -> tuple[tuple[Ju
     return tuple(kinks), tuple(sides)
 
 
+def _bounds_of(mechanism: Mechanism) -> tuple[Any, ...]:
+    """Return the formulas of the bounds of rows with two: their efforts in motion, and their bounds at rest."""
+    rows = two_sided(mechanism)
+    by_reaction = (Effort("bound", row.measure, row.coefficient) for row in rows if row.pressed)
+    return (*((row.effort, row.numbers) for row in rows), *by_reaction)
+
+
 def changes_in_time(mechanism: Mechanism) -> bool:
     """Return whether anything but the motion changes over time: a formula of t, or a state of the file's own."""
-    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode(integrated(mechanism))
+    return bool(mechanism.states) or _TIME in msgspec.msgpack.encode((integrated(mechanism), _bounds_of(mechanism)))
 
 
 def _tables(mechanism: Mechanism) -> dict[str, Table]:
@@ -140,8 +147,9 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
     nothing, so that no other error shows a dip of it between two evaluations. ``s`` and ``rate`` of forces
     are readings of their measures.
     """
-    formulas = integrated(mechanism)
+    formulas = *integrated(mechanism), _bounds_of(mechanism)
     tables, plain = _tables(mechanism), {p.name for p in mechanism.parameters} | {"t"}
+    own = {_of_a_run(Name("rate"), row.effort) for row in two_sided(mechanism)}  # modes change where these are 0
     jumping = dict[tuple[Expr, Table | None], bool]()
     for e, effort in _calls(*formulas) if _may_pass(formulas) else ():
         table = tables.get(table_of(e.function) or "")
@@ -149,6 +157,8 @@ def discontinuities_of(mechanism: Mechanism) -> tuple[Discontinuity, ...]:
             continue
         argument = compared(e) if table is None else e.arguments[0]
         argument = argument if effort is None else _of_a_run(argument, effort)
+        if argument in own:
+            continue
         if any(readings(argument)) or not set(names_in(argument)) <= plain:
             jumping[argument, table] = jumping.get((argument, table), False) or e.function in _SIDES
     held = dict.fromkeys((e, None) for row in changing_rows(mechanism) for e in row.switches)
@@ -341,7 +351,8 @@ def longest_step(
 @remembered
 def _groups(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the groups of integrated formulas that may hide short changes."""
-    parts = zip(("drivers", "forces", "integrals"), integrated(mechanism), strict=True)
+    formulas = *integrated(mechanism), _bounds_of(mechanism)
+    parts = zip(("drivers", "forces", "integrals", "bounds"), formulas, strict=True)
     return tuple(group for group, part in parts if _may_hide(part, mechanism))
 
 

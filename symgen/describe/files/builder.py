@@ -102,6 +102,10 @@ class MechanismBuilder:
         keys = {"rate": rate, "start": start, "unit": unit}
         return self._add("states", name, {key: item for key, item in keys.items() if item != ""})
 
+    def stop(self, name: str, **keys: Any) -> Self:
+        """Add a stop between any parts, such as a rope: ``gap``, ``restitution`` as in a file."""
+        return self._add("stops", name, keys)
+
     def output(self, name: str, value: str, unit: str = "") -> Self:
         """Add a formula that results report, such as ``"integral(motor.power)"``."""
         return self._add("outputs", name, {"value": value, "unit": unit} if unit else {"value": value})

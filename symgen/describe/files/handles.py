@@ -151,7 +151,8 @@ class _Handles:
     def all(self) -> Iterator[Handle]:
         taken = set[Path]()
         for joint, spots in self.pinned():
-            if handle := self.handle(f"joints.{joint}", "pin", spots):
+            # a pin of centres of mass has no point that a number places
+            if spots and (handle := self.handle(f"joints.{joint}", "pin", spots)):
                 yield handle
             taken |= {spot.path for spot in spots}
         for spot in self.spots():

@@ -81,7 +81,9 @@ def removed(text: str, path: str, source: str) -> str:
         gone += [other for other in _users(raw, entry) if other not in gone]
     spans = [span for entry in gone for span in _spans(entry, parts, text)]
     result = changed(text, [Change(start, end, "") for start, end in _merged(spans)])
-    _refuse_worse(raw, parse_toml(result, source), source)
+    left = parse_toml(result, source)
+    if left.get("bodies") or not raw.get("bodies"):  # with its last body gone, a file is where a drawing begins
+        _refuse_worse(raw, left, source)
     return result
 
 

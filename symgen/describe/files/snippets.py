@@ -15,6 +15,8 @@ from symgen.describe.files.places import Outline
 _LETTERS = "ABC"
 #: Speed of a new motor [rad/s], stiffness [N/m] and damping [N s/m] of a new spring, a new load [N].
 SPEED, STIFFNESS, DAMPING, LOAD = 2.0, 1000.0, 10.0, 10.0
+#: Angles [rad], and shares of a vector, that closed loops leave where the hand meant 0.
+FINEST = 1e-6
 
 
 class Spot(NamedTuple):
@@ -82,7 +84,7 @@ def snippet(
         raise InputError(kind, count if most > 1 else "one point", str(len(spots)))
     if raw.get("mechanism", {}).get("space", "planar") != "planar":
         raise InputError(kind, "a mechanism in the plane", "one in space", "write its table into the text")
-    blocks = makers[kind](_Names(raw), spots, angle)
+    blocks = makers[kind](_Names(raw), spots, angle if abs(angle) > FINEST else 0.0)
     return _inserted(blocks, parts, text), blocks[0].path
 
 
@@ -231,4 +233,6 @@ def number(value: float) -> str:
 
 
 def _vector(values: Sequence[float]) -> str:
-    return f"[{', '.join(map(number, values))}]"
+    """Return a vector for a file; what is rounding beside its largest component is 0."""
+    size = max(map(abs, values))
+    return f"[{', '.join(number(x if abs(x) > FINEST * size else 0.0) for x in values)}]"

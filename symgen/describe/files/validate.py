@@ -22,6 +22,7 @@ from symgen.describe.bounds.smooth import with_smooth
 from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
+from symgen.describe.formulas.readings import rows_read
 from symgen.describe.mechanism import (
     AnyBody,
     Defaults,
@@ -114,7 +115,7 @@ class _Validator:
         self._open = 0  # joints being resolved, each because the one before refers to it
         self._cuts: list[str] = []
         self._rotors: dict[str, Rotor] = {}
-        self._bounded: dict[str, tuple[BoundedRow, ...]] = {}  # rows with bounds of joints
+        self._scopes: dict[str, tuple[Scope, Joint]] = {}  # of joints, in the order in which they are resolved
         self._keys = tuple(keys_of_any_joint())
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
@@ -210,7 +211,7 @@ class _Validator:
             states=states,
             outputs=outputs,
             seats=tuple(self._seats.items()),
-            cuts=tuple(self._cuts),
+            cuts=self._joints_with_multipliers(joints, outputs),
             holds=tuple(holds),
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
@@ -222,6 +223,12 @@ class _Validator:
             check_bounds(mechanism, self.source)
             holds_of(mechanism, self.source)  # says what is held twice
         return mechanism
+
+    def _joints_with_multipliers(self, joints: Sequence[Joint], outputs: Sequence[Output]) -> tuple[str, ...]:
+        """Return joints that carry nothing in a tree, as their reactions are read: those that cut, and of outputs."""
+        read = {row.rpartition(".")[0] for output in outputs for row in rows_read(output.value)}
+        drivers = {joint.name for joint in joints if joint.kind == "driver"}
+        return (*self._cuts, *(j.name for j in joints if j.name in read - drivers - set(self._cuts)))
 
     # Names ---------------------------------------------------------------------------------------------------------
 
@@ -248,7 +255,14 @@ class _Validator:
 
     def bounded(self, joints: Sequence[Joint]) -> tuple[BoundedRow, ...]:
         """Return the rows with bounds, those whose force has two bounds first."""
-        rows = [row for joint in joints for row in self._bounded.get(joint.name, ())]
+        of_joints, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
+        for name, (scope, joint) in self._scopes.items():  # behind all joints, as formulas may read any
+            with self.errors.apart(name):
+                of_joints[name] = tuple(rows_of_joint(scope, joint, self.raw["joints"][name]))
+            if name in self._cuts or any(row.pressed for row in of_joints.get(name, ())):
+                cuts.append(name)  # its reaction is a multiplier
+        self._cuts = cuts
+        rows = [row for joint in joints for row in of_joints.get(joint.name, ())]
         for section, kind in sections_of_files().items():
             rows += self._entries_of(section, kind)
         return tuple(sorted(rows, key=lambda row: row.one_sided))
@@ -403,9 +417,7 @@ class _Validator:
                 raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
             self._cuts.append(name)
         self.rotor(scope, joint, self.raw["joints"][name])
-        self._bounded[name] = tuple(rows_of_joint(scope, joint, self.raw["joints"][name]))
-        if any(row.pressed for row in self._bounded[name]) and name not in self._cuts:
-            self._cuts.append(name)  # its reaction is a multiplier
+        self._scopes[name] = scope, joint
         return joint
 
     def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:

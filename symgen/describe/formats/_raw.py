@@ -207,7 +207,7 @@ class _Description:
             "between": [self.body_name(c.parent), self.body_name(c.child)],
             "at": [_tidy(frame.origin) for frame in inner],
         }
-        if c.kind in ("revolute", "translational", "cylindrical", "planar", "rigid"):
+        if c.kind in ("revolute", "translational", "cylindrical", "planar", "rigid", "screw"):
             axis = unit(c.axis)
             table["axis"] = [_tidy(matrix_vector(frame.rotation, axis)) for frame in inner]
             first = perpendicular(axis)
@@ -233,8 +233,12 @@ class _Description:
         if self.stops and c.kind in ("revolute", "translational"):
             limits = {key: x for key, x in (("lower", c.lower), ("upper", c.upper)) if x is not None}
             table |= {"stop": limits} if limits else {}
-        if c.friction:
+        if c.kind == "screw":
+            table["pitch"] = c.pitch
+        if c.friction and c.kind != "screw":
             table["friction"] = {"sliding": c.friction}
+        elif c.friction:
+            self.left_out.append(LeftOut("friction", c.name, "a screw joint has several coordinates", True))
         return table
 
     def _limits(self) -> None:

@@ -13,7 +13,16 @@ from symgen.describe.formats._frames import ORIGIN, Matrix, Pose, Vector, times,
 GROUND = ""
 
 Kind = Literal[
-    "fixed", "floating", "revolute", "translational", "spherical", "cylindrical", "planar", "rigid", "universal"
+    "fixed",
+    "floating",
+    "revolute",
+    "translational",
+    "spherical",
+    "cylindrical",
+    "planar",
+    "rigid",
+    "universal",
+    "screw",
 ]
 
 
@@ -97,6 +106,8 @@ class Connection:
         Moment of inertia of a rotor that turns with the joint, or mass that slides with it.
     lower, upper : float or None
         Limits of the coordinate.
+    pitch : float
+        Of a screw, displacement along the axis a turn [m].
     """
 
     name: str
@@ -115,6 +126,7 @@ class Connection:
     rotor: float = 0.0
     lower: float | None = None
     upper: float | None = None
+    pitch: float = 0.0
 
 
 @dataclass(frozen=True)

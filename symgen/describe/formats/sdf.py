@@ -22,6 +22,15 @@ from symgen.describe.formats._robot import (
     actuators_of,
     turned_inertia,
 )
+from symgen.describe.formats._sdf_joints import (
+    GEARBOX,
+    TWO_AXES,
+    UP,
+    Gearbox,
+    follower_of,
+    pitch_of,
+    read_axis,
+)
 from symgen.describe.formats._solids import SolidMass, box, capsule, cylinder, ellipsoid, sum_of_solids
 from symgen.describe.formats._xml import (
     colour_of,
@@ -41,6 +50,7 @@ _KINDS: dict[str, Kind] = {
     "prismatic": "translational",
     "ball": "spherical",
     "universal": "universal",
+    "screw": "screw",
 }
 _MODEL, _WORLD = "__model__", "world"
 #: Density of collisions without one [kg/m^3].
@@ -55,7 +65,7 @@ _SILENT = {
 
 
 class Sdf:
-    """Reads models, nested ones too: links, joints, frames, inertia from shapes, limits, `dynamics`, `mimic`."""
+    """Reads models, nested ones too: links, joints, gears, frames, inertia from shapes, limits, `dynamics`, `mimic`."""
 
     SUFFIXES: ClassVar[tuple[str, ...]] = (".sdf", ".world")
     ROOT: ClassVar[str] = "sdf"
@@ -121,13 +131,17 @@ class _Reader(RobotReader):
             self._model(model, prefix, _WORLD, self._pose(model, "", _WORLD), False)
         for name, link in self.links.items():
             link.place = self._place(name)
-        connections, followers = list[Connection](), list[Follower]()
+        connections, followers, gears = list[Connection](), list[Follower](), list[Gearbox]()
         for prefix, element in self.elements:
-            connections.append(self._joint(element, prefix))
+            if element.get("type", "") == GEARBOX:
+                gears.append(self._gearbox(element, prefix))
+            else:
+                connections += self._joint(element, prefix)
         names = [c.name for c in connections]
         for prefix, element in self.elements:
             followers += self._mimic(element, prefix, names)
         connections = self._fixed(connections)
+        followers += [follower_of(gear, connections) for gear in gears]
         self._leave_out()
         gravity = inner_text(outer, "gravity")
         return Robot(
@@ -294,34 +308,57 @@ class _Reader(RobotReader):
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
-    def _joint(self, element: ET.Element, prefix: str) -> Connection:
+    def _joint(self, element: ET.Element, prefix: str) -> list[Connection]:
+        """Return the connection of a joint; of two axes one after the other two, with a link without mass between."""
         name = prefix + self.name(element)
         where = f"{self.source}: joint {quoted(name)}"
         sort = element.get("type", "")
-        if sort not in _KINDS:
-            raise InputError(f"{where}, type", f"one of {', '.join(_KINDS)}", quoted(sort), nearest(sort, _KINDS))
-        ends = list[str]()
-        for tag in ("parent", "child"):
-            text = inner_text(element, tag)
-            ends.append(self._link_of(_WORLD if text == _WORLD else prefix + text, f"{where}, {tag}"))
-        connection = Connection(name, _KINDS[sort], ends[0], ends[1], self._place(name))
+        if sort not in (known := (*_KINDS, TWO_AXES, GEARBOX)):
+            raise InputError(f"{where}, type", f"one of {', '.join(known)}", quoted(sort), nearest(sort, known))
+        parent, child = self._ends(element, prefix, where)
         axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
-        connection.axis, connection.second = axes[0] or (0.0, 0.0, 1.0), axes[1]
-        if connection.kind == "universal" and None in axes:
-            raise InputError(where, "two axes of a universal joint", "less")
-        axis = element.find("axis")
-        if axis is None or connection.kind not in ("revolute", "translational"):
-            return connection
-        dynamics, limit = axis.find("dynamics"), axis.find("limit")
-        connection.damping = inner_number(where, dynamics, "damping")
-        connection.friction = inner_number(where, dynamics, "friction")
-        connection.stiffness = inner_number(where, dynamics, "spring_stiffness")
-        connection.rest = inner_number(where, dynamics, "spring_reference")
-        lower, upper = (inner_number(where, limit, key, side) for key, side in (("lower", -1e16), ("upper", 1e16)))
-        if sort != "continuous" and lower < upper:
-            connection.lower = lower if lower > -1e15 else None
-            connection.upper = upper if upper < 1e15 else None
-        return connection
+        if sort in (TWO_AXES, "universal") and None in axes:
+            raise InputError(where, f"two axes of a {sort} joint", "less")
+        at = self._place(name)
+        if sort == TWO_AXES:
+            between = RobotLink(f"{name}_between", at)
+            self.links[between.name] = between
+            pair = [
+                Connection(f"{name}_{i}", "revolute", *ends, at, axis=axis or UP)
+                for i, ends, axis in zip((1, 2), ((parent, between.name), (between.name, child)), axes, strict=True)
+            ]
+            for connection, tag in zip(pair, ("axis", "axis2"), strict=True):
+                read_axis(connection, element.find(tag), where, "revolute")
+            return pair
+        connection = Connection(name, _KINDS[sort], parent, child, at, axis=axes[0] or UP, second=axes[1])
+        if sort == "screw":
+            connection.pitch = pitch_of(element, where)
+        if connection.kind in ("revolute", "translational", "screw"):
+            read_axis(connection, element.find("axis"), where, sort)
+        return [connection]
+
+    def _ends(self, element: ET.Element, prefix: str, where: str) -> tuple[str, str]:
+        """Return the links of a joint."""
+        parent, child = (
+            self._link_of(_WORLD if text == _WORLD else prefix + text, f"{where}, {tag}")
+            for tag, text in ((tag, inner_text(element, tag)) for tag in ("parent", "child"))
+        )
+        return parent, child
+
+    def _gearbox(self, element: ET.Element, prefix: str) -> Gearbox:
+        """Return a gearbox: two links that turn against a third one, about axes in the ground frame."""
+        name = prefix + self.name(element)
+        where, place = f"{self.source}: joint {quoted(name)}", self._place(name)
+        axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
+        turned = [matrix_vector(place.rotation, axis) for axis in axes if axis is not None]
+        if len(turned) < 2:
+            raise InputError(where, "two axes of a gearbox", "less")
+        reference = inner_text(element, "gearbox_reference_body")
+        if not reference:
+            raise InputError(where, "the element gearbox_reference_body", "none")
+        carrier = self._link_of(_WORLD if reference == _WORLD else prefix + reference, f"{where}, reference body")
+        ratio = inner_number(where, element, "gearbox_ratio", 1.0)
+        return Gearbox(name, where, carrier, self._ends(element, prefix, where), (turned[0], turned[1]), ratio)
 
     def _axis(self, element: ET.Element, tag: str, name: str, prefix: str, where: str) -> Vector | None:
         """Return an axis in the frame of the joint."""
@@ -342,7 +379,7 @@ class _Reader(RobotReader):
 
     def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[Follower]:
         mimic = element.find("axis/mimic")
-        if mimic is None or _KINDS[element.get("type", "")] not in ("revolute", "translational"):
+        if mimic is None or _KINDS.get(element.get("type", "")) not in ("revolute", "translational"):
             return
         name = prefix + self.name(element)
         where = f"{self.source}: joint {quoted(name)}, mimic"

@@ -10,6 +10,7 @@
 | ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives | everywhere |
 | ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
 | ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
+| ``pin.F``, ``pin.Fx``, ``.Fy``, ``.Fz`` | a joint's reaction on its first body: size, components | outputs |
 | ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
 | ``rod.e3.strain``, ``.shear``, ``.curvature`` | of a beam element in its middle | outputs, events |
 | ``rod.e3.N``, ``.Q``, ``.M`` | force and moment of the section there | outputs, events |
@@ -25,7 +26,18 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from symgen.base.vocabulary.expressions import ZERO, Call, Expr, Name, Reading, call, literal_of, moving, readings
+from symgen.base.vocabulary.expressions import (
+    ZERO,
+    Call,
+    Expr,
+    Name,
+    Reading,
+    call,
+    literal_of,
+    moving,
+    readings,
+    sum_of_terms,
+)
 from symgen.base.vocabulary.measures import (
     GROUND,
     AnyAngle,
@@ -54,6 +66,8 @@ if TYPE_CHECKING:
     from symgen.describe.parts.scope import Context
 
 
+#: Names of a joint's reaction.
+REACTION = ("F", "Fx", "Fy", "Fz")
 #: Prefixes of a point's coordinates, by the order of the derivative, and their units.
 ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
 #: Largest order in functions of state, and in outputs, where v' and efforts are available.
@@ -69,7 +83,7 @@ SPACE = (
 )
 
 #: Names behind an owner's -> quantity and unit.
-Table = dict[str, tuple[Reading, str]]
+Table = dict[str, tuple[Expr, str]]
 
 
 def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
@@ -103,10 +117,38 @@ def of_joint(joint: Joint, order: int) -> Table:
         table |= _with_rate(joint.name, label, measure, unit)
         if len(coordinates) == 1:
             table["rate"] = Reading(f"{joint.name}.rate", measure, 1), f"{unit}/s"
+    if order == OUTPUT and row is None:
+        table |= of_reaction(joint)
     if isinstance(row, Holonomic) and order == OUTPUT:
         driven = Driven(f"{joint.name}.{row.label}", row.measure)
         table["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
         table["power"] = Reading(f"{joint.name}.power", Driven(driven.row, driven.measure, power=True)), "W"
+    return table
+
+
+def _labels(joint: Joint) -> list[str]:
+    return [label for label, _ in joint.coordinates]
+
+
+def of_reaction(joint: Joint) -> Table:
+    """Return the size of the force on the first body of a joint, and its components where rows are along fixed axes.
+
+    Joints whose rows of forces are components of a vector between two points, along axes of one frame, have one: their
+    multipliers are the components.
+    """
+    forces = [row for row in joint.rows if isinstance(row, Holonomic) and row.unit == "m"]
+    rows = [(f"{joint.name}.{row.label}", row.measure) for row in forces]
+    components = [measure for _, measure in rows if isinstance(measure, Component)]
+    frames = {(each.a, each.b, each.along.body) for each in components}
+    if not rows or len(components) < len(rows) or len(frames) > 1:
+        return {}
+    efforts = [Reading(row, Driven(row, measure)) for row, measure in rows]
+    squares = [call("mul", each, each) for each in efforts]
+    table: Table = {"F": (call("sqrt", sum_of_terms(*squares)) if len(rows) > 1 else call("abs", efforts[0]), "N")}
+    for letter, axis in zip("xyz", axes(GROUND, len(components[0].along.vector)), strict=False):
+        along = [e for e, measure in zip(efforts, components, strict=True) if measure.along == axis]
+        if len(along) == 1:
+            table[f"F{letter}"] = call("neg", along[0]), "N"
     return table
 
 
@@ -253,7 +295,7 @@ class Readings:
         entry = self.entry(path, where)
         return None if entry is None else entry[0]
 
-    def entry(self, path: tuple[str, ...], where: str) -> tuple[Reading, str] | None:
+    def entry(self, path: tuple[str, ...], where: str) -> tuple[Expr, str] | None:
         """Return the meaning of a dotted name, see `find`, with its unit."""
         owner, *words = path
         if (name := ".".join(path)) in self._losses:
@@ -273,7 +315,12 @@ class Readings:
 
     def _of_element(self, owner: str, where: str) -> Table:
         if owner in self._context.joint_names:
-            return of_joint(self._context.joint(owner, where), self._order)
+            joint = self._context.joint(owner, where)
+            table = of_joint(joint, self._order)
+            if any(name.startswith(f"{owner}.") for name in self._losses) and "m" in map(joint.unit, _labels(joint)):
+                # what a row with bounds exerts along the joint is a part of the reaction that its rows do not have
+                table = {label: entry for label, entry in table.items() if label not in REACTION}
+            return table
         return of_force(self._context.forces[owner], self._order) if owner in self._context.forces else {}
 
 
@@ -313,6 +360,17 @@ def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
     return (*states, *(Column(o.name, o.unit, o.value) for o in mechanism.outputs))
 
 
+def rows_read(value: Expr) -> set[str]:
+    """Return the rows whose efforts a formula of outputs reads, in integrals as well."""
+    rows = set[str]()
+    for reading in readings(value):
+        if isinstance(reading.source, Driven):
+            rows.add(reading.source.row)
+        elif isinstance(reading.source, Integral):
+            rows |= rows_read(reading.source.of)
+    return rows
+
+
 def integrals(mechanism: Mechanism) -> dict[Integral, int]:
     """Return the integrals in outputs, numbered in their order, each once."""
     sources = (r.source for output in mechanism.outputs for r in readings(output.value))
@@ -326,7 +384,7 @@ def integrated(mechanism: Mechanism) -> tuple[Any, ...]:
 
 
 def _columns(table: Table) -> Iterator[Column]:
-    return (Column(reading.name, unit, reading) for reading, unit in table.values())
+    return (Column(each.name, unit, each) for each, unit in table.values() if isinstance(each, Reading))
 
 
 def _driver(table: Table) -> Iterator[Column]:

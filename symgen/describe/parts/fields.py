@@ -27,6 +27,13 @@ OutputFunction = Annotated[
     float | str,
     Meta(description="a number or an expression of t, parameters and what is known of the motion, such as arm.tip.x"),
 ]
+StateBound = Annotated[
+    float | str | dict[str, float | str],
+    Meta(
+        description="a number or an expression of t, parameters, inputs and state, "
+        "or a table of two, { forwards = ..., backwards = ... }"
+    ),
+]
 Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
 Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters")]
 #: Two or three of them, as published in the schema; the `Scope` of a mechanism decides between the two.

@@ -41,6 +41,8 @@ _ALONG = {
     **{"sliding": ("N m", "N"), "static": ("N m", "N"), "viscous": ("N m s/rad", "N s/m"), "radius": ("m", "m")},
     **{"stribeck_speed": ("rad/s", "m/s"), "speed": ("rad/s", "m/s"), "lower": ("rad", "m"), "upper": ("rad", "m")},
     **{"coefficient": ("1", "1"), "static_coefficient": ("1", "1"), "restitution": ("1", "1")},
+    **{"stribeck_exponent": ("1", "1"), "forwards": ("N m", "N"), "backwards": ("N m", "N")},
+    **{"stiffness": ("N m/rad", "N/m"), "damping": ("N m s/rad", "N s/m")},
 }
 
 

@@ -305,10 +305,11 @@ class Scope:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.context.times)
 
-    def of_row(self, key: str, value: float | str, speeds: bool, inputs: bool = False) -> Expr:
+    def of_row(self, key: str, value: float | str, speeds: bool, inputs: bool = False, *, moves: bool = True) -> Expr:
         """Return an expression of t, parameters and positions, and with `speeds` velocities, with smooth tables.
 
-        It is differentiated twice, so Euler parameters are excluded, and inputs unless `inputs` says otherwise.
+        It is differentiated twice, so Euler parameters are excluded, and inputs unless `inputs` says otherwise. With
+        `moves` something in it has to move.
         """
         own = {name: name for name in self.context.inputs} if inputs else {}
         times, what = self.context.times, "positions and velocities" if speeds else "positions"
@@ -328,7 +329,7 @@ class Scope:
                 raise self.error(
                     key, names.what, f"'{reading.name}', a velocity", "a row of velocities is { velocity = ... }"
                 )
-        if not moving(expression):
+        if moves and not moving(expression):
             raise self.error(key, names.what, "one in which nothing moves")
         return expression
 

@@ -173,11 +173,12 @@ class Foreseen:
             gaps, all_gaps = times_between(self.gaps, self.mechanism, values, until, self.grid is not None)
             if self.grid is None:
                 # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
-                beside = (t + way * _BESIDE * until for t in sides for way in (-1.0, 1.0))
+                skipped = {*gaps, *sides} if self.mechanism.bounded else {*gaps}  # where modes are chosen anew
+                beside = (t + way * _BESIDE * until for t in sides if t not in skipped for way in (-1.0, 1.0))
                 times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
                 seams = tuple(Seam(t, {}) for t in (0.0, *times)) if times else ()
-                if gaps:
-                    seams = merged(seams, skipping(gaps, gaps, (0.0, 0.0), until))
+                if skipped:
+                    seams = merged(seams, skipping(sorted(skipped), gaps, (0.0, 0.0), until))
             else:
                 seams = skipping(sorted({*kinks, *sides, *gaps}), gaps, self.grid, until)
             result = seams, all_kinks and all_sides and all_gaps

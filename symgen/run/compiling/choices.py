@@ -23,7 +23,7 @@ from symgen.base.errors import InputError, counted
 from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.parts.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
 from symgen.describe.remembered import remembered
-from symgen.run.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops
+from symgen.run.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops, straight_alone
 from symgen.run.compiling.side import module_beside
 
 #: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].
@@ -156,10 +156,10 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, shape: str, evaluat
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    if mechanism.states or mechanism.rotors or mechanism.has_modes:
+    if what := straight_alone(mechanism):
         if shape == "looped":
             refuse_loops(mechanism)
-        return Taken("straight", "loops have no states of a file, no rotors and no rows that may be off")
+        return Taken("straight", f"loops have no {what}")
     coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
     size = f"{counted(coordinates, 'coordinate')}, about {evaluations:.2g} evaluations"
     faster = Taken("straight", f"faster runs outweigh compilation ({size})")

@@ -94,6 +94,7 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
         tuple(i for i, row in enumerate(every) if row.pressed),
         changes_in_time(mechanism),
         tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
+        tuple(i for i, row in enumerate(every) if row.changing),
     )
 
 

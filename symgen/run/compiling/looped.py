@@ -30,6 +30,7 @@ from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.derive.lower.looped.law import LoopedLawInfo, refuse_dense
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.derive.lower.looped.tables import Builder, IndexTables
+from symgen.derive.lower.record import BEHIND
 from symgen.derive.lower.record_form import record_form
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
@@ -69,7 +70,7 @@ class Needs:
     choice : MethodChoice
         The method.
     instances : tuple of Instance
-        Its bodies, joints and forces.
+        Its bodies, joints, forces and states.
     """
 
     mechanism: Mechanism
@@ -91,7 +92,7 @@ class Needs:
 
     @property
     def law(self) -> str:
-        """Module of the law; kernels begin with ``body``, ``joint`` or ``force``."""
+        """Module of the law; kernels begin with the kind of element."""
         return f"law_{self.choice.method.stem(self.choice.options)}"
 
     @cached_property
@@ -100,8 +101,15 @@ class Needs:
         choice = self.choice
         if not choice.implicit:
             return {}
-        keys = {kind: form_key(choice.method, choice.options, kind) for kind in ("body", "joint", "force")}
+        kinds = ("body", "joint", "bound", "force", "state")
+        keys = {kind: form_key(choice.method, choice.options, kind, self.shifted) for kind in kinds}
         return {stem: form_stem(keys[instance.kind], stem) for stem, instance in self.elements.items()}
+
+    @property
+    def shifted(self) -> bool:
+        """Whether equations of states of the file stand between the others and rows for projections."""
+        choice = self.choice
+        return bool(self.mechanism.states) and record_form(choice.method, choice.options).form in BEHIND
 
     @property
     def modules(self) -> tuple[str, ...]:
@@ -150,7 +158,7 @@ class Needs:
                 modules[name] = emit_kernel(kernel, generator), msgspec.to_builtins(kernel.info)
             if form is not None and not exists(form):
                 part = lower_form(element, instance, method, options, form)
-                modules[form] = emit_form(part, kernel.info, generator), msgspec.to_builtins(part.info)
+                modules[form] = emit_form(part, kernel.info, generator, self.shifted), msgspec.to_builtins(part.info)
         return modules
 
     def laid_out(self, metadata: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
@@ -276,7 +284,7 @@ def generate_looped(
 
 
 #: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
-_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|force)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
+_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
 
 
 def numbered(stems: Iterable[str]) -> dict[str, str]:

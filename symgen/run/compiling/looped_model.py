@@ -110,6 +110,7 @@ def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables
     """Return the runtime's facts of a mechanism in the looped shape."""
     mechanism, repeats = without_repeats(mechanism)
     coordinates, velocities = quantities(mechanism)
+    bounded = tuple(row for row, _ in shape.idle)
     operations: dict[str, int] = {}
     for group in shape.groups:
         for name, count in group.info.functions.items():
@@ -124,7 +125,8 @@ def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables
             RowInfo(f"{joint.name}.{row.label}", joint.name, row.unit, isinstance(row, Holonomic))
             for joint in mechanism.joints
             for row in joint.rows
-        ),
+        )
+        + tuple(RowInfo(row.row, row.owner, row.unit, True) for row in mechanism.bounded),
         joint_coordinates=tuple(
             Quantity(f"{joint.name}.{label}", joint.unit(label))
             for joint in mechanism.joints
@@ -139,5 +141,8 @@ def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables
         spins=tuple(shape.spins),
         operations=operations,
         inputs=mechanism.inputs,
-        alone=shape.gram.alone,
+        alone=tuple(row for row in shape.gram.alone if row not in bounded),
+        states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
+        switchable=bounded,
+        bounded=bounded,
     )

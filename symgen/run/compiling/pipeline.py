@@ -32,7 +32,6 @@ from symgen.compile.store.sources import CODE, reached_digest
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS, Method
 from symgen.describe.bounds.by_reaction import held_by_reactions
-from symgen.describe.bounds.modes import families_of
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
@@ -157,16 +156,20 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has states of its own, rotors on joints or rows with bounds, or if rows may be off.
+        If the file has rotors on joints or bounds by reactions, or if rows of joints may be off.
     """
-    for what, some in (
-        ("states of its own", mechanism.states),
+    if what := straight_alone(mechanism):
+        raise InputError("shape", f"straight code where a file has {what}", "looped")
+
+
+def straight_alone(mechanism: Mechanism) -> str:
+    """Return what of a file exists as straight code alone; empty where loops take all of it."""
+    parts = (
         ("rotors on joints", mechanism.rotors),
         ("rows that may be off", mechanism.switchable),
-        *((family.noun, rows) for family, rows in families_of(mechanism).items()),
-    ):
-        if some:
-            raise InputError("shape", f"straight code where a file has {what}", "looped")
+        *((f"{row.family.noun} by reactions", True) for row in held_by_reactions(mechanism)),
+    )
+    return next((what for what, some in parts if some), "")
 
 
 def generate(

@@ -61,7 +61,7 @@ WORDS = (modes.SLIP, modes.STICK, modes.REVERSE, modes.HIT, modes.REST, modes.LE
 #: Arrays that never change: of records with these names, and fields of others, by the name of the record.
 _TABLES = frozenset(("layout", "changes", "scheme"))
 _CONSTANT = {
-    "choice": frozenset(("angular", "place_of", "pushes", "pressed")),
+    "choice": frozenset(("angular", "place_of", "pushes", "pressed", "varying")),
     "strikes": frozenset(("events", "losses")),
     "effects": frozenset(("resets",)),
     "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves")),

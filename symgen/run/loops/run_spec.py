@@ -98,8 +98,9 @@ class BoundedRows:
         are over these.
     reactions : callable or None
         ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
-    pressed : tuple of int
-        Coordinates whose bounds depend on the reaction of their joint.
+    pressed, varying : tuple of int
+        Coordinates whose bounds depend on the reaction of their joint; those whose bounds are formulas of more than
+        parameters.
     changes : bool
         Whether anything but the motion and inputs changes over time.
     losses : tuple of int or None
@@ -116,6 +117,7 @@ class BoundedRows:
     pressed: tuple[int, ...] = ()
     changes: bool = True
     losses: tuple[int | None, ...] = ()
+    varying: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

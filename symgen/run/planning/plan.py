@@ -340,6 +340,20 @@ def events_of_run(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
     return (*mechanism.events, *events_of(mechanism, s.events), *reversed(once.values()))
 
 
+def refuse_ends(where: str, mechanism: Mechanism, s: Settings) -> None:
+    """Refuse events that end runs where all have to come to one end.
+
+    Raises
+    ------
+    InputError
+        If there are any.
+    """
+    for event in events_of_run(mechanism, s):
+        if event.action == STOP:
+            hint = f"without {event.name} in [events], or with its action 'record', it is taken"
+            raise InputError(where, "a mechanism whose runs no event ends", f"the event '{event.name}'", hint)
+
+
 def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
     """Refuse events where runs do not look for them, bounded rows too; what is only recorded changes nothing.
 

@@ -84,11 +84,11 @@ def store_probe(t: float, c: Any, p: Any, number: int, force: float) -> None:
 @exact()
 def probe_row(t: float, c: Any, j: int, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
     """Set the column of a row in G, and what its force adds to the reactions."""
-    if c.sliding[j] > 0.0:
+    if c.sliding[j] > 0.0 or c.varying[j] != 0:
         for i in range(c.count):
             c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
         force = 1.0
-        if c.pressed[j] != 0:
+        if c.pressed[j] != 0 or c.sliding[j] == 0.0:
             c.trial[j], c.pushed[0] = 0.0, j
         else:
             c.trial[j], force = 1.0, c.sliding[j]

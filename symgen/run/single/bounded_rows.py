@@ -28,6 +28,9 @@ STILL, NO_ACCELERATION = 1e-10, 1e-10
 TOUCHING = 1e-9
 #: A gap that a change of parameters or inputs leaves is closed from this part of the mechanism's length behind it on.
 DEEP = 1e-6
+#: A formula for a bound in motion may be this part above that for the bound at rest, by rounding; a bound that falls
+#: may be below an effort that several rows share by this part of forces.
+ROUNDED = 1e-9
 #: A force above this part of its bound is at its bound, where the row has broken loose.
 AT_BOUND = 1.0 - 1e-9
 #: Rows at rest of which less than this part is independent are determined by others; factors below it are rounding.
@@ -67,7 +70,8 @@ NOT_APPLIED = 10
 #: - shut (shape (k,)): 1 for closed gaps, whatever is left of their gaps, as rows are off behind a reset or
 #:   an impact.
 #: - named (shape (k + 1,)): Rows whose forces are not determined, then -1; or the first row of another fault.
-#: - pressed (shape (k,)): 1 for coordinates whose bounds depend on reactions.
+#: - pressed, varying (shapes (k,)): 1 for coordinates whose bounds depend on reactions; for those whose bounds are
+#:   formulas of more than parameters.
 #: - value ... restitution (shapes (k,)): Coordinates and gaps, rates, bounds, restitutions.
 #: - before, after (shape (MODE_NUMBERS k,)): Modes.
 #: - signs, trial, offset, alone, forces (shapes (k,)): Signs of rates; those of a probe; accelerations without forces
@@ -89,7 +93,10 @@ CHOICE = record_type(
     ("states accelerations reactions", abi.OBSERVE),
     ("box", BOX),
     ("first count dry changes", _N),
-    ("angular place_of pushes pushed at_rest broken stopped left rest loose taken passing shut named pressed", _K),
+    (
+        "angular place_of pushes pushed at_rest broken stopped left rest loose taken passing shut named pressed varying",
+        _K,
+    ),
     ("step value speed static sliding restitution before after signs trial offset alone forces scale matrix", _A),
     ("rest_of depth jam apart parts sizes bounds y w rate out room", _A),
     ("iw", _K),
@@ -127,7 +134,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             *(np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64), places),
             (np.arange(k) >= rows.dry).astype(np.int64),
             *(np.full(1, -1), np.zeros(1, dtype=np.int64), *flags, np.zeros(k + 1, dtype=np.int64)),
-            np.isin(np.arange(k), rows.pressed).astype(np.int64),
+            *(np.isin(np.arange(k), these).astype(np.int64) for these in (rows.pressed, rows.varying)),
             *(
                 np.zeros(1),
                 *numbers,

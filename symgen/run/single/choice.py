@@ -31,6 +31,7 @@ from symgen.run.single.bounded_rows import (
     NOT_FINITE,
     OTHERS,
     OUT_OF_RANGE,
+    ROUNDED,
     SAME,
     SIGN,
     STILL,
@@ -59,6 +60,8 @@ def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
         valid = valid and math.isfinite(out[i]) and math.isfinite(out[k + i])
         if i < dry:
             static, sliding = out[2 * k + i], out[2 * k + dry + i]
+            if c.varying[i] != 0 and static < sliding and sliding <= static * (1.0 + ROUNDED):
+                static = sliding
             c.static[i], c.sliding[i] = static, sliding
             valid = valid and math.isfinite(static) and sliding >= 0.0 and static >= sliding
             valid = valid and not (sliding == 0.0 and static > 0.0)
@@ -93,7 +96,7 @@ def find_mobility(c: Any) -> int:
 def accelerate(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
     """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
 
-    A coordinate whose bounds depend on a reaction may be ``pushed`` by a force of -1.
+    A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
     """
     for i in range(w.shape[0]):
         c.w[i] = w[i]
@@ -138,11 +141,15 @@ def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> in
         if c.pushes[j] != 0 and c.alone[j] > 0.0:  # accelerations as large as those that are there
             force = larger(abs(c.offset[j]), usual_of(c, w, j)) / c.alone[j]
             sign = -force
-        if force > 0.0:
+        if force > 0.0 or c.varying[j] != 0:
             for i in range(k):
                 c.trial[i] = c.signs[i]
             c.trial[j] = sign
-            if accelerate(t, c, y, p, w, iw, control) != SAME:
+            if force == 0.0:  # a bound that is 0 now holds what it holds at rest as soon as it rises
+                force, c.trial[j], c.pushed[0] = 1.0, 0.0, j
+            code = accelerate(t, c, y, p, w, iw, control)
+            c.pushed[0] = -1
+            if code != SAME:
                 return NOT_FINITE
             for i in range(k):
                 c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force

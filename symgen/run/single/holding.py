@@ -20,6 +20,7 @@ from symgen.run.single.bounded_rows import (
     NO_ACCELERATION,
     NO_FACTOR,
     NOT_DETERMINED,
+    ROUNDED,
     SAME,
     SIGN,
     usual_of,
@@ -38,6 +39,12 @@ _LEVEL = 1e-6
 def independence(c: Any, i: int) -> float:
     """Return the part of a row at rest that rows put into force do not determine."""
     return float(c.rest_of[i * c.count + i] / c.alone[i]) if c.alone[i] > 0.0 else 0.0
+
+
+@exact()
+def is_followed(c: Any, i: int) -> bool:
+    """Return whether margins read the bound of a row, as it varies; that by a reaction has a limit besides."""
+    return bool(c.varying[i] != 0 and c.pressed[i] == 0)
 
 
 @exact()
@@ -77,6 +84,8 @@ def take_rows(c: Any, n: int, which: int, w: Any) -> None:
 def hold_rows(c: Any, w: Any) -> int:
     """Put independent rows among those at rest into force; set their constants and largest efforts.
 
+    Bounds that vary are no numbers: margins read them, times the largest effort of a row that another one carries.
+
     Rows that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
     a dead centre, does. Returns `SAME`, or `NOT_DETERMINED`.
     """
@@ -104,7 +113,7 @@ def hold_rows(c: Any, w: Any) -> int:
             count += 1
             after[at + HELD] = 1.0
             after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
-            after[at + LIMIT] = 0.0 if c.pushes[i] != 0 else c.static[i]
+            after[at + LIMIT] = 0.0 if c.pushes[i] != 0 or is_followed(c, i) else c.static[i]
     for r in range(kept):
         i = c.rest[r]
         other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.matrix[i * k + i] > DEPENDENT * c.alone[i]
@@ -160,7 +169,10 @@ def share_force(c: Any, i: int, count: int) -> int:
         return SAME
     if owners == 1:
         after[at + CONSTANT] = float(owner + 1)
-        after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
+        if is_followed(c, i):
+            after[at + LIMIT] = factor
+        else:
+            after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
         return SAME
     pressed = c.pressed[i] != 0
     for j in range(1, owners + 1):
@@ -170,4 +182,7 @@ def share_force(c: Any, i: int, count: int) -> int:
             c.named[j] = -1
         return NOT_DETERMINED
     after[at + CONSTANT], after[at + EFFORT] = AT_REST, c.forces[i]
+    if is_followed(c, i):  # an effort at its bound is not watched at zero, and none is not watched
+        slack = ROUNDED * (c.scale[i] + abs(c.forces[i]) + c.static[i])
+        after[at + LIMIT] = slack if abs(c.forces[i]) > slack else 1.0
     return SAME

@@ -15,12 +15,11 @@ from symgen.base.errors import InputError
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import Settings, default
 from symgen.compile.store.paths import cache_location
-from symgen.describe.bounds.keys import nouns
-from symgen.describe.bounds.modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
+from symgen.describe.parts.events import RESET
 from symgen.run.planning.outputs import multiples, output_size
-from symgen.run.planning.plan import refuse_events
+from symgen.run.planning.plan import refuse_ends
 from symgen.run.planning.prepare import preparation
 from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.comparison_rows import Row, Trace
@@ -30,6 +29,7 @@ from symgen.study.comparison.laws import mechanisms_of_laws
 from symgen.study.comparison.model_comparison import PATIENCE, PREPARATION, REPEAT, ModelComparison, compute
 from symgen.study.journal import Journal
 from symgen.study.references.reference import Array
+from symgen.study.references.routes import underived
 from symgen.study.references.solvers import AUTO, check_solver
 from symgen.study.runner import Status, run_cells
 
@@ -202,9 +202,8 @@ def compare_all(
         base = replace(common, output_step=None, shape=shape, until=end, times=times.tolist())
         values = parameter_values(chosen.mechanism, common.parameters)
         mechanisms = mechanisms_of_laws(chosen.mechanism, runs.laws, values)
-        if chosen.mechanism.bounded and reference_by != AUTO:
-            expected = f"auto, as these solvers have no modes of {nouns(joined=' or ')}"
-            raise InputError("reference", expected, f"'{reference_by}'")
+        if reference_by != AUTO and (lacking := underived(chosen.mechanism)):
+            raise InputError("reference", f"auto, as there is no second derivation of {lacking}", f"'{reference_by}'")
         check_parameters(chosen.mechanism, runs.gradient)
         step, modes = chosen.mechanism.defaults.step, bool(chosen.mechanism.bounded)
         cases = [(law, s) for law in mechanisms for s in runs.settings(base, step, modes)]
@@ -239,10 +238,11 @@ def compare_all(
 
 
 def _chosen(model: Model, common: Settings) -> Model:
-    """Return a model without events that are only recorded, and with the largest step for all; refuse other events."""
+    """Return a model without events that are only recorded, and with the largest step for all; refuse ends of runs."""
     mechanism = model.mechanism
-    refuse_events("compare", without_bounds(mechanism), common)
-    plain = structs.replace(mechanism, events=()) if mechanism.events else mechanism
+    refuse_ends("compare", mechanism, common)
+    kept = tuple(event for event in mechanism.events if event.action == RESET)
+    plain = mechanism if kept == mechanism.events else structs.replace(mechanism, events=kept)
     plain = bounded(plain, common.max_step)
     return model if plain is mechanism else Model(plain)
 

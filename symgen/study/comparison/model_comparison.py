@@ -31,7 +31,7 @@ from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.limits import WATCHES, unlimited
 from symgen.study.machine_class import machine_class, versions
 from symgen.study.references.reference import Array, Reference, reference
-from symgen.study.references.routes import fastest_decay, two_routes
+from symgen.study.references.routes import fastest_decay, two_routes, underived
 from symgen.study.references.solvers import AUTO
 from symgen.study.runner import Cell, run_cells
 
@@ -57,12 +57,12 @@ class ReferenceTask:
         compiled, start = prepare(mechanism, settings, Purpose.STATE).assembled.of_bodies
         values, state = parameter_values(mechanism, settings.parameters), compiled.info.parts(start.y)
         try:
-            if self.reference_by == AUTO and (mechanism.bounded or any(force.flexures for force in mechanism.forces)):
-                # no second derivation has beam elements, or modes
+            if self.reference_by == AUTO and underived(mechanism):
                 decay = fastest_decay(mechanism, compiled, start)
                 motion = two_routes(mechanism, values, self.times, decay, settings.start)
             else:
-                motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start)
+                own = start.y[compiled.info.own_states]
+                motion = reference(mechanism, values, *state, self.times, self.reference_by, not settings.start, own)
         except SimulationError as error:
             return {"unusable": str(error)}
         rates = exact_rates(mechanism, motion, compiled, start).tolist() if two_sided(mechanism) else None

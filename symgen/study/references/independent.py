@@ -37,6 +37,8 @@ SHARE = 1e-8
 class IndependentEquations:
     """Numerical Phi, D, nu, gamma, f and M of a mechanism, in coordinates and their rates.
 
+    A state of these equations is the coordinates, their rates, and the states that the file defines.
+
     Parameters
     ----------
     mechanism : Mechanism
@@ -46,14 +48,11 @@ class IndependentEquations:
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
-        for what, some in (
-            ("states of its own", mechanism.states),
-            ("rotors on joints", mechanism.rotors),
-            *((family.noun, rows) for family, rows in families_of(mechanism).items()),
-        ):
-            if some:
-                expected = "a mechanism that is derived a second time, for references"
-                raise InputError(mechanism.name, expected, f"one with {what}", "symgen run --verify estimates errors")
+        for family in families_of(mechanism):
+            expected = "a mechanism that is derived a second time, for references"
+            raise InputError(
+                mechanism.name, expected, f"one with {family.noun}", "symgen run --verify estimates errors"
+            )
         self.mechanism = mechanism
         self.parameters = parameters
         self.rank: int | None = None
@@ -71,7 +70,11 @@ class IndependentEquations:
             *(row[2] for row in rows),
             *(row[3] for row in rows),
             *formulas.forces(),
+            *formulas.state_rates(),
         ]
+        turning = formulas.rotor_masses()
+        self._rotor_index = np.array(sorted(turning), dtype=int).reshape(-1, 2).T
+        outputs += [turning[key] for key in sorted(turning)]
         # the second slope of a kink is zero but at the kink itself
         outputs = [sp.sympify(e).replace(sp.DiracDelta, lambda *_: sp.S.Zero) for e in outputs]
         self._function = self._compile(formulas, outputs)
@@ -101,8 +104,14 @@ class IndependentEquations:
 
     # -- states --------------------------------------------------------------------------------------------------------
 
-    def state(self, q: Array, v: Array) -> Array:
-        """Return coordinates and their rates, shape (2 n,), for velocities as in results."""
+    @property
+    def starts(self) -> Array:
+        """Where the states of the file begin."""
+        states = self.mechanism.states
+        return np.array([evaluate(x.start, self.parameters, x.name) for x in states], dtype=np.float64)
+
+    def state(self, q: Array, v: Array, z: Array | None = None) -> Array:
+        """Return a state for velocities as in results; states of the file are `z`, by default where they begin."""
         rates = list[Array]()
         for body in self.mechanism.bodies:
             speeds, v = np.split(v, [len(body.speeds)])
@@ -110,7 +119,7 @@ class IndependentEquations:
                 e = q[self.first[body.name] + 3 :][:4]
                 speeds = np.concatenate([speeds[:3], 0.5 * _turning(e).T @ speeds[3:]])
             rates.append(speeds)
-        return np.concatenate([q, *rates])
+        return np.concatenate([q, *rates, self.starts if z is None else z])
 
     def velocities(self, y: Array) -> Array:
         """Return the velocities as in results: angular velocity in body axes."""
@@ -124,20 +133,34 @@ class IndependentEquations:
         return np.concatenate(speeds)
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
-        """Return Phi, D, nu, gamma and f at a state; nonholonomic rows have Phi 0."""
-        flat = np.array(self._function(t, q.tolist(), v.tolist()), dtype=float)
-        return self._parted(flat)
+        """Return Phi, D, nu, gamma and f at a state; nonholonomic rows have Phi 0.
+
+        States of the file may follow `v`; else they are 0.
+        """
+        return self._parted(self._numbers(t, q, v))
+
+    def _numbers(self, t: float, q: Array, v: Array) -> Array:
+        """Return the numbers that `evaluate` parts, then the rates of states and the masses of rotors."""
+        rest = np.zeros(self.n + len(self.mechanism.states) - len(v))
+        return np.array(self._function(t, q.tolist(), [*v.tolist(), *rest.tolist()]), dtype=float)
 
     def _parted(self, flat: Array) -> tuple[Array, Array, Array, Array, Array]:
         m, k = self.m, len(self._entries)
         d = np.zeros((m, self.n))
         d[self._row_index, self._column_index] = flat[m : m + k]
-        return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
+        first = 3 * m + k
+        return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : first], flat[first : first + self.n]
+
+    def _behind(self, flat: Array) -> tuple[Array, Array]:
+        """Return the rates of states, and the masses of rotors in the order of their places."""
+        first = 3 * self.m + len(self._entries) + self.n
+        count = len(self.mechanism.states)
+        return flat[first : first + count], flat[first + count :]
 
     def project(self, t: float, y: Array, mass_weighted: bool = True) -> Array:
         """Return the nearest state that satisfies the constraints, positions first; counts the independent rows."""
         root = self.root if mass_weighted else np.ones(self.n)
-        q, v = y[: self.n].copy(), y[self.n :].copy()
+        q, v, z = y[: self.n].copy(), y[self.n : 2 * self.n].copy(), y[2 * self.n :]
         for _ in range(4):
             phi, d, nu, _, _ = self.evaluate(t, q, v)
             q -= root * np.linalg.lstsq(d * root, phi, rcond=CUTOFF)[0]
@@ -147,20 +170,22 @@ class IndependentEquations:
         v -= root * np.linalg.lstsq(d * root, d @ v - nu, rcond=CUTOFF)[0]
         values = np.linalg.svd(d * self.root, compute_uv=False)
         self.rank = max(self.rank or 0, int(np.sum(values > CUTOFF * values.max(initial=0.0))))
-        return np.concatenate([q, v])
+        return np.concatenate([q, v, z])
 
     def rate(self, t: float, y: Array) -> Array:
-        """Return (q', q''): of all q'' with ``D q'' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
+        """Return (q', q'', z'): of all q'' with ``D q'' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
 
         Within a step redundant rows become independent: the rank of the last projection is used. With massless bodies,
         which have no M^-1 f, q'' and multipliers are the solution of M q'' + D^T l = f and D q'' = gamma.
         """
         n = self.n
-        q, v = y[:n], y[n:]
-        _, d, _, gamma, f = self.evaluate(t, q, v)
+        q, v = y[:n], y[n : 2 * n]
+        flat = self._numbers(t, q, y[n:])
+        _, d, _, gamma, f = self._parted(flat)
+        own, turning = self._behind(flat)
         if not self.regular:
-            return np.concatenate([v, self._with_multipliers(q, d, gamma, f)])
-        root = self._root(q)
+            return np.concatenate([v, self._with_multipliers(self._mass(q, turning), d, gamma, f), own])
+        root = self._root(q, turning)
         free = root.T @ f
         scaled = d @ root
         missing = gamma - scaled @ free
@@ -170,10 +195,10 @@ class IndependentEquations:
         else:
             u, values, w = self._independent(scaled)
             change = w.T @ ((u.T @ missing) / values)
-        return np.concatenate([v, root @ (free + change)])
+        return np.concatenate([v, root @ (free + change), own])
 
     def slopes(self, t: float, y: Array) -> Array:
-        """Return the Jacobian of the rates by central differences, shape (2 n, 2 n)."""
+        """Return the Jacobian of the rates by central differences, a row and a column for each part of a state."""
         return difference_jacobian(self.rate, t, y)
 
     @property
@@ -183,9 +208,10 @@ class IndependentEquations:
 
     def multipliers(self, t: float, y: Array) -> Array:
         """Return the multipliers of ``M q'' + D^T l = f``, of minimum norm where rows are dependent."""
-        q, v = y[: self.n], y[self.n :]
-        _, d, _, _, f = self.evaluate(t, q, v)
-        forces = f - self._mass(q) @ self.rate(t, y)[self.n :]
+        n = self.n
+        flat = self._numbers(t, y[:n], y[n:])
+        _, d, _, _, f = self._parted(flat)
+        forces = f - self._mass(y[:n], self._behind(flat)[1]) @ self.rate(t, y)[n : 2 * n]
         return np.asarray(np.linalg.lstsq(d.T, forces, rcond=CUTOFF)[0], dtype=np.float64)
 
     def undetermined(self, y: Array) -> tuple[str, ...]:
@@ -203,8 +229,11 @@ class IndependentEquations:
         rank = self.rank if self.rank is not None else int(np.sum(values > CUTOFF * values.max(initial=0.0)))
         return u[:, :rank], values[:rank], w[:rank]
 
-    def _root(self, q: Array) -> Array:
-        """Return R with M^-1 = R R^T, the mass matrix of the rates completed along e."""
+    def _root(self, q: Array, turning: Array) -> Array:
+        """Return R with M^-1 = R R^T, the mass matrix of the rates completed along e; `turning`: masses of rotors."""
+        if len(turning):
+            lower = np.linalg.cholesky(self._mass(q, turning))
+            return np.asarray(np.linalg.inv(lower).T)
         root = np.diag(self.root)
         if not self._first_e:
             return root
@@ -212,9 +241,8 @@ class IndependentEquations:
             root[i : i + 4, i : i + 4] = block.T
         return root
 
-    def _with_multipliers(self, q: Array, d: Array, gamma: Array, f: Array) -> Array:
+    def _with_multipliers(self, mass: Array, d: Array, gamma: Array, f: Array) -> Array:
         """Return q'' of M q'' + D^T l = f and D q'' = gamma, D by its independent rows: M may have no inverse."""
-        mass = self._mass(q)
         u, values, w = self._independent(d)
         rows = self.usual * w
         system = np.block([[mass, rows.T], [rows, np.zeros((len(values), len(values)))]])
@@ -222,11 +250,12 @@ class IndependentEquations:
         accelerations: Array = np.linalg.solve(system, np.concatenate([f, right]))[: self.n]
         return accelerations
 
-    def _mass(self, q: Array) -> Array:
-        """Return the mass matrix of the rates, completed along e."""
+    def _mass(self, q: Array, turning: Array) -> Array:
+        """Return the mass matrix of the rates, completed along e, with the masses of rotors."""
         mass = np.diag(self.mass)
         for i, block in zip(self._first_e, self._inertia(q), strict=True):
             mass[i : i + 4, i : i + 4] = block
+        mass[tuple(self._rotor_index)] += turning
         return mass
 
     def _inertia(self, q: Array) -> Array:
@@ -247,7 +276,7 @@ class IndependentEquations:
         tables: dict[str, Callable[[float], float]] = {}
         for table in self.mechanism.tables:
             tables |= curves(table)
-        inputs = [formulas.t, formulas.q, formulas.v, formulas.turns]
+        inputs = [formulas.t, formulas.q, [*formulas.v, *formulas.z], formulas.turns]
         function = sp.lambdify(inputs, [*outputs, *formulas.angles], modules=[tables, "math"], cse=True)
         count = len(formulas.angles)
         if count == 0:

@@ -82,13 +82,18 @@ class CompiledEquations(IndependentEquations):
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state."""
-        flat = np.zeros(3 * self.m + len(self._entries) + self.n)
-        self._function(float(t), np.ascontiguousarray(q), np.ascontiguousarray(v), self.values, flat)
-        return self._parted(flat)
+        return self._parted(self._numbers(t, q, v))
+
+    def _numbers(self, t: float, q: Array, v: Array) -> Array:
+        count = len(self.mechanism.states)
+        flat = np.zeros(3 * self.m + len(self._entries) + self.n + count + self._rotor_index.shape[1])
+        rest = np.zeros(self.n + count - len(v))
+        self._function(float(t), np.ascontiguousarray(q), np.concatenate([v, rest]), self.values, flat)
+        return flat
 
     def rate(self, t: float, y: Array) -> Array:
-        """Return (v, v'), as `IndependentEquations.rate` does."""
-        rates = np.empty(2 * self.n)
+        """Return (v, v', z'), as `IndependentEquations.rate` does."""
+        rates = np.empty(len(y))
         _for_all(_rate, _RATE)(
             self._address,
             self._index,
@@ -104,7 +109,7 @@ class CompiledEquations(IndependentEquations):
 
     def slopes(self, t: float, y: Array) -> Array:
         """Return the Jacobian of the rates, as `IndependentEquations.slopes` does, in one compiled call."""
-        found = np.empty((2 * self.n, 2 * self.n))
+        found = np.empty((len(y), len(y)))
         _for_all(_slopes, _SLOPES)(
             *(self._address, self._index, self.m, self.n, self.mass, self.values, float(t)),
             *(np.ascontiguousarray(y), difference_steps(y), found),
@@ -124,7 +129,8 @@ class CompiledEquations(IndependentEquations):
 
     @cached_property
     def _index(self) -> Any:
-        return np.concatenate([self._row_index, self._column_index]).astype(np.int64)
+        places = self._row_index, self._column_index, *self._rotor_index
+        return np.concatenate([[len(self._entries)], *places]).astype(np.int64)
 
     def advance(self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: Any) -> Array:
         """Integrate to `until` by extrapolation.
@@ -165,6 +171,7 @@ class CompiledEquations(IndependentEquations):
         """Return the outputs as a compiled function (t, q, v, p, out)."""
         shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]
+        names += [f"{z} = v[{self.n + i}]" for i, z in enumerate(formulas.z)]
         names += [f"p{i} = p[{i}]" for i in range(len(self.symbols))]
         lines = ["def equations(t, q, v, p, out):", *names]
         space: dict[str, Any] = {"math": math}
@@ -212,13 +219,16 @@ def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) 
     m, n = d.shape
     heavy, usual = 0, 0.0
     for j in range(n):
-        heavy, usual = heavy + int(mass[j] > 0.0), usual + mass[j]
+        heavy, usual = heavy + int(mass[j, j] > 0.0), usual + mass[j, j]
     usual = usual / heavy if heavy > 0 else 1.0
     system, right, solution = np.zeros((n + m, n + m)), np.zeros(n + m), np.empty(n + m)
     finite = True
     for j in range(n):
-        system[j, j], right[j] = mass[j], f[j]
-        finite = finite and math.isfinite(mass[j]) and math.isfinite(f[j])
+        right[j] = f[j]
+        finite = finite and math.isfinite(f[j])
+        for i in range(n):
+            system[i, j] = mass[i, j]
+            finite = finite and math.isfinite(mass[i, j])
     for i in range(m):
         right[n + i] = usual * gamma[i]
         finite = finite and math.isfinite(right[n + i])
@@ -233,22 +243,34 @@ def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def _rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float, y: Any, rate: Any) -> None:
-    """Set ``rate`` to (v, v'), v' by least squares in the metric of M, or with multipliers where M has no inverse."""
-    k = index.shape[0] // 2
-    out = np.zeros(3 * m + k + n)
-    q, v = y[:n], y[n : 2 * n]
-    function(t, q, v, p, out)
-    d, gamma, f = np.zeros((m, n)), out[2 * m + k : 3 * m + k], out[3 * m + k :]
+    """Set ``rate`` to (v, v', z').
+
+    v' is by least squares in the metric of M, or with multipliers where M has no inverse or is not diagonal. `index`
+    holds the number of entries of D, then their rows and columns, then those of the masses of rotors.
+    """
+    k, own = index[0], y.shape[0] - 2 * n
+    rotors = (index.shape[0] - 1 - 2 * k) // 2
+    first = 3 * m + k + n
+    out = np.zeros(first + own + rotors)
+    function(t, y[:n], y[n:], p, out)
+    d, gamma, f = np.zeros((m, n)), out[2 * m + k : 3 * m + k], out[3 * m + k : first]
     for e in range(k):
-        d[index[e], index[k + e]] = out[m + e]
-    heavy = True
+        d[index[1 + e], index[1 + k + e]] = out[m + e]
+    heavy = rotors == 0
     for j in range(n):
-        rate[j] = v[j]
+        rate[j] = y[n + j]
         heavy = heavy and mass[j] > 0.0
     if heavy:
-        _by_gauss(d, gamma, f, mass, rate[n:])
+        _by_gauss(d, gamma, f, mass, rate[n : 2 * n])
     else:
-        _with_multipliers(d, gamma, f, mass, rate[n:])
+        masses = np.zeros((n, n))
+        for j in range(n):
+            masses[j, j] = mass[j]
+        for e in range(rotors):
+            masses[index[1 + 2 * k + e], index[1 + 2 * k + rotors + e]] += out[first + own + e]
+        _with_multipliers(d, gamma, f, masses, rate[n : 2 * n])
+    for i in range(own):
+        rate[2 * n + i] = out[first + i]
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -265,14 +287,15 @@ def _slopes(
     slopes: Any,
 ) -> None:
     """Set ``slopes`` to the central differences of the rates, a column for each component of the state."""
-    moved, above, below = y.copy(), np.empty(2 * n), np.empty(2 * n)
-    for j in range(2 * n):
+    size = y.shape[0]
+    moved, above, below = y.copy(), np.empty(size), np.empty(size)
+    for j in range(size):
         moved[j] = y[j] + steps[j]
         _rate(function, index, m, n, mass, p, t, moved, above)
         moved[j] = y[j] - steps[j]
         _rate(function, index, m, n, mass, p, t, moved, below)
         moved[j] = y[j]
-        for i in range(2 * n):
+        for i in range(size):
             slopes[i, j] = (above[i] - below[i]) / (2.0 * steps[j])
 
 
@@ -376,7 +399,7 @@ def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Re
     SimulationError
         If the motion cannot be integrated within the budget, e.g. into a singularity.
     """
-    y = equations.project(0.0, np.concatenate([q, v]))
+    y = equations.project(0.0, np.concatenate([q, v, equations.starts]))
     d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
     equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
     stiff = is_stiff(equations, y, float(times[-1]))
@@ -432,5 +455,5 @@ def _by_extrapolation(
 def _scale(y: Array, n: int) -> Array:
     """Return the error scale of each component: 1 m or rad, and at least 1 m/s or rad/s."""
     scale = np.maximum(np.abs(y), 1.0)
-    scale[n:] = np.maximum(scale[n:], float(np.abs(y[n:]).max(initial=0.0)))
+    scale[n : 2 * n] = np.maximum(scale[n : 2 * n], float(np.abs(y[n : 2 * n]).max(initial=0.0)))
     return scale

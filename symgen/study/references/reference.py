@@ -68,6 +68,8 @@ class Reference:
         Multipliers by the names of rows; empty where they were not computed.
     undetermined : tuple of str
         Joints whose reactions the equations of motion do not determine.
+    z : Array, shape (k, number of states of the file), or empty
+        States that the file defines.
     """
 
     how: str
@@ -78,14 +80,15 @@ class Reference:
     note: str = ""
     lam: Mapping[str, Array] = field(default_factory=dict)
     undetermined: tuple[str, ...] = ()
+    z: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     @classmethod
     def of(
         cls, equations: IndependentEquations, how: str, estimated: float, times: Array, states: Array, note: str = ""
     ) -> Reference:
-        """Return the reference of integrated states: coordinates and their rates, shape (k, 2 n)."""
-        velocities = np.array([equations.velocities(y) for y in states])
-        return cls(how, max(estimated, 1e-14), times, states[:, : equations.n], velocities, note)
+        """Return the reference of integrated states: coordinates, their rates and states of the file."""
+        velocities, n = np.array([equations.velocities(y) for y in states]), equations.n
+        return cls(how, max(estimated, 1e-14), times, states[:, :n], velocities, note, z=states[:, 2 * n :])
 
 
 def reference(
@@ -96,6 +99,7 @@ def reference(
     times: Array,
     solver: str = AUTO,
     own_start: bool = True,
+    z: Array | None = None,
 ) -> Reference:
     """Return the reference motion of a mechanism.
 
@@ -113,6 +117,8 @@ def reference(
         ``auto``, or one of `SOLVERS`.
     own_start : bool
         Whether the start is the mechanism's own: formulas hold for no other.
+    z : Array, optional
+        Start of the states that the file defines; by default as the file has it.
 
     Raises
     ------
@@ -128,13 +134,14 @@ def reference(
     from symgen.study.references.independent import IndependentEquations
 
     equations = IndependentEquations(mechanism, parameters)
-    y = equations.project(0.0, equations.state(q, v))
+    y = equations.project(0.0, equations.state(q, v, z))
     if closed is None:
         reference = _integrated(equations, y, times, "scipy-dop853" if solver == AUTO else solver)
     else:
         how, estimated, motion, velocities = closed(mechanism, parameters, q, times)
         reference = Reference(how, estimated, times, motion, velocities)
-    states = [equations.state(*state) for state in zip(reference.q, reference.v, strict=True)]
+    own = reference.z.reshape(len(times), -1)
+    states = [equations.state(*state) for state in zip(reference.q, reference.v, own, strict=True)]
     lam = np.array([equations.multipliers(float(t), y) for t, y in zip(times, states, strict=True)])
     lam = lam.reshape(len(times), equations.m)
     by_name = {name: lam[:, i] for i, name in enumerate(equations.row_names)}

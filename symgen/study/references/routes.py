@@ -1,26 +1,33 @@
 """References by compiled code: two formulations of the equations with two integrators.
 
 The second derivation of a mechanism in space (`symgen.study.references.independent`) is interpreted: too slow for the
-many motions of a stress study, and without beam elements and bounded rows. Compiled code can differ in the
-formulation of the equations and in the integrator. The motion is that of `direct-correction` with Runge-Kutta steps at
-a tight tolerance; its error is estimated from `index1-augmented-lagrangian`, which solves another system for the
-accelerations, with Adams steps.
+many motions of a stress study. Without one are beam elements, rows with bounds, and events that change the state.
+Compiled code can differ in the formulation of the equations and in the integrator. The motion is that of
+`direct-correction` with Runge-Kutta steps at a tight tolerance; its error is estimated from
+`index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps. Where bounds
+depend on reactions, which that system finds by iteration, `lagrange` in joint coordinates takes its place.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 from symgen.base.errors import SimulationError
 from symgen.base.settings import Settings
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.modes import families_of, without_bounds
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.parts.events import RESET
 from symgen.result.points import Points
 from symgen.result.reactions import Forces, seats
+from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.planning.automatic import linearised
@@ -31,23 +38,60 @@ from symgen.study.references.reference import Reference
 
 Array = NDArray[np.float64]
 
-Route = tuple[str, str, dict[str, str | float], float]
+
+class Route(NamedTuple):
+    """A formulation of the equations with an integrator and its relative tolerance."""
+
+    method: str
+    integrator: str
+    options: Mapping[str, str | float]
+    rtol: float
+    coordinates: str = "absolute"
+
+
 #: Method, integrator, options and tolerance of the two routes; the first is the reference.
 ROUTES: tuple[Route, ...] = (
-    ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
-    ("index1-augmented-lagrangian", "abm", {}, 1e-11),
+    Route("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
+    Route("index1-augmented-lagrangian", "abm", {}, 1e-11),
 )
 #: Routes where decay requires more evaluations of explicit steps than the limit.
 STIFF_ROUTES: tuple[Route, ...] = (
-    ("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
-    ("ggl", "radau5", {}, 1e-9),
+    Route("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
+    Route("ggl", "radau5", {}, 1e-9),
 )
 #: Explicit routes where rounding of very stiff forces makes their tolerances unattainable.
-ROUGH_ROUTES = tuple((*route[:3], rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
+ROUGH_ROUTES = tuple(route._replace(rtol=rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
 #: Evaluation limit of a route, for small mechanisms.
 BUDGET, STIFF_BUDGET = 20_000_000, 300_000
 #: Evaluation limit of explicit steps due to decay, for small mechanisms; the stiff routes are used beyond.
 STIFF_FROM = 6_000_000
+
+
+def underived(mechanism: Mechanism) -> str:
+    """Return what no second derivation of a mechanism has; empty where it has all of it."""
+    if any(force.flexures for force in mechanism.forces):
+        return "beam elements"
+    for family in families_of(mechanism):
+        return family.noun
+    return "events that change the state" if any(event.action == RESET for event in mechanism.events) else ""
+
+
+def derivable(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism without what no second derivation has: its positions and constraints are the same."""
+    if not underived(mechanism):
+        return mechanism
+    forces = tuple(structs.replace(force, flexures=()) for force in mechanism.forces)
+    return structs.replace(without_bounds(mechanism), events=(), forces=forces)
+
+
+def _fitting(mechanism: Mechanism, routes: tuple[Route, ...]) -> tuple[Route, ...]:
+    """Return routes for massless bodies, which have no metric of masses, and for bounds by reactions."""
+    first, second = routes
+    if mechanism.has_massless:
+        first = first._replace(options={})
+    if held_by_reactions(mechanism):
+        second = Route("lagrange", second.integrator, {}, second.rtol, "joint")
+    return first, second
 
 
 def fastest_decay(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> float:
@@ -103,11 +147,12 @@ def two_routes(
 
 
 def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...], budget: int) -> Reference:
-    motions = []
-    for method, integrator, options, rtol in routes:
-        shape = "straight" if routes is STIFF_ROUTES or mechanism.bounded else "looped"
+    motions, routes = [], _fitting(mechanism, routes)
+    straight = any(route.integrator == "radau5" for route in routes) or bool(straight_alone(mechanism))
+    for method, integrator, options, rtol, coordinates in routes:
+        shape = "straight" if straight or coordinates == "joint" else "looped"
         settings = replace(common, method=method, integrator=integrator, options=options, shape=shape)
-        settings = replace(settings, rtol=rtol, atol=1e-2 * rtol)
+        settings = replace(settings, rtol=rtol, atol=1e-2 * rtol, coordinates=coordinates)
         run = prepare(mechanism, settings).with_spec(max_evaluations=budget)
         outcome = run.integrate()
         if outcome.interrupted:
@@ -122,7 +167,10 @@ def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...]
     forces = Forces(motions[0], seats(mechanism, values))
     multipliers = forces.multipliers()
     lam = dict(zip(multipliers.names, multipliers.values.T, strict=True))
-    (method, integrator, _, rtol), (other, with_other, _, _) = routes
+    (method, integrator, _, rtol, _), (other, with_other, _, _, coordinates) = routes
     how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
+    how += " in joint coordinates" if coordinates == "joint" else ""
+    if lacking := underived(mechanism):
+        how += f"; there is no second derivation of {lacking}"
     times = np.array(common.times)
     return Reference(how, max(apart, 1e-14), times, q, v, lam=lam, undetermined=forces.non_unique)

@@ -65,8 +65,8 @@ class ReferenceFormulas:
 
     Attributes
     ----------
-    t, q, v
-        Symbols of the time, the coordinates and their rates.
+    t, q, v, z
+        Symbols of the time, the coordinates and their rates, and the states that the file defines.
     first : dict
         Index of the first coordinate of each body.
     angles, turns : list
@@ -90,6 +90,8 @@ class ReferenceFormulas:
             if _turns_in_space(body):
                 rates = [*rates[:3], *angular_velocity(self.q[i + 3 :], rates[3:])]
             self._symbols |= {f"{body.name}.{name}": rate for name, rate in zip(body.speeds, rates, strict=True)}
+        self.z = [sp.Symbol(f"z{i}", real=True) for i in range(len(mechanism.states))]
+        self._symbols |= {state.name: z for state, z in zip(mechanism.states, self.z, strict=True)}
 
     def rows(self) -> list[Row]:
         """Return the rows of joints, and one for the length of each body's Euler parameters."""
@@ -119,7 +121,28 @@ class ReferenceFormulas:
             for effort in force.efforts:
                 for i, e in self._effort(effort).items():
                     total[i] += e
+        for kinetic in self._of_rotors():
+            for i, (q, v) in enumerate(zip(self.q, self.v, strict=True)):
+                total[i] += sp.diff(kinetic, q) - self._along(sp.diff(kinetic, v))
         return total
+
+    def state_rates(self) -> list[Any]:
+        """Return the rates of the states that the file defines."""
+        return [self._expression(state.rate) for state in self.mechanism.states]
+
+    def rotor_masses(self) -> dict[tuple[int, int], Any]:
+        """Return what rotors add to the mass matrix, by row and column: second derivatives of their energies."""
+        masses = dict[tuple[int, int], Any]()
+        for kinetic in self._of_rotors():
+            for i, momentum in self._by_rates(kinetic).items():
+                for j, mass in self._by_rates(momentum).items():
+                    masses[i, j] = masses.get((i, j), sp.S.Zero) + mass
+        return masses
+
+    def _of_rotors(self) -> list[Any]:
+        """Return the kinetic energy of each rotor."""
+        rotors = self.mechanism.rotors
+        return [self._expression(x.inertia) * self._along(self._measure(x.angle)) ** 2 / 2 for x in rotors]
 
     def _expression(self, e: Expr, **placeholders: Any) -> Any:
         measured = {r.name: self._reading(r) for r in readings(e)}
@@ -156,7 +179,7 @@ class ReferenceFormulas:
         return {i: e for i, e in entries.items() if e != 0}
 
     def _by_rates(self, speed: Any) -> dict[int, Any]:
-        """Return the coefficients of the rates in an expression linear in them."""
+        """Return the derivatives of an expression by the rates: the coefficients where it is linear in them."""
         free = speed.free_symbols
         entries = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
         return {i: e for i, e in entries.items() if e != 0}

@@ -16,9 +16,11 @@ from symgen.study.report.figures import pictures
 from symgen.study.report.picture import sketched
 from symgen.study.report.source import beside_the_source
 
+#: Findings that stand with the front, on the first screen.
+FIRST = 3
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
 BELOW = "* below the error of the reference itself"
-_LEAD = (
+_MEASURED = (
     "The error of a run is its largest distance [m] from a reference motion, over bodies, common output times and "
     "points: the centre of mass of each body and the tips of its axes at the body's own length. Run time is that of "
     "the integration loop alone: a warm-up, then the shortest of several runs, with their spread (longest less "
@@ -47,9 +49,7 @@ def comparison(
         SVG of mechanisms by their names, for the head of the report.
     """
     names = [study.mechanism for study in studies]
-    lead = [_LEAD]
-    if any(study.interrupted for study in studies):
-        lead.insert(0, "This study was interrupted: rows are missing.")
+    lead = ["This study was interrupted: rows are missing."] if any(study.interrupted for study in studies) else []
     facts = [
         ("Versions", version_list()),
         ("Machine", machine_class()),
@@ -57,8 +57,8 @@ def comparison(
         *settings,
         *((f"Digest of {study.mechanism}", study.digest) for study in studies if study.digest),
     ]
-    sections = [*sketched(sketches or {}), *([_across(studies)] if len(studies) > 1 else [])]
-    sections += [_one(study) for study in studies]
+    sections = [*([_across(studies)] if len(studies) > 1 else []), *(_one(study) for study in studies)]
+    sections += [*sketched(sketches or {}), Section("How it is measured", (_MEASURED,))]
     source = beside_the_source(list(studies))
     if source is not None:
         sections.append(source)
@@ -116,14 +116,14 @@ def _one(study: Study) -> Section:
     text = tuple(words.sentence(t) for t in title)
     if not study.rows:
         return Section(study.mechanism, (*text, "No row was done before the interruption."))
-    return Section(
-        study.mechanism,
-        text,
-        findings_of_rows(study),
-        (_summary(study), *_contact_table(study), *_gradient_table(study), *_at_table(study), *_cost_table(study)),
-        pictures(study),
-        (Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),),
+    found, (first, *further) = findings_of_rows(study), pictures(study) or (None,)
+    tables = (*_contact_table(study), *_gradient_table(study), *_at_table(study), *_cost_table(study))
+    parts = (
+        Section(f"More on {study.mechanism}", (), found[FIRST:], tables, tuple(p for p in further if p is not None)),
+        Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),
     )
+    shown = () if first is None else (first,)
+    return Section(study.mechanism, text, found[:FIRST], (_summary(study),), shown, parts, pictures_first=True)
 
 
 def _summary(study: Study) -> DocumentTable:

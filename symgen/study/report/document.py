@@ -81,7 +81,10 @@ class DocumentTable:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of a report, in this order: text, findings, tables, pictures, parts of its own."""
+    """A part of a report, in this order: text, findings, tables, pictures, parts of its own.
+
+    Where `beside` is set, its pictures stand left of its tables; with `pictures_first` they stand above all else.
+    """
 
     title: str
     text: tuple[str, ...] = ()
@@ -89,6 +92,8 @@ class Section:
     tables: tuple[DocumentTable, ...] = ()
     pictures: tuple[Picture, ...] = ()
     parts: tuple[Section, ...] = ()
+    beside: bool = False
+    pictures_first: bool = False
 
     @property
     def anchor(self) -> str:
@@ -107,7 +112,7 @@ class Document:
     lead : tuple of str
         Paragraphs below the title.
     facts : tuple of (str, str)
-        Settings and versions, by label.
+        Settings and versions, by label, which stand at the end.
     command : str
         The command that makes it again; empty where there is none.
     sections : tuple of Section

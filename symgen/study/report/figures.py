@@ -12,7 +12,7 @@ from symgen.study.comparison.comparison_study import Study
 from symgen.study.report import words
 from symgen.study.report.comparison_findings import line_number, methods, representatives, settings_text
 from symgen.study.report.document import Picture, anchor
-from symgen.study.report.picture import COLOURS, DASHES, GREY, below, drawn, line_style
+from symgen.study.report.picture import COLOURS, DASHES, GREY, MARKERS, below, drawn, line_style, shade
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,6 +50,24 @@ def pictures(study: Study) -> tuple[Picture, ...]:
     return tuple(picture for picture in every if picture is not None)
 
 
+def looks(study: Study) -> dict[str, dict[str, Any]]:
+    """Return colour, dashes and marker of each label: the colour is its method's, lighter for each further variant."""
+    found, variants = dict[str, dict[str, Any]](), dict[str, int]()
+    for label in methods(study):
+        method = label.partition(", ")[0]
+        level = variants[method] = variants.get(method, -1) + 1
+        look = line_style(line_number(method))
+        dashes = {} if level == 0 else {"linestyle": DASHES[level % len(DASHES)]}
+        found[label] = look | {"color": shade(str(look["color"]), level)} | dashes
+    return found
+
+
+def integrator_markers(study: Study) -> dict[str, str]:
+    """Return a marker for each integrator, for pictures with several of them."""
+    names = dict.fromkeys(row.integrator for row in study.rows)
+    return {name: MARKERS[i % len(MARKERS)] for i, name in enumerate(names)}
+
+
 # -- at a glance -------------------------------------------------------------------------------------------------------
 
 
@@ -60,15 +78,15 @@ def _front(study: Study) -> Picture | None:
     rows = [(row, i in study.front) for i, row in enumerate(study.rows) if _drawable(row)]
     best = sorted((row for row, on_front in rows if on_front), key=lambda row: row.run_seconds)
     lines = list(dict.fromkeys((row.label, row.integrator) for row in best))
+    colours, markers = looks(study), integrator_markers(study)
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         ax.plot(*_points([row for row, _ in rows]), ".", color="#b8bec7", markersize=4.0, label="all rows")
         ax.plot(*_points(best), color=GREY, linewidth=0.8, drawstyle="steps-post")
         for method, integrator in lines:
-            look = line_style(line_number(method))
             own = _points([row for row in best if (row.label, row.integrator) == (method, integrator)])
-            ax.plot(*own, look["marker"], color=look["color"], label=f"{method}, {integrator}")
+            ax.plot(*own, markers[integrator], color=colours[method]["color"], label=f"{method}, {integrator}")
         ax.set(xscale="log", yscale="log", xlabel="run time", ylabel="error [m]")
         _floor(ax, study.estimated_error, ax.get_ylim())
         _durations(ax, ax.get_xlim())
@@ -92,12 +110,12 @@ def _ratios(study: Study) -> Picture | None:
             lines.setdefault((time.method, time.integrator), []).append(time)
     if not lines:
         return None
-    integrators = list(dict.fromkeys(integrator for _, integrator in lines))
+    integrators, colours = list(dict.fromkeys(integrator for _, integrator in lines)), looks(study)
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         for k, ((method, integrator), times) in enumerate(lines.items()):
-            look = line_style(line_number(method)) | {"linestyle": DASHES[integrators.index(integrator) % len(DASHES)]}
+            look = colours[method] | {"linestyle": DASHES[integrators.index(integrator) % len(DASHES)]}
             middle = np.array([time.ratio for time in times], dtype=float)
             spread = [middle - [t.ratio_low for t in times], [t.ratio_high for t in times] - middle]
             beside = [time.error * (1.0 + 0.03 * (k - 0.5 * len(lines))) for time in times]  # bars stay apart
@@ -171,14 +189,14 @@ def _limits(values: Sequence[float]) -> tuple[float, float]:
 def _error_against_time(
     study: Study, title: str, lines: list[tuple[str, str]], limits: tuple[tuple[float, float], tuple[float, float]]
 ) -> Picture:
-    mixed = _mixed(lines)
+    mixed, colours, markers = _mixed(lines), looks(study), integrator_markers(study)
     rows = [row for row in study.rows if (row.label, row.integrator) in lines]
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         for method, integrator in lines:
             own = [r for r in rows if (r.label, r.integrator) == (method, integrator) and _drawable(r)]
-            look = line_style(line_number(method))
+            look = colours[method] | ({"marker": markers[integrator]} if mixed else {})
             label = f"{method}, {integrator}" if mixed else method
             errors = [max(r.error or 0.0, FLOOR) for r in own]
             ax.plot([r.run_seconds for r in own], errors, **look, markerfacecolor="none", label=label)
@@ -229,12 +247,12 @@ def _over_time(study: Study, field: str, name: str, label: str, caption: str) ->
     curves = [curve for curve in curves if len(curve[2]) > 1]
     if not curves:
         return None
-    title = f"{name[:1].upper()}{name[1:].replace('-', ' ')} over time"
+    title, colours = f"{name[:1].upper()}{name[1:].replace('-', ' ')} over time", looks(study)
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         for k, (method, trace, values) in enumerate(curves):
-            look = line_style(line_number(method))
+            look = colours[method]
             values = np.where(np.isfinite(values), np.maximum(values, FLOOR), np.nan)
             # marks of the curves stand at different times, so that none hides another's
             every = max(1, len(values) // MARKS)

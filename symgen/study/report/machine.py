@@ -17,7 +17,9 @@ from symgen.result.plots import drawing
 from symgen.result.summary import lines
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report.document import Document, DocumentTable, Picture, Section
+from symgen.study.report.key_numbers import key_numbers
 from symgen.study.report.picture import MOST_BODIES, of_figure
+from symgen.study.report.words import engineering, rounded
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -60,6 +62,7 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
         ("machine", machine_class()),
     ]
     sections = [
+        *_first_screen(model, result),
         *_motion(model, result),
         Section("Largest loads", _trust(result), tables=(*_loads(result, along),)),
         Section("Curves", pictures=(*_curves(result, along),)),
@@ -73,12 +76,22 @@ def _amount(model: Model, name: str, value: float) -> str:
     """Return a parameter's value with its unit, as in the file."""
     parameter = next((p for p in model.mechanism.parameters if p.name == name), None)
     number, unit = (value, "") if parameter is None else parameter.as_written(value)
-    return f"{number:g} {unit}".removesuffix(" 1").strip()
+    note = "" if parameter is None or not parameter.note else f", {parameter.note}"
+    return f"{number:g} {unit}".removesuffix(" 1").strip() + note
 
 
 def _lead(result: Result) -> str:
     span = f"from {result.t[0]:g} to {result.t[-1]:g} s" if len(result.t) else "without outputs"
-    return f"{result.mechanism}, simulated {span} with {result.method} and {result.integrator}: {result.status}."
+    how = f"simulated {span} with {result.method} and {result.integrator}"
+    return f"{result.mechanism}, {how}: {result.status}.{_closing(result)}"
+
+
+def _closing(result: Result) -> str:
+    """Return how far the motion and its energies can be trusted."""
+    estimate = result.error_estimate
+    error = "" if estimate is None else f"a second run puts the error of the motion at {rounded(estimate)} m, and "
+    text = f"{error}the balance of energy closes to {engineering(result.energy_drift_max, 'J')}."
+    return f" {text[:1].upper()}{text[1:]}" if np.isfinite(result.energy_drift_max) else ""
 
 
 def _trust(result: Result) -> tuple[str, ...]:
@@ -90,6 +103,19 @@ def _trust(result: Result) -> tuple[str, ...]:
     return (text + error + doubt,)
 
 
+def _first_screen(model: Model, result: Result) -> Iterator[Section]:
+    """Yield the section with the picture of the motion beside the numbers that are asked for first."""
+    if not len(result.t):
+        return
+    numbers = key_numbers(model.mechanism, result)
+    table = DocumentTable("", ("", "largest", "when and where"), tuple((n.what, n.value, n.where) for n in numbers))
+    pictures = []
+    if len(model.mechanism.bodies) <= MOST_BODIES:
+        moving = Drawing.of_motion(model.mechanism, result.q.values, dict(result.parameters))
+        pictures.append(_sketch("motion", "The start, later positions and paths", moving))
+    yield Section("At a glance", tables=(table,) if numbers else (), pictures=tuple(pictures), beside=True)
+
+
 def _motion(model: Model, result: Result) -> Iterator[Section]:
     """Yield the section of pictures of the mechanism."""
     if len(model.mechanism.bodies) > MOST_BODIES or not len(result.t):
@@ -97,7 +123,6 @@ def _motion(model: Model, result: Result) -> Iterator[Section]:
     q, values = result.q.values, dict(result.parameters)
     pictures = [
         _sketch("start", f"{model.name} at its start", Drawing.of(model.mechanism, q[0], values)),
-        _sketch("motion", "The start, later positions and paths", Drawing.of_motion(model.mechanism, q, values)),
     ]
     for k in np.unique(np.linspace(0, len(q) - 1, POSITIONS).round().astype(int))[1:].tolist():
         still = Drawing.of(model.mechanism, q[k], values, ghosts=[q[0].tolist()], labels=False)

@@ -72,6 +72,15 @@ def line_style(index: int) -> dict[str, Any]:
     }
 
 
+def shade(color: str, level: int) -> str:
+    """Return a colour, or a lighter shade of it for a level above 0."""
+    if level == 0:
+        return color
+    share = 1.0 - 0.75**level
+    parts = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{round(x + share * (215 - x)):02x}" for x in parts)
+
+
 def drawn(
     name: str, caption: str, alternative: str, draw: Callable[[Figure], None], height: float = 4.0, wide: bool = False
 ) -> Picture:

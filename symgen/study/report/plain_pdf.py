@@ -31,12 +31,14 @@ def plain_pdf(document: Document) -> bytes:
     paper.text(document.title, _HEADINGS[0], bold=True)
     for text in document.lead:
         paper.text(text)
+    for section in document.sections:
+        _section(paper, section, 1)
+    paper.space(0.15)
+    paper.text("Settings and versions", _HEADINGS[1], bold=True, together=1.0)
     paper.table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
         paper.text("Reproduce with")
         paper.typed([document.command])
-    for section in document.sections:
-        _section(paper, section, 1)
     paper.text("Drawn by matplotlib, as there was no browser that prints.")
     return paper.pdf()
 
@@ -44,13 +46,16 @@ def plain_pdf(document: Document) -> bytes:
 def _section(paper: _Paper, section: Section, level: int) -> None:
     paper.space(0.15)
     paper.text(section.title, _HEADINGS[min(level, len(_HEADINGS) - 1)], bold=True, together=1.0)
+    if section.pictures_first:
+        paper.pictures(section.pictures)
     for text in section.text:
         paper.text(text)
     for text in section.findings:
         paper.text(f"\N{EN DASH} {text}")
     for table in section.tables:
         paper.table(table)
-    paper.pictures(section.pictures)
+    if not section.pictures_first:
+        paper.pictures(section.pictures)
     for part in section.parts:
         _section(paper, part, level + 1)
 

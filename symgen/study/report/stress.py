@@ -62,13 +62,13 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         ("Extent", "quick: fewer cases, one integrator a method" if study.quick else "all cases"),
     )
     sections = [
-        *sketched(sketches or {}),
-        Section("Findings", findings=findings(study)),
         _map_section(study),
+        Section("Findings", findings=findings(study)),
         *_limits_section(study),
         *([Section("Regions of stability", pictures=planes)] if (planes := regions(study)) else []),
         _trust_section(study),
         *_left_out(study),
+        *sketched(sketches or {}),
         _cells_section(study),
     ]
     title = f"Stiff and extreme cases: {words.enumeration([Path(model).stem for model in study.models])}"
@@ -92,7 +92,7 @@ def _map_section(study: Stress) -> Section:
     pictures = maps(study)
     if len(study.models) > FEW_MODELS:
         tables, pictures = (_models_table(study), *tables), (overview(study), *pictures)
-    return Section("Map of methods and cases", tables=tables, pictures=pictures)
+    return Section("Map of methods and cases", tables=tables, pictures=pictures, pictures_first=True)
 
 
 def _models_table(study: Stress) -> DocumentTable:

@@ -52,6 +52,33 @@ def seconds(x: float | None) -> str:
     return f"{x:.3g} s"
 
 
+#: Prefixes of engineering units, by powers of a thousand.
+_PREFIXES = {2: "M", 1: "k", 0: "", -1: "m", -2: "µ"}
+#: Units that take one.
+_PREFIXED = {"N", "N m", "W", "J", "m"}
+
+
+def engineering(x: float, unit: str) -> str:
+    """Return a number to three digits with its unit as engineers write it: 39.2 kN, 2.49 kW, 40.5 deg, 12 mm."""
+    if not math.isfinite(x):
+        return f"not finite {unit}".strip()
+    if unit in ("rad", "rad/s"):
+        return f"{_three(math.degrees(x))} {unit.replace('rad', 'deg')}"
+    if unit not in _PREFIXED or not 1e-6 <= abs(x) < 1e9:
+        return f"{rounded(x, 3)} {unit}".strip()
+    level = math.floor(math.log10(float(f"{abs(x):.3g}")) / 3.0)
+    if unit == "m" and (level > 0 or abs(x) >= 0.1):  # lengths are metres, or millimetres
+        level = 0
+    level = min(2, max(-2, level))
+    return f"{_three(x / 1000.0**level)} {_PREFIXES[level]}{unit}"
+
+
+def _three(x: float) -> str:
+    """Return three digits without a power of ten where there are few enough."""
+    text = f"{x:.3g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(x) < 1e6 else text
+
+
 def percent(x: float | None) -> str:
     """Return a fraction as percent."""
     if x is None or not math.isfinite(x):

@@ -145,27 +145,36 @@ def markdown(document: Document, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {markdown_text(document.title)}", ""]
     lines += [x for text in document.lead for x in (markdown_text(text), "")]
+    for section in document.sections:
+        lines += _section(section, 2, folder)
+    lines += ["## Settings and versions", ""]
     lines += _table(DocumentTable("", ("made with", ""), document.facts, words=2))
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
         lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
-    for section in document.sections:
-        lines += _section(section, 2, folder)
     return "\n".join(lines).rstrip() + "\n"
 
 
 def _section(section: Section, level: int, folder: str) -> list[str]:
     lines = [f"{'#' * level} {markdown_text(section.title)}", ""]
+    shown = _pictures(section, folder)
+    lines += shown if section.pictures_first else []
     lines += [x for text in section.text for x in (markdown_text(text), "")]
     lines += [f"- {markdown_text(text)}" for text in section.findings]
     lines += [""] if section.findings else []
     for table in section.tables:
         lines += _table(table)
+    lines += [] if section.pictures_first else shown
+    for part in section.parts:
+        lines += _section(part, level + 1, folder)
+    return lines
+
+
+def _pictures(section: Section, folder: str) -> list[str]:
+    lines = list[str]()
     for picture in section.pictures:
         address = quote(f"{folder}/{picture.name}.{picture.kind}")
         lines += [f"![{markdown_text(picture.alternative)}]({address})", "", markdown_text(picture.caption), ""]
-    for part in section.parts:
-        lines += _section(part, level + 1, folder)
     return lines
 
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from symgen.base.errors import InputError, SymgenError, quoted
+from symgen.base.errors import SymgenError
 from symgen.base.settings import Settings
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
@@ -121,18 +121,17 @@ class Base:
         Raises
         ------
         InputError
-            If the model does not exist, is wrong, or has beam elements.
+            If the model does not exist or is wrong.
         """
         raw, _ = read_raw(model)
-        base = cls(str(model), raw)
-        if any(force.flexures for force in base.mechanism.forces):
-            expected = "one without beam elements, which have no second derivation to judge cells by"
-            raise InputError("mechanism", expected, quoted(base.name))
-        return base
+        return cls(str(model), raw)
 
-    def without_events(self) -> Base:
-        """Return the base without its events."""
-        return Base(self.name, {key: value for key, value in self.raw.items() if key != "events"})
+    def without_events(self, but: Collection[str] = ()) -> Base:
+        """Return the base without its events, but for events of some actions."""
+        kept = {event.name for event in self.mechanism.events if event.action in but}
+        events = {name: table for name, table in self.raw.get("events", {}).items() if name in kept}
+        rest = {key: value for key, value in self.raw.items() if key != "events"}
+        return Base(self.name, rest | ({"events": events} if events else {}))
 
     @cached_property
     def mechanism(self) -> Mechanism:
@@ -196,8 +195,9 @@ class Base:
         raw.setdefault("parameters", {}).update(
             {name: {"value": value, "unit": unit} for name, (value, unit) in HANDLES.items()}
         )
-        heavy = raw["bodies"][self.middle]
-        for key in ("mass", "inertia"):
+        own = self.middle in raw.get("bodies", {})
+        heavy = raw["bodies"][self.middle] if own else raw["beams"][self.middle.rpartition(".")[0]]
+        for key in ("mass", "inertia" if own else "rotary"):
             value = heavy.get(key, 0.0)
             if isinstance(value, list):  # the inertia of a spatial body
                 heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in value]

@@ -1,6 +1,7 @@
 """References of the cases: closed forms, independent equations, or two formulations that agree.
 
-Planar mechanisms have compiled independent equations, spatial ones two routes through compiled code.
+Planar mechanisms have compiled independent equations, spatial ones two routes through compiled code, as have those
+with beam elements, rows with bounds or events that change the state.
 """
 
 from __future__ import annotations
@@ -17,8 +18,10 @@ from symgen.base.settings import Settings
 from symgen.describe.facts.digest import digest
 from symgen.describe.files.load import load as load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values
+from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
 from symgen.run.breaks.motions import refuse_jumps
+from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.probe import Ready
@@ -27,7 +30,7 @@ from symgen.run.planning.prepare import prepare
 from symgen.run.starts.assembly import Start
 from symgen.study.references.closed_forms import Closed, closed_form, parallel_cranks
 from symgen.study.references.reference import scaled_values
-from symgen.study.references.routes import fastest_decay, two_routes
+from symgen.study.references.routes import derivable, fastest_decay, two_routes, underived
 from symgen.study.stress.bench import FREE_LENGTH, Level
 from symgen.study.stress.cell_outcome import ACCURATE, TRUSTED
 
@@ -51,15 +54,16 @@ def _moved(level: Level) -> Fields:
     from symgen.study.references.motion import motion
 
     mechanism, parameters = level.mechanism, parameter_values(level.mechanism, level.parameters)
-    settings = Settings("lagrange", "rk4", level.step, until=level.until, shape="looped", parameters=parameters)
+    shape = "straight" if straight_alone(mechanism) else "looped"
+    settings = Settings("lagrange", "rk4", level.step, until=level.until, shape=shape, parameters=parameters)
     run = prepare(mechanism, settings, Purpose.STATE)
     compiled, start = run.compiled, run.start
     q, v = (part.copy() for part in compiled.info.parts(start.y))
     if level.spring_end is not None:
         column, fixed = int(level.spring_end[0]), level.spring_end[1:]
         parameters[FREE_LENGTH] = math.dist(q[column : column + len(fixed)], fixed)
-    planar = level.mechanism.space == "planar"
-    equations: Any = equations_of(level, parameters) if planar else EmittedGeometry(compiled, start)
+    equations = geometry_of(level, parameters, compiled, start)
+    derived = level.mechanism.space == "planar" and not underived(mechanism)
     points = Points.of(level.mechanism, parameters)
     length = points.size(q[None, :])
     phi, d, nu = equations.evaluate(0.0, q, v)[:3]
@@ -71,9 +75,9 @@ def _moved(level: Level) -> Fields:
     falling = fastest_decay(mechanism, compiled, start)
     if closed is None:
         try:
-            reference = motion(equations, q, v, times) if planar else two_routes(mechanism, parameters, times, falling)
+            reference = motion(equations, q, v, times) if derived else two_routes(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
-            if not planar:
+            if not derived:
                 raise
             try:
                 reference = two_routes(mechanism, parameters, times, falling)
@@ -109,15 +113,26 @@ def times_of(level: Level) -> list[float]:
     return [level.until * k / level.outputs for k in range(level.outputs + 1)]
 
 
-def equations_of(level: Level, parameters: Mapping[str, float]) -> Any:
+def geometry_of(level: Level, parameters: Mapping[str, float], compiled: CompiledModel, start: Start) -> Any:
+    """Return what has Phi, D and nu of a case: its independent equations, or in space its emitted functions."""
+    mechanism = derivable(level.mechanism)
+    if mechanism.space == "planar":
+        return equations_of(mechanism, parameters)
+    if mechanism is not level.mechanism:  # rows that are off are in neither
+        own = prepare(mechanism, Settings("lagrange", "rk4", level.step, parameters=parameters), Purpose.STATE)
+        compiled, start = own.compiled, own.start
+    return EmittedGeometry(compiled, start)
+
+
+def equations_of(mechanism: Mechanism, parameters: Mapping[str, float]) -> Any:
     """Return the independent equations of a case; compiled once a process for all cases with the same equations."""
     from symgen.study.references.motion import CompiledEquations
 
-    key = digest(level.mechanism)
+    key = digest(mechanism)
     if key not in _COMPILED:
-        _COMPILED[key] = CompiledEquations(level.mechanism, parameters)
+        _COMPILED[key] = CompiledEquations(mechanism, parameters)
     equations = _COMPILED[key]
-    equations.mechanism = level.mechanism
+    equations.mechanism = mechanism
     equations.set_parameters(parameters)
     return equations
 

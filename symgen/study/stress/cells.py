@@ -24,7 +24,7 @@ from symgen.result.points import Points
 from symgen.result.reruns.verification import verified
 from symgen.result.result import INTERRUPTED
 from symgen.run.compiling.choices import choose_coordinates
-from symgen.run.compiling.pipeline import for_coordinates
+from symgen.run.compiling.pipeline import for_coordinates, straight_alone
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.loops.integrator import adapts
@@ -37,7 +37,7 @@ from symgen.study.references.effort import budget_of, further_budget, predicted
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
-from symgen.study.stress.cell_references import EmittedGeometry, equations_of, reference_of, times_of, without_reference
+from symgen.study.stress.cell_references import geometry_of, reference_of, times_of, without_reference
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -174,7 +174,7 @@ def _shaped(mechanism: Mechanism, settings: Settings) -> Settings:
     The runs of a study are short. Joint coordinates have straight code only.
     """
     coordinates = choose_coordinates(mechanism, settings.coordinates, "straight").name
-    looped = coordinates == "absolute"
+    looped = coordinates == "absolute" and not straight_alone(mechanism)
     if looped and settings.method != AUTO:
         choice = for_coordinates(mechanism, split_options(settings, INTEGRATORS.get(str(settings.integrator)))[0])
         looped = is_loopable(choice.method, choice.options, choice.implicit)
@@ -193,8 +193,7 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, m
     if not np.all(errors <= judged.ACCURATE * motion["length"]):  # the equations are compiled only where it matters
         violation = math.inf
         if count and np.all(np.isfinite(outcome.states[-1])):
-            planar = level.mechanism.space == "planar"
-            equations = equations_of(level, values) if planar else EmittedGeometry(outcome.compiled, outcome.start)
+            equations = geometry_of(level, values, outcome.compiled, outcome.start)
             v = outcome.states[-1, nq : nq + outcome.compiled.info.nv]
             phi = equations.evaluate(float(outcome.times[-1]), states[-1].copy(), v.copy())[0]
             violation = float(np.linalg.norm(phi))

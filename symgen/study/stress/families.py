@@ -110,6 +110,8 @@ def inconsistent_start(base: Base, share: float) -> Level:
     The displacement is a fraction of the mechanism's size, the velocity the same fraction of its size a second.
     """
     away, signs = share * base.size, ("+", "-", "+")[: len(base.anchor)]
+    if base.middle not in base.raw.get("bodies", {}):
+        raise NotApplicable("the middle body is a node of a beam, which follows from its ends")
     at = base.raw["bodies"][base.middle].get("position", [0.0] * len(signs))
     position = [f"({x}){sign}{away!r}" for x, sign in zip(at, signs, strict=True)]
     moved = {"position": position, "velocity": [away] * len(signs)}

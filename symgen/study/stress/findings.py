@@ -29,6 +29,7 @@ def findings(study: Stress) -> tuple[str, ...]:
     pairs = [(_line(line), entry.good, entry.judged) for line in shown.lines for entry in [shown.entry(line)]]
     return (
         *_counted(study),
+        *_underived(study),
         *_extremes("models", shares_of_models(study.rows)),
         *_extremes("pairs of method and integrator", pairs),
         *_families(shown),
@@ -51,6 +52,14 @@ def _counted(study: Stress) -> Iterator[str]:
         cases = [f"{family} {case} on {model}" for model, family, case, _ in study.unusable[:3]]
         cases += ["..."] * (len(study.unusable) > len(cases))
         yield f"{_many(len(study.unusable), 'case')} could not be judged for want of a reference: {', '.join(cases)}."
+
+
+def _underived(study: Stress) -> Iterator[str]:
+    for model, what in study.underived:
+        yield (
+            f"Cells of {model} are judged by two runs in different formulations at tight tolerances, as there is no "
+            f"second derivation of {what}."
+        )
 
 
 def _extremes(what: str, cells: Iterable[tuple[str, int, int]]) -> Iterator[str]:

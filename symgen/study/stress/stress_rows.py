@@ -124,6 +124,8 @@ class Stress:
         Whether fewer cases were requested; whether the study was stopped before its last cell.
     coordinates : str
         Coordinates of the state of all runs.
+    underived : tuple of (str, str)
+        Models that two formulations judge, and what of each no second derivation has.
     """
 
     models: tuple[str, ...]
@@ -135,6 +137,7 @@ class Stress:
     quick: bool = False
     interrupted: bool = False
     coordinates: str = "absolute"
+    underived: tuple[tuple[str, str], ...] = ()
 
     @property
     def false_successes(self) -> tuple[StressRow, ...]:

@@ -17,12 +17,14 @@ from symgen.base.settings import Settings, default
 from symgen.derive.methods import METHODS
 from symgen.describe.facts.digest import identity
 from symgen.describe.mechanism import bounded
+from symgen.describe.parts.events import RESET
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, constant_integrator
-from symgen.run.planning.plan import refuse_events, refuse_weightless
+from symgen.run.planning.plan import refuse_ends, refuse_weightless
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.references.effort import BUDGET, left_out
+from symgen.study.references.routes import underived
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_outcome import OUTCOMES
@@ -132,9 +134,9 @@ def stress(
     models = arguments.listed("models", [models] if isinstance(models, str) else models, "a list of models")
     bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
     for base in bases:
-        refuse_events("stress", base.mechanism, common)
+        refuse_ends("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
-    bases = [base.without_events() for base in bases]
+    bases = [base.without_events(but=(RESET,)) for base in bases]
     chosen = tuple(dict.fromkeys(arguments.one_of("cases", name, FAMILIES) for name in cases or FAMILIES))
     names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in names:
@@ -220,6 +222,7 @@ class _Study:
             quick=self.quick,
             interrupted=interrupted,
             coordinates=self.common.coordinates,
+            underived=tuple((base.name, what) for base in self.bases if (what := underived(base.mechanism))),
         )
 
     def _computed(self, what: str, tasks: Sequence[Task]) -> tuple[list[tuple[Task, Outcome]], bool]:

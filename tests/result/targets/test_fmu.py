@@ -325,3 +325,16 @@ def test_the_whole_catalogue(name, fmi, tmp_path):
         if exchanged is None:
             continue
         np.testing.assert_allclose(exchanged[quantity], own[quantity], rtol=0, atol=1e-5 * scale)
+
+
+@pytest.mark.slow
+def test_a_pins_force_is_an_output_of_both_kinds(tmp_path):
+    text = (catalogue.file_of("four-bar")).read_text() + '\n[outputs]\npin = { value = "C.F", unit = "N" }\n'
+    (tmp_path / "four-bar.toml").write_text(text)
+    model = load(tmp_path / "four-bar.toml")
+    path = fmu_of(model, tmp_path / "four-bar.fmu")
+    assert validate_fmu(str(path)) == []
+    own = model.simulate(integrator="dop853", rtol=1e-11, until=0.5, output_step=0.1)
+    for kind in ("CoSimulation", "ModelExchange"):
+        rows = simulated(path, kind, 0.5, step=0.1)
+        np.testing.assert_allclose(rows["pin"], own["C.F"], rtol=1e-6)

@@ -16,7 +16,9 @@ from symgen.run.compiling.pipeline import choose_method
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
 IMPLICIT = {"integrator": "radau5", "rtol": 1e-11, "atol": 1e-12}
-RUNS = [TIGHT, {**TIGHT, "coordinates": "joint"}, IMPLICIT, {**IMPLICIT, "coordinates": "joint"}]
+RUNS = [
+    settings | more for settings in (TIGHT, IMPLICIT) for more in ({}, {"coordinates": "joint"}, {"shape": "looped"})
+]
 
 
 def motor_file(inductance=0.02):
@@ -285,7 +287,6 @@ def test_bad_input_is_one_sentence(change, words):
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
-        ({"shape": "looped"}, "shape: expected straight code where a file has states of its own, got looped"),
         ({"start": {"j": 1.0}}, "start 'j': expected a coordinate or velocity of a body or joint, or a state"),
     ],
 )
@@ -339,12 +340,14 @@ def test_orders_with_a_state(method, integrator, order):
     "symmetric-projection-gauss-4-joint",
     "half-explicit-half-explicit-3-absolute",
     "half-explicit-phem56-5-absolute",
+    "rattle-rattle-2-looped",
 )
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint", "looped"])
 @pytest.mark.parametrize(("method", "integrator", "order"), SCHEMES)
 def test_schemes_with_a_state_in_a_loop(method, integrator, order, coordinates):
     """A four-bar and its motor beside a run of dop853: what a step of 2e-4 leaves of an error of this order."""
-    model, settings = Model(driven_four_bar()), {"until": 0.1, "coordinates": coordinates}
+    model, settings = Model(driven_four_bar()), {"until": 0.1}
+    settings |= {"shape": "looped"} if coordinates == "looped" else {"coordinates": coordinates}
     chosen = integrator in ("generalized-alpha", "phem56")
     options = {"options": {"integrator.adaptive": "false"}} if chosen else {}
     wanted = model.simulate(**settings, **TIGHT)

@@ -733,10 +733,11 @@ def test_bad_conditions_of_a_run_are_refused():
 
 
 def test_studies_refuse_events_that_they_do_not_look_for(tmp_path):
-    model, file = ball(**BOUNCE), tmp_path / "ball.toml"
-    file.write_text(to_toml({**BALL, "events": BOUNCE}))
-    said = "expected a mechanism whose motion has no events, got the event 'impact', which changes the state; "
-    said += r"single runs look for events; without impact in \[events\], or with its action 'record', it is taken"
+    ends = {"impact": {"when": "ball.y < 0", "action": "stop"}}
+    model, file = ball(**ends), tmp_path / "ball.toml"
+    file.write_text(to_toml({**BALL, "events": ends}))
+    said = "expected a mechanism whose runs no event ends, got the event 'impact'; "
+    said += r"without impact in \[events\], or with its action 'record', it is taken"
     with pytest.raises(InputError, match=f"compare: {said}"):
         symgen.compare(model)
     with pytest.raises(InputError, match=f"stress: {said}"):

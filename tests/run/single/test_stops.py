@@ -416,7 +416,13 @@ def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str
         assert_same_motion(rows["ball.y"][i][: len(run.t)], run["ball.y"], "ball.y")
 
 
-@pytest.mark.parametrize("method", ["lagrange", "augmented-lagrangian", "hamiltonian-baumgarte", "velocity-projection"])
+@pytest.mark.parametrize(
+    "method",
+    [
+        *("lagrange", "augmented-lagrangian", "hamiltonian-baumgarte", "velocity-projection"),
+        *("null-space", "coordinate-partitioning", "dependent-correction"),
+    ],
+)
 def test_methods_have_the_same_impacts(method: str) -> None:
     outcome = ready(described(BALL), 4.0, method=method).integrate()
     first = np.sqrt(2.0 / G)
@@ -426,7 +432,7 @@ def test_methods_have_the_same_impacts(method: str) -> None:
     assert abs(outcome.states[-1][1]) < 1e-12
 
 
-@pytest.mark.parametrize("method", ["null-space", "coordinate-partitioning", "dependent-correction"])
+@pytest.mark.parametrize("method", ["rattle", "half-explicit"])
 def test_methods_that_read_all_rows_refuse_stops(method: str) -> None:
     with pytest.raises(InputError, match="where rows may be off"):
-        ready(described(BALL), 4.0, method=method)
+        ready(described(BALL), 4.0, method=method, integrator=method, step=1e-3)

@@ -38,7 +38,8 @@ def test_the_largest_loads_are_those_of_the_run(driven):
 def test_the_report_has_pictures_and_what_repeats_it(driven):
     model, result = driven
     document = machine(model, result, "symgen report driven-four-bar")
-    assert [s.title for s in document.sections] == ["Motion", "Largest loads", "Curves", "Frequencies at rest"]
+    titles = ["At a glance", "Motion", "Largest loads", "Curves", "Frequencies at rest"]
+    assert [s.title for s in document.sections] == titles
     assert len([*document.pictures()]) == 2 + 6 + 3
     page = html(document)
     assert "symgen report driven-four-bar" in page and "prefers-color-scheme: dark" in page

@@ -130,7 +130,10 @@ def test_links_lead_to_parts_of_the_page(page):
     places = [a["id"] for _, a in page.elements if "id" in a]
     assert len(places) == len(set(places))
     targets = [a["href"].removeprefix("#") for a in page.all("a")]
-    assert targets == ["side-by-side", "four-bar", "pendulum", "compared-with-the-source"]
+    assert targets == [
+        *("side-by-side", "four-bar", "pendulum"),
+        *("how-it-is-measured", "compared-with-the-source", "made-with"),
+    ]
     assert set(targets) <= set(places)
 
 
@@ -196,6 +199,25 @@ def test_lines_of_methods_can_be_told_apart():
     looks = [tuple(map(str, picture.line_style(line_number(m)).values())) for m in METHODS.names]
     assert len(set(looks)) == len(looks)
     assert len({(picture.line_style(i)["color"], str(picture.line_style(i)["linestyle"])) for i in range(28)}) == 28
+
+
+def test_a_variant_has_a_shade_of_its_methods_colour_and_an_integrator_its_marker():
+    from symgen.study.report.figures import integrator_markers, looks
+
+    rows = [
+        row("baumgarte", 1e-3, 1e-6, 0.1),
+        row("baumgarte", 1e-3, 1e-6, 0.1, variant="alpha=20"),
+        row("baumgarte", 1e-3, 1e-6, 0.1, variant="alpha=50", integrator="heun"),
+        row("lagrange", 1e-3, 1e-6, 0.1),
+    ]
+    made = study(rows)
+    found = looks(made)
+    colours = [found[label]["color"] for label in ("baumgarte", "baumgarte, alpha=20", "baumgarte, alpha=50")]
+    assert colours[0] == picture.line_style(1)["color"] and len({*colours, found["lagrange"]["color"]}) == 4
+    assert [sum(int(c[i : i + 2], 16) for i in (1, 3, 5)) for c in colours] == sorted(
+        sum(int(c[i : i + 2], 16) for i in (1, 3, 5)) for c in colours
+    )
+    assert len(set(integrator_markers(made).values())) == 2
 
 
 def test_studies_with_nothing_to_draw_still_make_a_page():

@@ -37,7 +37,7 @@ function display(next, kind, code = NOTHING) {
   ranges = null;
   document.querySelector("header h1").textContent = data.title;
   if (view.spatial === spatial && (!empty || tool !== "move")) for (const key of ["turn", "tilt", "scale", "at"]) view.camera[key] = camera[key];
-  else view.fit(motion.rows);
+  else fitted();
   if (kind === "start") return begun();
   if (kind === "live") begin(code);
   else {
@@ -54,7 +54,7 @@ function display(next, kind, code = NOTHING) {
   resume = null;
   show(motion);
   if (fresh) pace();
-  if (fresh && tool === "move") view.fit(motion.rows);
+  if (fresh && tool === "move") fitted();
   else if (!held) outgrown();
   fresh = false;
   go(shown);
@@ -69,13 +69,27 @@ function begun() {
   go(0);
 }
 
-// Look at all of it where the mechanism has left the picture, or has become small in it and nothing is being added.
+// Look at all of the motion; at its start alone while something is drawn, or where something flies away.
+const AWAY = 6, ROOM = 0.6; // times the size of the start; share of the picture that it takes while something is drawn
+function fitted() {
+  view.fit(motion.rows.slice(0, 1));
+  const { scale, at } = view.camera;
+  if (tool !== "move") {
+    view.camera.scale *= ROOM;
+    return;
+  }
+  view.fit(motion.rows);
+  if (scale / view.camera.scale > AWAY) Object.assign(view.camera, { scale, at });
+}
+
+// Look again where the mechanism has left the picture, or has become small in it and nothing is being added.
 function outgrown() {
   const before = { ...view.camera, at: [...view.camera.at] };
-  view.fit(motion.rows);
+  fitted();
   const now = view.camera, ratio = before.scale / now.scale;
   const aside = Math.hypot(...before.at.map((x, i) => x - now.at[i])) * before.scale;
-  const keep = ratio < 1.02 && (ratio > 0.5 || tool !== "move") && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height);
+  const inside = tool !== "move" && ratio < 1.02 && aside < 0.5 * (1 - ratio) * Math.min(now.width, now.height);
+  const keep = inside || (ratio < 1.02 && ratio > 0.5 && aside < 16 + 0.5 * (1 - ratio) * Math.min(now.width, now.height));
   if (keep) for (const key of ["scale", "at"]) view.camera[key] = before[key];
 }
 
@@ -114,6 +128,7 @@ async function check() {
 }
 
 function checked(answer, text, own, began) {
+  times.checked = own;
   if (answer.error) return say(answer.error, true);
   if (!answer.data) {
     movable = [];
@@ -129,6 +144,7 @@ function checked(answer, text, own, began) {
   checkedText = text;
   showErrors(answer.errors, answer.count);
   if (!playing || answer.errors.length) display(answer.data, "start");
+  insideOf(answer);
   render();
   times.drawing = performance.now() - began;
   times.frames = (times.frames || 0) + 1;
@@ -140,11 +156,12 @@ function checked(answer, text, own, began) {
 async function move(own, text) {
   const began = performance.now(), answer = await post("motion", { text, tab, asked: own });
   if (own !== version || answer.superseded) return;
+  times.moved = own;
   if (answer.error) return say(answer.error, true);
   if (answer.data) display(answer.data, "motion");
   render();
+  askJoint();
   times.motion = performance.now() - began;
-  times.moved = own;
   say(answer.reason || (answer.data && answer.data.note) || "", answer.status === "failed");
   if (answer.data && answer.status !== "failed") timer = setTimeout(() => enlive(own, text), LIVE);
 }
@@ -211,7 +228,7 @@ async function save(force = false) {
   say(`saved ${editor.file}`);
 }
 $("save").addEventListener("click", () => save());
-for (const [id, act] of [["over", () => save(true)], ["take", () => open(true)], ["back", () => {}]]) {
+for (const [id, act] of [["overwrite", () => save(true)], ["take", () => open(true)], ["back", () => {}]]) {
   $(id).addEventListener("click", () => {
     $("ask").close();
     act();
@@ -289,6 +306,6 @@ window.addEventListener("keydown", (e) => {
   act();
 }, { capture: true });
 
-window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, rest: () => !checking && !again && times.moved === version };
+window.symgen.editor = { times: () => times, version: () => version, handles: () => movable, place: onPicture, checked: () => times.checked === version, rest: () => !checking && !again && times.moved === version };
 choosing("move");
 open();

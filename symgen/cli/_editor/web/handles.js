@@ -74,9 +74,9 @@ function layHandles() {
   const shown = atStart() || held;
   layer.hidden = !shown;
   if (!shown) return;
-  while (layer.children.length > movable.length + spots.length) layer.lastChild.remove();
+  for (const each of layer.querySelectorAll(".spot")) each.remove();
+  while (layer.children.length > movable.length) layer.lastChild.remove();
   while (layer.children.length < movable.length) layer.append(newHandle());
-  [...layer.children].slice(movable.length).forEach((each) => each.remove());
   movable.forEach((h, i) => {
     const button = layer.children[i], own = held && held.name === h.name ? held : h, [x, y] = onPicture(own.x, own.y);
     button.style.left = `${x}px`;

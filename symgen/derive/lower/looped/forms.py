@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -24,6 +24,7 @@ from symgen.derive.methods._formula import needed
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
+    from symgen.derive.formulate.equations import Equations
     from symgen.derive.lower.looped.instances import Instance
     from symgen.derive.methods._base import Method
 
@@ -50,25 +51,50 @@ class FormInfo(msgspec.Struct, frozen=True):
 FormProgram = ElementProgram[FormInfo]
 
 
-def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") -> str:
-    """Return a short name of a method's formula for a kind of elements: equal formulas have equal names."""
-    record = record_form(method, options, kind)
+def form_key(method: Method, options: Mapping[str, str], kind: str = "joint", shifted: bool = False) -> str:
+    """Return a short name of a method's formula for a kind of elements: equal formulas have equal names.
+
+    `shifted`: rows for projections stand behind equations of states of the file.
+    """
+    record = record_form(method, options, _recorded(kind))
     (part,) = record.parts
     operations = record.operations
     indices = needed((i for _, i in part.outputs), lambda i: operations[i].operands)
     place = {index: k for k, index in enumerate(indices)}
     parameters = [p.name for p in method.parameters]
-    level = record.form if kind == "joint" or record.form == "explicit" else ""
+    level = record.form if _recorded(kind) == "joint" or record.form == "explicit" else ""
     text: list[object] = [[(name, place[i]) for name, i in part.outputs], level]
     for o in (operations[i] for i in indices):
         payload = parameters.index(str(o.payload[0])) if o.kind == "parameter" else o.payload
         text.append((o.kind, [place[i] for i in o.operands], payload))
+    text += ["shifted"] if shifted else []
     return hashlib.sha256(repr(text).encode()).hexdigest()[:8]
 
 
 def form_stem(key: str, stem: str) -> str:
     """Return the name of the module of an element's part, from the formula's name and its kernel's."""
     return f"form_{key}_{stem[-45:]}"
+
+
+def _recorded(kind: str) -> str:
+    """Return the kind of elements whose formula a kind has: a row with bounds is a joint with a force."""
+    return "joint" if kind == "bound" else kind
+
+
+def _of_bound(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
+    """Return the groups of a row with bounds: where it is off, its multipliers are 0, and its force acts."""
+    held, changed = e.rows[0].held, list[tuple[str, Any]]()
+    assert held is not None, "a row with bounds has a mode"
+    for group, nodes in groups:
+        if group in ("first", "second"):
+            idle = g.mul(g.sub(g.one, held), g.input(f"k_{group}", 0))
+            nodes = (g.add(g.mul(held, nodes[0]), idle),)
+        elif group == "v":
+            nodes = tuple(g.sub(n, f) for n, f in zip(nodes, e.forces, strict=True))
+        elif group == "power":
+            nodes = g.add(nodes[0] if isinstance(nodes, tuple) else nodes, e.power)
+        changed.append((group, nodes))
+    return changed
 
 
 def lower_form(
@@ -85,20 +111,25 @@ def lower_form(
     stem : str
         Name of the module.
     """
-    e, record = element.equations, record_form(method, options, instance.kind)
+    e, record = element.equations, record_form(method, options, _recorded(instance.kind))
     names = [p.name for p in method.parameters]
     scalars = ScalarNodes(e, record.operations, names, {})
     (part,) = record.parts
     scalars.run(needed((i for _, i in part.outputs), lambda i: record.operations[i].operands))
     g = scalars.graph
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
+    if instance.kind == "bound":
+        groups = _of_bound(g, e, groups)
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
+    if instance.kind == "state":
+        rows = [("z", 1, g.sub(g.input("k_z", 1), e.state_rates[0]))]
     explicit = record.form == "explicit"  # M and D are enough
     last = len(EQUATIONS) - BEHIND.get(record.form, 0)
-    counted = [row for row in rows if (row[0] == "v" if explicit else row[0] in EQUATIONS[:last])]
+    counted = [row for row in rows if (row[0] == "v" if explicit else row[0] in (*EQUATIONS[:last], "z"))]
     sizes = {"k_q": e.nq, "k_v": e.nv, "k_first": e.m, "k_second": e.m, "q": e.nq, "v": e.nv}
     unknowns = UNKNOWNS[: UNKNOWNS.index("k_second")] if explicit else UNKNOWNS
     keys = [(group, i) for group in unknowns for i in range(sizes[group])]
+    keys += [] if explicit else [("z", i) for i in range(1, len(e.states) + 1)] + [("k_z", 1)]
     entries: list[tuple[str, int, str, int]] = []
     slopes: list[int] = []
     for (group, i, _), derivatives in zip(counted, jacobian(g, [n for _, _, n in counted], keys), strict=True):

@@ -1,9 +1,9 @@
-"""Bodies, joints and forces as instances of kernels: structure apart from numbers.
+"""Bodies, joints, rows with bounds, forces and states as instances of kernels: structure apart from numbers.
 
 Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
-numbers and formulas of parameters become the parameters ``k0``, ``k1``, .... Elements with equal abstract mechanisms
-share a kernel, within a mechanism and between mechanisms. Kept as they are: zeros, unit directions, whole coefficients
-of sums, exponents, and everything that depends on time or state.
+numbers and formulas of parameters become the parameters ``k0``, ``k1``, ..., states of the file ``z0``, ``z1``, ....
+Elements with equal abstract mechanisms share a kernel, within a mechanism and between mechanisms. Kept as they are:
+zeros, unit directions, whole coefficients of sums, exponents, and everything that depends on time or state.
 """
 
 from __future__ import annotations
@@ -14,12 +14,25 @@ from typing import Any
 
 import msgspec
 
-from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names_in, table_of
+from symgen.base.vocabulary.expressions import (
+    ONE,
+    ZERO,
+    Call,
+    Expr,
+    Name,
+    Number,
+    Reading,
+    call,
+    names_in,
+    readings,
+    table_of,
+)
 from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 from symgen.derive.lower.windings import measures_of, turns
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.graph import Formulas
-from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
+from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, StateVariable
 
 #: Fields of the vocabulary's structs that hold the name of a body.
 _BODY_FIELDS = frozenset(("body", "a", "b"))
@@ -36,7 +49,7 @@ class Instance:
 
     Parameters
     ----------
-    kind : {"body", "joint", "force"}
+    kind : {"body", "joint", "bound", "force", "state"}
         Kind of element.
     name, label : str
         The element's name, and the readable name of its kind.
@@ -50,6 +63,8 @@ class Instance:
         Its canonical text: equal where the kernel is the same.
     angles : tuple of Measure
         Measures whose turns are counted, in the order of derivation; equal ones are one angle.
+    states : tuple of str
+        States of the file for ``z0``, ``z1``, ...; of a state it is the first.
     """
 
     kind: str
@@ -60,10 +75,11 @@ class Instance:
     abstract: Mechanism
     key: bytes
     angles: tuple[Measure, ...] = ()
+    states: tuple[str, ...] = ()
 
 
 def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
-    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out.
+    """Return all parts of a mechanism as instances in the order of their kinds, rows that repeat others left out.
 
     Parameters
     ----------
@@ -75,7 +91,9 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
     return (
         *(rewriting.body(body) for body in mechanism.bodies),
         *(rewriting.element("joint", joint) for joint in mechanism.joints),
+        *(rewriting.bound(row) for row in mechanism.bounded),
         *(rewriting.element("force", force) for force in mechanism.forces),
+        *(rewriting.state(state) for state in mechanism.states),
     )
 
 
@@ -87,12 +105,14 @@ class _Rewriting:
         self.bodies: Mapping[str, Any] = {b.name: b for b in mechanism.bodies}
         self.parameters = frozenset(p.name for p in mechanism.parameters)
         self.tables = {t.name: t for t in mechanism.tables}
+        self.states = frozenset(x.name for x in mechanism.states)
         self.begin()
 
     def begin(self) -> None:
         """Begin another element."""
         self.frames: dict[str, str] = {}
         self.constants: list[Expr] = []
+        self.aliases: dict[str, str] = {}  # of states
         self.used_tables: dict[str, Any] = {}
         self.memo: dict[object, object] = {}
         self.own: frozenset[str] = frozenset()  # words of the element itself, which are no parameters
@@ -128,6 +148,31 @@ class _Rewriting:
         angles = turns(measures_of(element))
         return replace(instance, angles=angles) if angles else instance
 
+    def bound(self, row: BoundedRow) -> Instance:
+        """Return a row with bounds as an instance: its row, in force at times, and its effort where it is off."""
+        self.begin()
+        whole: Any = self.walk(row)
+        named = {field: "e" for field in ("name", "joint", "owner") if field in whole.__struct_fields__}
+        content = msgspec.structs.replace(whole, **named)
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance("bound", row.row, row.family.one, nothing, frames, content)
+        angles = turns([row.measure])
+        return replace(instance, angles=angles) if angles else instance
+
+    def state(self, state: StateVariable) -> Instance:
+        """Return a state of the file as an instance: its rate."""
+        self.begin()
+        self.aliases[state.name] = "z0"
+        rate = self.formula(state.rate)
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance("state", state.name, "state", nothing, frames)
+        first, *others = instance.abstract.states
+        abstract = msgspec.structs.replace(instance.abstract, states=(StateVariable(first.name, ZERO, rate), *others))
+        angles = turns(measure.source for measure in readings(state.rate))
+        return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(rate), angles=angles)
+
     def instance(
         self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None
     ) -> Instance:
@@ -142,10 +187,13 @@ class _Rewriting:
             bodies=frames,
             joints=(content,) if isinstance(content, Joint) else (),
             forces=(content,) if isinstance(content, Force) else (),
+            states=tuple(StateVariable(alias, ZERO, ZERO) for alias in self.aliases.values()),
+            bounded=(content,) if kind == "bound" else (),
         )
         content = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
         key = kind.encode() + msgspec.json.encode(content)
-        return Instance(kind, name, label, tuple(self.frames), tuple(self.constants), abstract, key)
+        of = (tuple(self.frames), tuple(self.constants), abstract, key)
+        return Instance(kind, name, label, *of, states=tuple(self.aliases))
 
     def frame(self, body: Any, alias: str) -> Any:
         """Return a body as a mere frame; its markers are relative to the centre of mass already."""
@@ -221,6 +269,8 @@ class _Rewriting:
         if self.is_constant(e):
             return ZERO if self.literal(e) == 0.0 else self.constant(e)
         if isinstance(e, Name):
+            if e.name in self.states and e.name not in self.own:
+                return Name(self.aliases.setdefault(e.name, f"z{len(self.aliases)}"))
             body, dot, coordinate = e.name.rpartition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
         if isinstance(e, Reading):

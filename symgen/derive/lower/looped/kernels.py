@@ -36,19 +36,19 @@ class RowShape(msgspec.Struct, frozen=True):
     angular: bool
 
 
-class KernelInfo(msgspec.Struct, frozen=True):
+class KernelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     """Facts about a kernel for the tables.
 
     Parameters
     ----------
     kind : str
-        ``body``, ``joint`` or ``force``.
+        ``body``, ``joint``, ``bound``, ``force`` or ``state``.
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
         Number of constants of an instance, and of numbers computed from them once a run.
     rows : tuple of RowShape
-        Of a joint.
+        Of a joint, or of a row with bounds.
     coordinates, windings : int
         Reported coordinates of a joint, and angles whose turns are counted.
     spins : tuple of (int, int)
@@ -59,6 +59,8 @@ class KernelInfo(msgspec.Struct, frozen=True):
         Velocities whose mass is the literal 0.
     functions : dict
         Operations of each function that is not empty.
+    states : int
+        States of the file that an instance reads; a state is its own first.
     """
 
     kind: str
@@ -72,6 +74,7 @@ class KernelInfo(msgspec.Struct, frozen=True):
     mass: tuple[tuple[int, ...], ...]
     massless: tuple[int, ...]
     functions: dict[str, int]
+    states: int = 0
 
     @property
     def computed(self) -> int:
@@ -110,10 +113,15 @@ def lower_kernel(element: Element, instance: Instance) -> KernelProgram:
 _PURPOSES = {
     "frame": "records of bodies: coordinates, velocities, entries of the rotation matrix",
     "speeds": "velocities in the records",
-    "rates": "q' = N v",
+    "rates": {"body": "q' = N v", "state": "rates of states"},
     "move": "q += N change",
     "geometry": "Phi, nu and D",
-    "motion": {"body": "weights and inertia forces", "joint": "nu, D and gamma", "force": "applied forces and power"},
+    "motion": {
+        "body": "weights and inertia forces",
+        "joint": "nu, D and gamma",
+        "bound": "nu, D, gamma, force and power",
+        "force": "applied forces and power",
+    },
     "full": "Phi, nu, D and gamma",
     "energy": "energies",
     "wind": "angles whose turns are counted",
@@ -132,7 +140,7 @@ class _Kernel:
         return self.element.over_records(nodes, self.graph)
 
     def program(self) -> KernelProgram:
-        outputs = {"body": self.body, "joint": self.joint, "force": self.force}[self.instance.kind]()
+        outputs: dict[str, Outputs] = getattr(self, self.instance.kind)()
         blocks = []
         for name, written in outputs.items():
             purpose: Any = _PURPOSES[name]
@@ -159,6 +167,7 @@ class _Kernel:
             mass=tuple(b.columns for b in e.mass) if self.instance.kind == "body" else (),
             massless=tuple(j for b in e.mass for k, j in enumerate(b.columns) if e.graph.value(b.entries[k][k]) == 0.0),
             functions={b.name: b.operations for b in blocks},
+            states=len(self.instance.states),
         )
         return KernelProgram(kernel_stem(self.instance), self.instance.label, kernel, tuple(blocks), e.tables)
 
@@ -238,6 +247,39 @@ class _Kernel:
             "wind": self.winding(),
         }
 
+    def bound(self) -> dict[str, Outputs]:
+        """Return the outputs of the functions of a row with bounds.
+
+        Where it is off the row of D is zero, so that it takes no part in anything. Its entries as they are in force
+        stand behind its blocks, for transitions and starts, which know themselves which rows are off. The square of the
+        last slot is added to the diagonal of D W D^T, whatever W is, and keeps the pivot of a row that is off above 0.
+        """
+        e, g = self.e, self.graph
+        (row,) = e.rows
+        assert row.held is not None and row.phi is not None, "a row with bounds has a mode and a position"
+        held, phi, nu, gamma, *entries = self.copied(
+            [row.held, row.phi, row.nu, row.gamma, *(n for _, n in row.entries)]
+        )
+        slots, first = self.slots(), self.row_width
+        common: Outputs = [] if nu == g.zero else [(Target("nu", 0), g.mul(held, nu))]
+        common += [(Target("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
+        common += [(Target("jacobian", first + i), n) for i, n in enumerate(entries)]
+        size = g.call("sqrt", g.total(g.mul(n, n) for n in entries))
+        idle = g.mul(g.sub(g.one, held), size)
+        common += [(Target(section, first + len(entries)), idle) for section in ("jacobian", "left")]
+        quadratic: Outputs = [] if gamma == g.zero else [(Target("gamma", 0), g.mul(held, gamma))]
+        force = quadratic + self.force()["motion"]
+        return {
+            "geometry": [(Target("residual", 0), phi), *common],
+            "motion": common + force,
+            "full": [(Target("phi", 0), phi), *common, *force],
+        }
+
+    @property
+    def row_width(self) -> int:
+        """Length of the blocks of the first row."""
+        return sum(len(self.element.frames[f].v) for f in {f for f, _ in self.rows()[0].entries})
+
     def force(self) -> dict[str, Outputs]:
         """Return the outputs of a force's functions."""
         e, g = self.e, self.graph
@@ -247,6 +289,10 @@ class _Kernel:
             motion.append((Target("power", 0), power))
         energy: Outputs = [(Target("potential", 0), potential)] if potential != g.zero else []
         return {"motion": motion, "energy": energy, "wind": self.winding()}
+
+    def state(self) -> dict[str, Outputs]:
+        """Return the outputs of a state's functions; joints count the turns of angles that it reads."""
+        return {"rates": [(Target("own", 0), self.copied(self.e.state_rates[:1])[0])]}
 
     def winding(self) -> Outputs:
         """Return the angles whose turns are counted."""
@@ -263,11 +309,11 @@ class _Kernel:
 
     def rows(self) -> tuple[RowShape, ...]:
         """Return the shapes of a joint's rows."""
-        g = self.e.graph
+        g, varies = self.e.graph, self.instance.kind == "bound"
         return tuple(
             RowShape(
                 tuple(self.owner(j) for j, _ in row.entries),
-                tuple(g.value(n) for _, n in row.entries),
+                tuple(None if varies else g.value(n) for _, n in row.entries),
                 row.phi is not None,
                 row.nu != g.zero,
                 row.unit == "rad",

@@ -20,18 +20,18 @@ SECTIONS = (
 STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "frames": (("body", "frame"),),
     "speeds": (("body", "speeds"),),
-    "rates": (("body", "rates"),),
+    "rates": (("body", "rates"), ("state", "rates")),
     "move": (("body", "move"),),
     "turn": (("body", "turn"),),
     "normalise": (("body", "normalise"),),
     "wind": (("joint", "wind"), ("force", "wind")),
-    "geometry": (("joint", "geometry"),),
-    "motion": (("body", "motion"), ("joint", "motion"), ("force", "motion")),
-    "full": (("body", "motion"), ("joint", "full"), ("force", "motion")),
+    "geometry": (("joint", "geometry"), ("bound", "geometry")),
+    "motion": (("body", "motion"), ("joint", "motion"), ("bound", "motion"), ("force", "motion")),
+    "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("force", "motion")),
     "energy": (("body", "energy"), ("force", "energy")),
     "report": (("joint", "report"),),
-    "residuals": (("body", "residual"), ("joint", "residual"), ("force", "residual")),
-    "slopes": (("body", "tangent"), ("joint", "tangent"), ("force", "tangent")),
+    "residuals": tuple((kind, "residual") for kind in ("body", "joint", "bound", "force", "state")),
+    "slopes": tuple((kind, "tangent") for kind in ("body", "joint", "bound", "force", "state")),
 }
 
 #: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then the beginnings of tables.

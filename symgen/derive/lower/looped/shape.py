@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
+from symgen.base.ir.program import MODE_NUMBERS
 from symgen.base.vocabulary.expressions import Expr
 from symgen.base.vocabulary.measures import Measure
 from symgen.derive.lower.factor import Elimination
@@ -68,7 +69,7 @@ class LoopedShape:
     Parameters
     ----------
     instances : sequence of Instance
-        Bodies, then joints, then forces.
+        Bodies, then joints, rows with bounds, forces and states.
     stems : sequence of str
         Module of each instance's kernel.
     infos : mapping of str to KernelInfo
@@ -118,6 +119,8 @@ class LoopedShape:
         self.driven = 0
         entry = coordinate = computed = 0
         self.entries: list[tuple[int, int, int]] = []  # row, column, slot of structurally nonzero entries
+        self.placed: list[tuple[int, int, int]] = []  # the same, of rows with bounds as they are, in force or off
+        self.idle: list[tuple[int, int]] = []  # rows with bounds, and slots whose squares stand on the diagonal
         for instance, stem in zip(self.instances, self.stems, strict=True):
             info = self.infos[stem]
             for constant in instance.constants:
@@ -135,8 +138,16 @@ class LoopedShape:
                     used = {firsts[f] + j: literal for (g, j), literal in literals if g == f}
                     reach = frozenset(k for j in used for k in self.coupled.get(j, (j,)))
                     self.blocks.append(RowBlock(row, firsts[f], width, entry, used, reach))
-                    self.entries += [(row, j, entry + j - firsts[f]) for j in used]
+                    self.placed += [(row, j, entry + j - firsts[f]) for j in used]
                     entry += width
+                if instance.kind == "bound":
+                    columns = [firsts[f] + j for f, j in shape.entries]
+                    self.entries += [(row, j, entry + i) for i, j in enumerate(columns)]
+                    entry += len(columns)
+                    self.idle.append((row, entry))
+                    entry += 1
+                else:
+                    self.entries += self.placed[len(self.placed) - len(shape.entries) :]
                 self.holonomic.append(shape.holonomic)
                 self.angular.append(shape.angular)
                 self.driven += shape.driven
@@ -146,6 +157,10 @@ class LoopedShape:
             computed += info.computed
         self.m, self.jacobian, self.coordinates, self.computed = len(self.holonomic), entry, coordinate, computed
         self.windings = len(self.angle_index)
+        bounds = [k for k, instance in enumerate(self.instances) if instance.kind == "bound"]
+        self.mode_index = {k: MODE_NUMBERS * i for i, k in enumerate(bounds)}
+        states = [instance.name for instance in self.instances if instance.kind == "state"]
+        self.state_index = {name: i for i, name in enumerate(states)}
 
     # -- p -------------------------------------------------------------------------------------------------------------
 
@@ -237,6 +252,8 @@ class LoopedShape:
                     at = (a.offset + first - a.first, b.offset + first - b.first, target)
                     runs.setdefault(k + 1 - start, []).extend(at)
                     start = k + 1
+        for row, slot in self.idle:
+            runs.setdefault(1, []).extend((slot, slot, self.gram.target(row, row)))
         single = runs.pop(1, [])
         outer, single = _paired([(single[k], single[k + 1], single[k + 2]) for k in range(0, len(single), 3)])
         runs |= {width: terms for width, terms in ((0, outer), (1, single)) if terms}
@@ -256,7 +273,7 @@ class LoopedShape:
     def rows(self) -> list[list[tuple[int, int]]]:
         """Entries (column, slot) of D, row by row."""
         rows: list[list[tuple[int, int]]] = [[] for _ in range(self.m)]
-        for row, column, slot in self.entries:
+        for row, column, slot in self.placed:
             rows[row].append((column, slot))
         return rows
 

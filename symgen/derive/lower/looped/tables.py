@@ -6,8 +6,9 @@ from array import array
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from symgen.base.ir.program import STATUS
+from symgen.base.ir.program import MODE_NUMBERS, STATUS
 from symgen.derive.lower.looped.forms import FormInfo
+from symgen.derive.lower.looped.instances import Instance
 from symgen.derive.lower.looped.law import LoopedLawInfo
 from symgen.derive.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
 from symgen.derive.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
@@ -99,7 +100,7 @@ class Builder:
         """Unknowns of a stage."""
         shape = self.shape
         rows = {"": 0, "stabilised": 2}.get(self.level, 1)
-        return shape.nq + shape.nv + rows * shape.m if self.level else 0
+        return shape.nq + shape.nv + rows * shape.m + len(shape.state_index) if self.level else 0
 
     def tables(self) -> IndexTables:
         """Return the finished tables."""
@@ -126,6 +127,9 @@ class Builder:
         sections: dict[str, tuple[int, int]] = {"status": (0, len(STATUS))}
         offset = len(STATUS) + shape.windings
         sections["winding"] = (len(STATUS), shape.windings)
+        if shape.mode_index:
+            sections["modes"] = (offset, MODE_NUMBERS * len(shape.mode_index))
+            offset += MODE_NUMBERS * len(shape.mode_index)
         for name, size in (*SECTIONS, *self.law.sections):
             sections[name] = (offset, sizes[size])
             offset += sizes[size]
@@ -162,30 +166,49 @@ class Builder:
                 self.numbers += bodies[0][:2]
             elif info.kind == "joint":
                 self.numbers += [shape.row_of[k], shape.entry_of[k], shape.coordinate_of[k]]
-            else:
+            elif info.kind == "bound":
+                self.numbers += [shape.row_of[k], shape.entry_of[k], *(b[1] for b in bodies)]
+            elif info.kind == "force":
                 self.numbers += [b[1] for b in bodies]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
+            self.numbers += self.places_of_states(instance)
+            self.numbers += self.place_of_modes(k)
             self.numbers.append(computed + shape.computed_of[k])
             self.numbers += [constants + index[c] for c in instance.constants]
         return at
+
+    def places_of_states(self, instance: Instance) -> list[int]:
+        """Return the places in the state, behind the work, of the states of the file that an instance reads."""
+        work = self.shape.nq + self.shape.nv
+        return [work + 1 + self.shape.state_index[name] for name in instance.states]
+
+    def place_of_modes(self, k: int) -> list[int]:
+        """Return the place in ``w`` of the modes of an instance that has any, in a list."""
+        first = len(STATUS) + self.shape.windings
+        return [first + self.shape.mode_index[k]] if k in self.shape.mode_index else []
 
     def part(self, group: KernelGroup, info: FormInfo) -> int:
         """Write the table of a group's part of the descriptor form; return its beginning."""
         shape, at = self.shape, len(self.numbers)
         self.numbers.append(len(group.members))
+        own = self.unknowns - len(shape.state_index)
         owners = [[(f, i) for f, sizes in enumerate(group.info.frames) for i in range(sizes[s])] for s in (0, 1)]
         for k in group.members:
             instance = shape.instances[k]
             bodies = [shape.body[name] for name in instance.frames]
-            row = shape.row_of[k] if group.info.kind == "joint" else 0
+            row = shape.row_of[k] if group.info.rows else 0
             rows = shape.nq + shape.nv + row
             place = {("q", j): bodies[f][0] + i for j, (f, i) in enumerate(owners[0])}
             place |= {("v", j): shape.nq + bodies[f][1] + i for j, (f, i) in enumerate(owners[1])}
             for name, start in (("first", rows), ("second", rows + shape.m)):
                 place |= {(name, j): start + j for j in range(len(group.info.rows))}
+            place |= {("z", j): own + shape.state_index[name] for j, name in enumerate(instance.states, 1)}
             self.numbers += [b[2] for b in bodies] + [b[0] for b in bodies] + [b[1] for b in bodies]
             self.numbers += [row, len(self.tangent)]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
+            self.numbers += self.places_of_states(instance)
+            self.numbers += self.place_of_modes(k)
+            self.numbers += [place["z", 1]] if group.info.kind == "state" else []
             self.numbers += [shape.first_constant + shape.constant_index[c] for c in instance.constants]
             for equation, i, unknown, j in info.entries:
                 of_state = 0 if unknown.startswith("k_") else self.unknowns

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta
 
-from symgen.base.vocabulary.expressions import Expr, call
+from symgen.base.vocabulary.expressions import ZERO, Expr, Number, call
 from symgen.base.vocabulary.measures import Measure
 from symgen.describe.bounds.by_reaction import directions_across, reacting_rows
-from symgen.describe.bounds.dry_friction import FRICTION, Friction
+from symgen.describe.bounds.changing import is_constant, read_bound
+from symgen.describe.bounds.dry_friction import FRICTION, Friction, at_rate
 from symgen.describe.bounds.keys import KeyOfJoints, by_coordinate
 from symgen.describe.mechanism import Joint
-from symgen.describe.parts.fields import Scalar, read_table, words_of
+from symgen.describe.parts.fields import Scalar, StateBound, StateFunction, read_table, words_of
 from symgen.describe.parts.scope import Scope
 
 FrictionTable = Annotated[
-    dict[str, float | str | dict[str, float | str]],
+    dict[str, float | str | dict[str, float | str | dict[str, float | str]]],
     Meta(description="a table of bounds such as { sliding = 4.0 }, or one for each coordinate"),
 ]
 
@@ -25,10 +27,13 @@ FrictionTable = Annotated[
 class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Dry friction along a coordinate of a joint.
 
+    Bounds are numbers or formulas of t, parameters, inputs and state; a formula below 0 counts as 0.
+
     Parameters
     ----------
-    sliding : scalar
-        Force or torque in motion [N or N m].
+    sliding : scalar or table
+        Force or torque in motion [N or N m], a formula also of `rate`, the size of the rate; ``{ forwards = ...,
+        backwards = ... }`` where it differs in the two directions.
     coefficient : scalar
         In place of `sliding`, force in motion over the size of the joint's reaction, in space across its axis.
     static_coefficient : scalar
@@ -36,27 +41,43 @@ class FrictionSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     radius : scalar
         Of a pin, the arm of this force [m].
     static : scalar
-        Largest force or torque at rest; `sliding` by default.
+        Largest force or torque at rest; by default `sliding` where `rate` is 0.
     viscous : scalar
         Force over rate [N s/m or N m s]; 0 by default.
     stribeck_speed : scalar
         Rate [m/s or rad/s] over which the bound falls from `static` to `sliding`; without it the bound is `sliding` as
         soon as the coordinate moves.
+    stribeck_exponent : scalar
+        Exponent of this fall, exp(-(rate/stribeck_speed)^exponent), at least 1; 2 by default.
     law : {"exact", "tanh"}
         Friction that sticks, or a smooth force in its place: the bound times tanh(rate / `speed`), which creeps.
     speed : scalar
         Rate of `law` = "tanh" [m/s or rad/s].
     """
 
-    sliding: Scalar | None = None
-    static: Scalar | None = None
-    coefficient: Scalar | None = None
-    static_coefficient: Scalar | None = None
+    sliding: StateBound | None = None
+    static: StateFunction | None = None
+    coefficient: StateFunction | None = None
+    static_coefficient: StateFunction | None = None
     radius: Scalar | None = None
-    viscous: Scalar = 0.0
+    viscous: StateFunction = 0.0
     stribeck_speed: Scalar | None = None
+    stribeck_exponent: Scalar | None = None
     law: Literal["exact", "tanh"] = "exact"
     speed: Scalar | None = None
+
+
+class BothWays(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Bounds that differ in the two directions.
+
+    Parameters
+    ----------
+    forwards, backwards : scalar
+        Force or torque [N or N m] where the rate of the coordinate is above 0, and where it is below.
+    """
+
+    forwards: StateFunction
+    backwards: StateFunction
 
 
 def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ...]:
@@ -84,23 +105,9 @@ def read_friction(scope: Scope, joint: Joint, raw: object) -> tuple[Friction, ..
 def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object, single: bool) -> Friction:
     key = "friction" if single else f"friction.{label}"
     section = read_table(FrictionSection, raw, scope.where(key))
-
-    def bound(name: str, value: float | str) -> Expr:
-        expression = scope.constant(f"{key}.{name}", value)
-        if (size := scope.value(expression, f"{key}.{name}")) < 0.0:
-            raise scope.error(f"{key}.{name}", "a value of at least 0", repr(size))
-        return expression
-
     pressed = _pressed(scope, joint, label, key, section)
-    names = ("coefficient", "static_coefficient") if pressed else ("sliding", "static")
-    least, most = (getattr(section, name) for name in names)
-    sliding = bound(names[0], least)
-    static = sliding if most is None else bound(names[1], most)
-    low, high = (scope.value(x, f"{key}.{name}") for x, name in zip((sliding, static), names, strict=True))
-    if high < low:
-        raise scope.error(f"{key}.{names[1]}", f"a bound of at least that in motion ({low!r})", repr(high))
-    if low == 0.0 < high:
-        raise scope.error(f"{key}.{names[0]}", "a value above 0, as that at rest is above 0", "0.0")
+    bounds = _bounds(scope, key, section, ("coefficient", "static_coefficient") if pressed else ("sliding", "static"))
+    sliding, static, backwards, changing = bounds
     if section.radius is not None:
         radius = scope.constant(f"{key}.radius", section.radius, positive=True)
         sliding, static = call("mul", sliding, radius), call("mul", static, radius)
@@ -120,12 +127,65 @@ def _along(scope: Scope, joint: Joint, label: str, measure: Measure, raw: object
         unit=joint.unit(label),
         sliding=sliding,
         static=static,
-        viscous=bound("viscous", section.viscous),
+        viscous=read_bound(scope, f"{key}.viscous", section.viscous),
         stribeck_speed=None if speed is None else scope.constant(f"{key}.stribeck_speed", speed, positive=True),
+        exponent=_exponent(scope, key, section),
+        backwards=backwards,
+        changing=changing,
         pressed=pressed,
         across=directions_across(measure, pressed),
         speed=scope.constant(f"{key}.speed", section.speed, positive=True) if section.speed is not None else None,
     )
+
+
+def _bounds(
+    scope: Scope, key: str, section: FrictionSection, names: tuple[str, str]
+) -> tuple[Expr, Expr, Expr | None, bool]:
+    """Return the bounds in motion, at rest and of motions backwards, and whether any is more than a number."""
+    (least, most), backwards = (getattr(section, name) for name in names), None
+    if isinstance(least, dict):
+        sliding, backwards = _both_ways(scope, f"{key}.{names[0]}", section, least)
+    else:
+        sliding = read_bound(scope, f"{key}.{names[0]}", least, ("rate",))
+    static = at_rate(sliding, ZERO) if most is None else read_bound(scope, f"{key}.{names[1]}", most)
+    if backwards is not None:
+        static = call("mul", Number(0.5), call("add", static, at_rate(backwards, ZERO)))
+    at_rest = (at_rate(x, ZERO) for x in (sliding, static, backwards) if x is not None)
+    changing = not all(is_constant(scope, x) for x in at_rest)
+    if not changing and backwards is None:
+        pairs = zip((at_rate(sliding, ZERO), static), names, strict=True)
+        low, high = (scope.value(x, f"{key}.{name}") for x, name in pairs)
+        if high < low:
+            raise scope.error(f"{key}.{names[1]}", f"a bound of at least that in motion ({low!r})", repr(high))
+        if low == 0.0 < high:
+            raise scope.error(f"{key}.{names[0]}", "a value above 0, as that at rest is above 0", "0.0")
+    return sliding, static, backwards, changing
+
+
+def _both_ways(scope: Scope, key: str, section: FrictionSection, raw: Mapping[str, object]) -> tuple[Expr, Expr]:
+    """Return the bounds of motions forwards and backwards."""
+    ways = read_table(BothWays, raw, scope.where(key))
+    for name in ("static", "stribeck_speed"):
+        if (value := getattr(section, name)) is not None:
+            expected = "no such key beside bounds of two directions, which may be formulas of rate"
+            raise scope.error(f"{key.rpartition('.')[0]}.{name}", expected, words_of(value))
+    forwards, backwards = (
+        read_bound(scope, f"{key}.{name}", getattr(ways, name), ("rate",)) for name in ("forwards", "backwards")
+    )
+    return forwards, backwards
+
+
+def _exponent(scope: Scope, key: str, section: FrictionSection) -> Expr | None:
+    """Return the exponent of the fall over the rate; None for 2."""
+    if section.stribeck_exponent is None:
+        return None
+    if section.stribeck_speed is None:
+        got = words_of(section.stribeck_exponent)
+        raise scope.error(f"{key}.stribeck_exponent", "the key stribeck_speed beside it", got)
+    exponent = scope.constant(f"{key}.stribeck_exponent", section.stribeck_exponent)
+    if not (value := scope.value(exponent, f"{key}.stribeck_exponent")) >= 1.0:
+        raise scope.error(f"{key}.stribeck_exponent", "a value of at least 1", repr(value))
+    return exponent
 
 
 def _pressed(scope: Scope, joint: Joint, label: str, key: str, section: FrictionSection) -> tuple[str, ...]:

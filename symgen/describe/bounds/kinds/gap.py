@@ -6,9 +6,10 @@ import msgspec
 
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import FormulaMeasure
+from symgen.describe.bounds.elastic_stop import ElasticStop
 from symgen.describe.bounds.end_stop import STOPS, EndStop
 from symgen.describe.bounds.keys import SectionOfFiles
-from symgen.describe.bounds.kinds.stop import read_restitution
+from symgen.describe.bounds.kinds.stop import read_stop
 from symgen.describe.formulas.readings import is_angle
 from symgen.describe.parts.fields import Scalar, StateFunction, read_table
 from symgen.describe.parts.scope import Scope
@@ -25,13 +26,18 @@ class GapSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
         its derivatives by the coordinates.
     restitution : scalar
         Rate of the gap after an impact over that before, from 0 to 1; 0 by default.
+    stiffness, damping : scalar
+        Of an elastic stop, force over the depth behind the gap [N/m or N m/rad], and over the rate of that
+        [N s/m or N m s/rad].
     """
 
     gap: StateFunction
-    restitution: Scalar = 0.0
+    restitution: Scalar | None = None
+    stiffness: Scalar | None = None
+    damping: Scalar | None = None
 
 
-def read_gap(scope: Scope, raw: object) -> EndStop:
+def read_gap(scope: Scope, raw: object) -> EndStop | ElasticStop:
     """Return the stop that a table of the section ``stops`` describes.
 
     Parameters
@@ -48,8 +54,8 @@ def read_gap(scope: Scope, raw: object) -> EndStop:
     """
     section = read_table(GapSection, raw, scope.where(""))
     of = scope.of_row("gap", section.gap, speeds=False, inputs=True)
-    restitution = read_restitution(scope, "restitution", section.restitution)
-    return EndStop(scope.name, scope.name, FormulaMeasure(of), ZERO, "rad" if is_angle(of) else "m", restitution)
+    unit = "rad" if is_angle(of) else "m"
+    return read_stop(scope, "", scope.name, scope.name, FormulaMeasure(of), ZERO, unit, section)
 
 
 KIND = SectionOfFiles("stops", STOPS, GapSection, read_gap)

@@ -94,7 +94,10 @@ function columnAt(column, t, time) {
 
 // -- drawing --------------------------------------------------------------------------------------------------------------
 
+const visible = () => $("picture").clientWidth > 0 && $("picture").clientHeight > 0;
+
 function render() {
+  if (!visible()) return; // in a frame that is hidden
   const q = between(motion, time);
   view.clear();
   if (!q) return;
@@ -612,6 +615,15 @@ window.addEventListener("resize", () => {
   refit();
   choose();
 });
+// A frame that was hidden when the page began gets its size without a word.
+let wasVisible = visible();
+new ResizeObserver(() => {
+  if (visible() && !wasVisible) {
+    refit();
+    choose();
+  }
+  wasVisible = visible();
+}).observe($("picture"));
 
 // -- for scripts ------------------------------------------------------------------------------------------------------------
 

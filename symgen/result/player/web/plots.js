@@ -50,6 +50,8 @@ function makePlot(canvas, key, chosen) {
   function lines(group, over, single) {
     const { t, along, label } = over, shown = (i) => single === null || i === single;
     const [context, width, height] = sized(canvas);
+    frame = null;
+    if (!canvas.width || !canvas.height) return; // in a frame that is hidden: the page draws it when it has a size
     context.clearRect(0, 0, width, height);
     let low = Infinity, high = -Infinity;
     for (const column of group.columns.filter((_, i) => shown(i))) for (const x of column) {

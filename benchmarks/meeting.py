@@ -1,0 +1,308 @@
+"""What meets what: each feature of a mechanism file in each command, target and coordinate, as ``docs/meeting.md``.
+
+python -m benchmarks.meeting [FEATURE ...]
+
+computes the cells, of some features or of all, writes them to ``benchmarks/records/meeting.json`` and prints the page
+from there. A cell is ``+``, or the sentence that refuses.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import symgen
+from symgen.base.errors import SymgenError
+from symgen.cli import main
+
+ROOT = Path(__file__).resolve().parents[1]
+RECORD, PAGE = ROOT / "benchmarks" / "records" / "meeting.json", ROOT / "docs" / "meeting.md"
+
+#: A cart on a rail with a pole; features change or add lines.
+CART = """
+[mechanism]
+name = "cart"
+gravity = [0.0, -9.81]
+[run]
+until = 0.4
+[parameters]
+size = 0.5
+k = 30.0
+[bodies.cart]
+mass = 2.0
+inertia = 0.1
+position = [0.1, 0.0]
+[bodies.pole]
+mass = 1.0
+inertia = {inertia}
+points = {{ pin = ["-size", 0.0], tip = ["size", 0.0] }}
+position = ["0.1 + size*sin(0.4)", "-size*cos(0.4)"]
+angle = "0.4 - pi/2"
+[joints.rail]
+type = "translational"
+between = ["ground", "cart"]
+at = [[0.0, 0.0], "centre"]
+axis = [1.0, 0.0]
+angle = 0.0
+[joints.pin]
+type = "revolute"
+between = ["cart", "pole"]
+at = ["centre", "pin"]
+{pin}
+[forces.spring]
+type = "force"
+body = "cart"
+force = ["{force}", 0.0]
+{more}
+"""
+
+
+def cart(inertia: str = '"size**2/3"', pin: str = "", force: str = "-k*cart.x - cart.vx", more: str = "") -> str:
+    """Return the text of a file."""
+    return CART.format(inertia=inertia, pin=pin, force=force, more=more)
+
+
+_PIN = 'type = "revolute"\nbetween = ["cart", "pole"]\nat = ["centre", "pin"]'
+_ROWS = 'type = "rows"\nrows = [{ position = "pole.pin.x - cart.x" }, { position = "pole.pin.y - cart.y" }]'
+_RAIL = (
+    'type = "translational"\nbetween = ["ground", "cart"]\nat = [[0.0, 0.0], "centre"]\naxis = [1.0, 0.0]\nangle = 0.0'
+)
+_BLADE = 'type = "beam"\nbetween = ["cart", "end"]\nat = ["centre", "centre"]\nlength = 0.5\naxis = [1.0, 0.0]'
+_HOOK = (
+    'mass = 0.0\ninertia = 0.0\nposition = ["0.1 + 2*size*sin(0.4)", "-2*size*cos(0.4)"]\npoints = { a = [0.0, 0.0] }'
+)
+_ROPE = '[stops.rope]\ngap = "1.0 - sqrt(pole.tip.x**2 + (pole.tip.y + 0.1)**2)"'
+_BEAM = "start = [0.1, 0.3]\nend = [0.6, 0.3]\nelements = 2\naxial = 1e3\nbending = 1.0\nmass = 0.2\nrotary = 1e-3"
+_STOP = "stop = { lower = -2.2, upper = -1.0, restitution = 0.3 }"
+_TABLE = 'x = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "cubic"'
+
+#: Files with one feature each.
+FEATURES: Mapping[str, str] = {
+    "bodies, joints, forces": cart(),
+    "input": cart(force="-k*cart.x - cart.vx + push", more='[inputs]\npush = { default = 0.1, unit = "N" }'),
+    "output, integral": cart(more='[outputs]\nw = { value = "integral(cart.vx**2)" }'),
+    "state of the file": cart(
+        force="-k*cart.x - cart.vx + lag", more='[states.lag]\nstart = 0.3\nrate = "cart.x - lag"'
+    ),
+    "rows of the file": cart().replace(_PIN, _ROWS),
+    "table": cart(force="-profile(cart.x) - cart.vx", more=f"[tables.profile]\n{_TABLE}"),
+    "jump in time": cart(force="-k*cart.x + (3.0 if t < 0.2 else 0.0)"),
+    "jump with the state": cart(force="-k*cart.x - (1.0 if cart.x > 0.05 else -1.0)"),
+    "event, recorded": cart(more='[events.turn]\nwhen = "cart.x - 0.09"\naction = "record"'),
+    "event with a reset": cart(more='[events.kick]\nwhen = "cart.x - 0.09"\nreset = { "cart.vx" = "0.5" }'),
+    "driver": cart(more='[joints.motor]\ntype = "driver"\njoint = "rail"\nvalue = "0.1 + 0.05*sin(3*t)"'),
+    "redundant rows": cart(more=f"[joints.twin]\n{_RAIL}"),
+    "light body": cart(inertia="0.0"),
+    "massless body": cart(
+        more=f'[bodies.hook]\n{_HOOK}\n[joints.weld]\ntype = "rigid"\nbetween = ["pole", "hook"]\nat = ["tip", "a"]'
+    ),
+    "rotor": cart(pin="rotor_inertia = 1e-3\ngear_ratio = 10.0"),
+    "friction": cart(pin="friction = { sliding = 0.3, static = 0.4 }"),
+    "friction by a reaction": cart(pin="friction = { coefficient = 0.2, radius = 0.05 }"),
+    "friction of the state": cart(pin='friction = { sliding = "0.2 + cart.x**2" }'),
+    "friction, smooth": cart(pin='friction = { sliding = 0.3, law = "tanh", speed = 1e-3 }'),
+    "friction, light body": cart(inertia="0.0", pin="friction = { sliding = 0.3 }"),
+    "stop": cart(pin=_STOP),
+    "stop, elastic": cart(pin="stop = { lower = -2.2, upper = -1.0, stiffness = 50.0 }"),
+    "stop, moving": cart(more='[stops.wall]\ngap = "0.2 - 0.02*t - cart.x"'),
+    "friction and stop": cart(pin=f"friction = {{ sliding = 0.3 }}\n{_STOP}"),
+    "rope": cart(more=_ROPE),
+    "beam element": cart(
+        more="[bodies.end]\nmass = 0.5\ninertia = 0.01\nposition = [0.6, 0.0]\n"
+        f"[forces.blade]\n{_BLADE}\naxial = 1e4\nbending = 10.0"
+    ),
+    "beam": cart(more=f'[beams.bar]\n{_BEAM}\nclamp = "ground"'),
+}
+
+#: Takes a file and a folder; returns "" where it is done, and else the sentence.
+Place = Callable[[Path, Path], str]
+
+
+class _TracebackError(Exception):
+    """An error that is no sentence."""
+
+
+def invoked(*arguments: object) -> str:
+    """Run a command in this process; return nothing where it succeeds, else its sentence."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            code = main([str(a) for a in arguments])
+        except SystemExit as end:
+            code = int(end.code or 0)
+    if code == 0:
+        return ""
+    said = err.getvalue().strip().splitlines()
+    if not said or code != 2:
+        raise _TracebackError(err.getvalue())
+    return said[-1].removeprefix("symgen: ")
+
+
+def guarded(call: Callable[[], object]) -> str:
+    """Call something from Python; return nothing where it succeeds, else its sentence."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            call()
+    except SymgenError as error:
+        return str(error)
+    return ""
+
+
+def _run(*options: str) -> Place:
+    return lambda file, folder: invoked("run", file, *options)
+
+
+def _generated(target: str, name: str) -> Place:
+    return lambda file, folder: invoked("generate", file, "--target", target, "-o", folder / name)
+
+
+def _inverse(file: Path, folder: Path) -> str:
+    said = invoked("run", file, "--save", folder / "motion.nc")
+    return said or invoked("inverse", file, "--from", folder / "motion.nc", "--actuators", "spring")
+
+
+def _identified(file: Path, folder: Path) -> str:
+    said = invoked("run", file, "--save", folder / "motion.csv", "--output-step", "0.05")
+    free = ("--free", "k", "--quantity", "cart.x")
+    return said or invoked("identify", file, "--data", folder / "motion.csv", *free)
+
+
+def _live(file: Path, folder: Path) -> str:
+    said, mark = invoked("view", file, "-o", folder / "page.html"), "has no live part: "
+    if said:
+        return said
+    _, found, rest = (folder / "page.html").read_text(encoding="utf-8").partition(mark)
+    why = rest.partition('"')[0]
+    return f"a page {mark}{why}" if found else ""
+
+
+def _stepped(file: Path, folder: Path) -> str:
+    def go() -> None:
+        simulation = symgen.load(file).start()
+        simulation.step(0.05)
+        simulation.reset()
+
+    return guarded(go)
+
+
+def _stressed(file: Path, folder: Path) -> str:
+    def go() -> None:
+        from symgen.study.stress.study import stress
+
+        study = stress([file], ["gravity"], ["lagrange"], quick=True, jobs=1)
+        assert study.rows and not study.unusable, "its cells have references"
+
+    return guarded(go)
+
+
+def _adjoint(file: Path, folder: Path) -> str:
+    return guarded(lambda: symgen.load(file).gradient("cart.x", by=("k",), way="adjoint"))
+
+
+_COMPARED = ("--methods", "lagrange,direct-correction", "--integrators", "dop853", "--until", "0.2")
+
+#: Places by groups, each a table of the page.
+GROUPS: Mapping[str, Mapping[str, Place]] = {
+    "Runs": {
+        "run": _run(),
+        "joint coordinates": _run("--coordinates", "joint"),
+        "looped code": _run("--shape", "looped"),
+        "picard": _run("--integrator", "picard"),
+        "radau5": _run("--integrator", "radau5"),
+        "generalized-alpha": _run("--method", "generalized-alpha", "--step", "1e-3"),
+        "null-space": _run("--method", "null-space"),
+        "augmented-lagrangian": _run("--method", "augmented-lagrangian"),
+        "step by step": _stepped,
+    },
+    "Studies and derivatives": {
+        "sweep": lambda file, folder: invoked("sweep", file, "--vary", "k=lin(20,40,3)"),
+        "compare": lambda file, folder: invoked("compare", file, *_COMPARED),
+        "stress": _stressed,
+        "report": lambda file, folder: invoked("report", file, "-o", folder / "report.html"),
+        "forward": _run("--sensitivity", "k"),
+        "adjoint": _adjoint,
+        "identify": _identified,
+    },
+    "Analyses": {
+        "equilibrium": lambda file, folder: invoked("equilibrium", file),
+        "modes": lambda file, folder: invoked("modes", file),
+        "linearise": lambda file, folder: invoked("linearise", file, "--at", "start", "--instantaneous"),
+        "inverse": _inverse,
+        "inspect": lambda file, folder: invoked("inspect", file, "-o", folder / "equations.html"),
+    },
+    "Code and pages": {
+        "modules": _generated("cpu", "cpu"),
+        "lanes": _generated("lanes", "lanes"),
+        "C": _generated("c", "c"),
+        "FMU": _generated("fmu", "cart.fmu"),
+        "JavaScript": _generated("javascript", "js"),
+        "live page": _live,
+    },
+}
+PLACES: Mapping[str, Place] = {name: place for group in GROUPS.values() for name, place in group.items()}
+
+Table = dict[str, dict[str, str]]
+
+
+def cell(feature: str, place: str) -> str:
+    """Return ``+``, or the sentence that refuses a feature in a place."""
+    with tempfile.TemporaryDirectory() as folder:
+        (file := Path(folder) / "cart.toml").write_text(FEATURES[feature], encoding="utf-8")
+        return PLACES[place](file, Path(folder)).replace(f"{folder}/", "") or "+"
+
+
+def stored() -> Table:
+    """Return the cells as they are stored."""
+    table: Table = json.loads(RECORD.read_text(encoding="utf-8"))
+    return table
+
+
+def page(table: Table) -> str:
+    """Return the text of the page."""
+    lines = [
+        "# What meets what",
+        "",
+        "Written by `python -m benchmarks.meeting`. Each row is a mechanism file with one feature, each column what is",
+        "asked of it: `+` where it is done, else the number of the sentence below that says what is taken instead.",
+        "Methods and integrators that fit together are on [a page of their own](pairs.md).",
+    ]
+    for group, places in GROUPS.items():
+        said = list(dict.fromkeys(table[f][p] for f in FEATURES for p in places if table[f][p] != "+"))
+        lines += ["", f"## {group}", "", f"| | {' | '.join(places)} |", "| --- |" + " --- |" * len(places)]
+        for feature in FEATURES:
+            cells = (table[feature][p] for p in places)
+            lines.append(f"| {feature} | {' | '.join(c if c == '+' else str(1 + said.index(c)) for c in cells)} |")
+        lines += ["", *(f"{i}. {_shown(sentence)}" for i, sentence in enumerate(said, 1))] if said else []
+    done = sum(c == "+" for row in table.values() for c in row.values())
+    return "\n".join([*lines, "", f"{done} of {len(FEATURES) * len(PLACES)} cells are done.", ""])
+
+
+def _shown(sentence: str) -> str:
+    """Return a sentence as code, which needs no escapes."""
+    return f"`{sentence.replace('`', chr(39))}`"
+
+
+def record(features: list[str]) -> None:
+    """Compute the cells of some features, and write record and page."""
+    table = stored() if RECORD.exists() else {}
+    for feature in features:
+        table[feature] = {place: cell(feature, place) for place in PLACES}
+        print(
+            f"{feature}: {sum(c == '+' for c in table[feature].values())} of {len(PLACES)}", file=sys.stderr, flush=True
+        )
+    whole = {feature: table[feature] for feature in FEATURES if feature in table}
+    RECORD.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+    if len(whole) == len(FEATURES):
+        PAGE.write_text(page(whole), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    record(sys.argv[1:] or list(FEATURES))

@@ -1,0 +1,44 @@
+"""The equations of a joint of a draft, as the page of `symgen inspect` shows them."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.derive.formulate.formulate import formulate
+from symgen.describe.mechanism import Mechanism
+from symgen.result.reading.html import equation, equations, vector_equation
+from symgen.result.reading.page import check_size
+from symgen.result.reading.row_words import row_words
+from symgen.result.reading.sheet import Sheet
+
+
+def joint_equations(mechanism: Mechanism, name: str) -> dict[str, Any]:
+    """Return what a joint demands, row by row, as markup; names in it are escaped.
+
+    Raises
+    ------
+    InputError
+        If there is no such joint, or the mechanism is too large for a page.
+    """
+    joint = next((each for each in mechanism.joints if each.name == name), None)
+    if joint is None:
+        names = [each.name for each in mechanism.joints]
+        raise InputError("joint", "the name of a joint", quoted(name), nearest(name, names))
+    check_size(mechanism)
+    derived = formulate(mechanism)
+    sheet, words = Sheet(mechanism, derived), row_words(mechanism)
+    rows = sheet.of(name)
+    phi, gamma = ({line.key: line for line in lines} for lines in (sheet.phi(rows), sheet.gamma(rows)))
+    parts = []
+    for row in rows:
+        said = words[row.name]
+        parts.append(f"<p><b>{escape(row.name)}</b>: {escape(said.words)}</p>")
+        if said.vectors and mechanism.space == "spatial":
+            parts.append(f'<p class="vectors">{vector_equation(said.vectors)}</p>')
+        parts += [equation(phi[row.name], " = 0")] if row.name in phi else []
+        parts.append(equation(gamma[row.name]))
+    parts.append(equations(sheet.jacobian(name)))
+    between = " and ".join(dict.fromkeys(joint.bodies))
+    return {"title": f"{name}: {joint.kind} between {between}", "markup": "\n".join(parts)}

@@ -1,0 +1,117 @@
+"""Stops that give way: a force of the depth behind a gap and of its rate, which only pushes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, ClassVar
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Reading, call, difference, sum_of_terms
+from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
+from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounds.end_stop import STOPS
+from symgen.describe.bounds.modes import rate_of
+from symgen.describe.bounds.row import Bounds
+from symgen.describe.formulas.formula_text import to_text
+from symgen.describe.mechanism import Event, Output
+
+
+class ElasticStop(Bounds, frozen=True):
+    """An elastic stop: a force ``stiffness depth - damping gap'`` where the gap is below 0, which never pulls.
+
+    Nothing is held: it is a force of the state, without impacts and modes.
+
+    Parameters
+    ----------
+    name, owner : str
+        As for a rigid stop, see `symgen.describe.bounds.end_stop.EndStop`.
+    measure : Measure
+        The gap is ``measure - value``.
+    value : Expr
+        A number or an expression of parameters.
+    unit : str
+        Unit of the gap.
+    stiffness, damping : Expr
+        Force over depth [N/m or N m], and over the rate of the gap [N s/m or N m s].
+    """
+
+    family: ClassVar[Family] = STOPS
+
+    name: str
+    owner: str
+    measure: Measure
+    value: Expr
+    unit: str
+    stiffness: Expr
+    damping: Expr = ZERO
+
+    @property
+    def row(self) -> str:
+        """Name of its force."""
+        return f"{self.name}.stop"
+
+    @property
+    def along(self) -> str:
+        """No coordinate: it shares no force with other rows."""
+        return ""
+
+    @property
+    def smooth(self) -> bool:
+        """A force stands in its place."""
+        return True
+
+    @property
+    def where(self) -> str:
+        """Its place, for messages."""
+        return f"stop {self.name}"
+
+    @property
+    def held(self) -> Holonomic:
+        """The gap as a row."""
+        return Holonomic("stop", self.measure, self.value, self.unit)
+
+    @property
+    def effort(self) -> Effort:
+        """The force along the gap."""
+        return self.smooth_effort
+
+    @property
+    def smooth_effort(self) -> Effort:
+        """The force along the gap."""
+        depth = difference(self.value, Name("s"))
+        pushing = call("max", sum_of_terms(self._spring(depth), *self._damper(Name("rate"))), ZERO)
+        inside = pushing if self.damping == ZERO else call("where", call("gt", depth, ZERO), pushing, ZERO)
+        return Effort("stop", self.measure, inside)
+
+    def _spring(self, depth: Expr) -> Expr:
+        return call("mul", self.stiffness, depth)
+
+    def _damper(self, rate: Expr) -> tuple[Expr, ...]:
+        return () if self.damping == ZERO else (call("neg", call("mul", self.damping, rate)),)
+
+    @property
+    def place(self) -> tuple[str, Expr]:
+        """The gap."""
+        return f"gap of {self.name}", difference(rate_of(self, 0), self.value)
+
+    @property
+    def numbers(self) -> tuple[tuple[str, Expr], ...]:
+        """A restitution, which it has none of."""
+        return ((f"restitution of {self.name}", ONE),)
+
+    @property
+    def taking(self) -> Expr:
+        """The part of the force that takes energy: all but the force of the spring."""
+        spring = self._spring(call("max", difference(self.value, rate_of(self, 0)), ZERO))
+        return call("sub", Reading(f"{self.name}.force", Exerted((self.smooth_effort,))), spring)
+
+    def events(self, beside: Sequence[BoundedRow]) -> tuple[Event, ...]:
+        """Return none: it has no modes."""
+        return ()
+
+    def outputs(self, beside: Sequence[BoundedRow]) -> Iterator[Output]:
+        """Yield nothing: forces are reported where they are made."""
+        return iter(())
+
+    def facts(self) -> dict[str, Any]:
+        """Return what describes it."""
+        return {"stiffness": to_text(self.stiffness), "damping": to_text(self.damping)}

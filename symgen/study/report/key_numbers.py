@@ -1,0 +1,146 @@
+"""The numbers that a machine's owner asks for first: loads of drives and pins, power, work, travel, transmission."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.analyses.transmission import PIN, transmission_angles
+from symgen.base.errors import InputError
+from symgen.base.vocabulary.measures import GROUND
+from symgen.study.report.words import engineering
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Joint, Mechanism
+    from symgen.result.result import Result
+
+Array = NDArray[np.float64]
+
+#: Numbers on the first screen at most, and pins among them.
+MOST_NUMBERS, MOST_PINS = 7, 2
+#: Share of a range that is rounding at one of its ends.
+FINEST = 1e-6
+#: Last words of the columns of a drive or force element: what it exerts, and its power.
+_EFFORTS, _POWER = (".effort", ".force", ".torque", ".Fx", ".Fy", ".Fz"), ".power"
+
+
+class KeyNumber(NamedTuple):
+    """A number with its words.
+
+    Attributes
+    ----------
+    what, value, where : str
+        Of what it is; the number with its unit; when and where.
+    """
+
+    what: str
+    value: str
+    where: str
+
+
+def key_numbers(mechanism: Mechanism, result: Result) -> tuple[KeyNumber, ...]:
+    """Return at most seven numbers of a run that has outputs.
+
+    The largest effort of each drive, its largest power and its work; the largest forces of pins; the largest travel
+    of a joint, or the ranges of outputs; the least transmission angle of a mechanism in the plane.
+    """
+    rest = [*_travels(mechanism, result), *_transmission(mechanism, result)][:2]
+    first = [*_drives(mechanism, result)][: MOST_NUMBERS - MOST_PINS - len(rest)]
+    return (*first, *_pins(mechanism, result)[: MOST_NUMBERS - len(first) - len(rest)], *rest)
+
+
+def _at(result: Result, k: int) -> str:
+    if k in (0, len(result.t) - 1):
+        return "at the start" if k == 0 else "at the end"
+    return f"at {result.t[k]:.3g} s"
+
+
+def _peak(values: Array) -> int | None:
+    """Return where the largest value is; None where all are 0 or none is finite."""
+    size = np.nan_to_num(np.abs(values))
+    return int(np.argmax(size)) if size.any() else None
+
+
+def _drives(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+    """Yield the loads of drivers; where there is none, of force elements."""
+    table = result.whole(("elements",))
+    columns = dict(zip(table.names, table.values.T, strict=True))
+    units = dict(zip(table.names, table.units, strict=True))
+    drivers = [name for name in columns if name.endswith(_EFFORTS[0])]
+    told = set[str]()
+    for name in drivers or [name for name in columns if name.endswith(_EFFORTS)]:
+        owner, _, part = name.rpartition(".")
+        if (k := _peak(columns[name])) is None:
+            continue
+        kind = "torque" if units[name] == "N m" else "force"
+        kind += f" along {part[1:]}" if part in ("Fx", "Fy", "Fz") else ""
+        yield KeyNumber(f"{owner}, {kind}", engineering(columns[name][k], units[name]), _at(result, k))
+        power = None if owner in told else columns.get(f"{owner}{_POWER}")
+        told.add(owner)
+        if power is not None and (k := _peak(power)) is not None:
+            work = float(np.trapezoid(np.nan_to_num(power), result.t))
+            where = f"{_at(result, k)}; work of the run {engineering(work, 'J')}"
+            yield KeyNumber(f"{owner}, power", engineering(power[k], "W"), where)
+
+
+def _pins(mechanism: Mechanism, result: Result) -> list[KeyNumber]:
+    """Return the largest forces of joints, those of drivers left out."""
+    drivers = {joint.name for joint in mechanism.joints if joint.kind == "driver"}
+    table, peaks = result.whole(("magnitudes",)), list[tuple[float, KeyNumber]]()
+    for i, name in enumerate(table.names):
+        joint = name.rpartition(".")[0]
+        k = _peak(table.values[:, i])
+        if k is None or joint in drivers or table.units[i] != "N":
+            continue
+        size = float(abs(table.values[k, i]))
+        peaks.append((size, KeyNumber(f"{joint}, force", engineering(size, "N"), _at(result, k))))
+    return [number for _, number in sorted(peaks, key=lambda pair: -pair[0])]
+
+
+def _travels(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+    """Yield the range of the file's first output that is a length or an angle, else the largest one at the ground."""
+    table = result.whole(("outputs",))
+    ranges = [
+        (name, column, unit)
+        for name, column, unit in zip(table.names, table.values.T, table.units, strict=True)
+        if unit in ("m", "rad")
+    ][:1]
+    if not ranges:
+        grounded = {j.name for j in mechanism.joints if GROUND in j.bodies and j.kind != "driver"}
+        joints = result.whole(("joint_coordinates",))
+        for name, column, unit in zip(joints.names, joints.values.T, joints.units, strict=True):
+            if name.split(".")[0] in grounded and not name.endswith(".rate") and unit in ("m", "rad"):
+                ranges.append((name, column, unit))
+        # the link that swings farthest; an angle that turns round and round says nothing
+        ranges = [each for each in ranges if each[2] == "m" or np.ptp(each[1]) < 2.0 * np.pi]
+        ranges.sort(key=lambda each: (each[2] != "rad", -np.ptp(each[1])))
+    for name, values, unit in ranges[:1]:
+        span = float(np.nanmax(values) - np.nanmin(values))
+        ends = (float(np.nanmin(values)), float(np.nanmax(values)))
+        low, high = (engineering(x if abs(x) > FINEST * span else 0.0, unit) for x in ends)
+        yield KeyNumber(f"travel of {name}", engineering(span, unit), f"from {low} to {high}")
+
+
+def _transmission(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+    """Yield the least transmission angle of the pins that have one."""
+    if mechanism.space != "planar" or not any(joint.kind == "driver" for joint in mechanism.joints):
+        return
+    found = list[tuple[float, int, str]]()
+    for pin in filter(_between_links, mechanism.joints):
+        try:
+            angle = transmission_angles(mechanism, result.q, result.parameters, (pin.name,)).values[:, 0]
+        except InputError:  # its bodies have several further joints
+            continue
+        least = np.minimum(angle, np.pi - angle)
+        k = int(np.argmin(least))
+        found.append((float(least[k]), k, pin.name))
+    if found:
+        size, k, name = min(found)
+        yield KeyNumber("transmission angle", engineering(size, "rad"), f"least, at {name}, {_at(result, k)}")
+
+
+def _between_links(joint: Joint) -> bool:
+    return joint.kind == PIN and GROUND not in joint.bodies

@@ -1,0 +1,211 @@
+"""Ten mechanisms drawn in ``symgen edit`` from an empty file, by mouse and keys alone, with the actions counted."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.browser.chromium import Chromium
+from tests.browser.editor_page import Page
+
+pytestmark = pytest.mark.browser
+
+EMPTY = '[mechanism]\nname = "mine"\ngravity = [0.0, -9.81]\n\n[run]\nuntil = 1.0\n'
+Place = str | tuple[float, float]
+
+
+@dataclass
+class Hand:
+    """A hand that draws: each press of a button, each click and each piece of typed text is an action."""
+
+    page: Page
+    actions: int = 0
+    tool: str = "move"
+    drawn: list[str] = field(default_factory=list)
+
+    def use(self, tool: str, *places: Place) -> None:
+        """Use a tool at places: points by name, or coordinates in metres, which are typed."""
+        if tool != self.tool:
+            self.page.press(f"[data-tool={tool}]")
+            self.actions += 1
+            self.tool = tool
+        before = self.page.text("text")
+        for place in places:
+            self.actions += 1
+            if isinstance(place, str):
+                self.page.click(*self.page.where(place))
+            else:
+                self.page.run("document.getElementById('where').focus()")
+                self.page.chromium.call("Input.insertText", text=f"{place[0]}, {place[1]}")
+                self.page.key("Enter")
+        self.page.until(f"document.getElementById('text').value !== {json.dumps(before)}")
+        self.settle()
+
+    def bar(self, *places: Place) -> None:
+        self.use("bar", *places)
+
+    def pin(self, first: Place, second: Place) -> None:
+        self.use("pin", first, second)
+
+    def ground(self, point: str) -> None:
+        """Pin a point to the ground."""
+        self.use("pin", point, point)
+
+    def write(self, text: str, behind: str = "") -> None:
+        """Type lines behind the first line that has some words, or at the end."""
+        now = self.page.text("text")
+        at = now.index("\n", now.index(behind)) + 1 if behind else len(now)
+        self.page.type(at, text)
+        self.actions += 1
+        self.settle()
+
+    def settle(self) -> None:
+        """Wait until the text has been checked, and has no error."""
+        self.page.until("window.symgen.editor.checked()")
+        said = self.page.text("errors") + self.page.text("status")
+        assert self.page.run("document.getElementById('errors').hidden"), said
+
+
+def pendulum(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (1.0, 0.0))
+    hand.ground("bodies.bar1.points.A")
+
+
+def four_bar(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.1, 0.3))
+    hand.bar("bodies.bar1.points.B", (0.9, 0.8))
+    hand.bar("bodies.bar2.points.B", (1.0, 0.0))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar3.points.B")
+    hand.use("motor", "joints.pin3")
+
+
+def slider_crank(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.2, 0.2))
+    hand.bar("bodies.bar1.points.B", (1.0, 0.0))
+    hand.bar("bodies.bar2.points.B", (1.1, 0.0))
+    hand.ground("bodies.bar1.points.A")
+    hand.use("slide", "bodies.bar3.points.B")
+
+
+def press(hand: Hand) -> None:
+    hand.bar((0.0, 1.0), (0.2, 0.5))
+    hand.bar("bodies.bar1.points.B", (0.0, 0.0))
+    hand.ground("bodies.bar1.points.A")
+    hand.write("[bodies.ram]\nmass = 5.0\ninertia = 0.1\nposition = [0.0, 0.0]\n")
+    hand.write(
+        '[joints.guide]\ntype = "translational"\nbetween = ["ground", "ram"]\nat = [[0.0, 0.0], "centre"]\n'
+        "axis = [0.0, 1.0]\nangle = 0.0\nstop = { lower = -0.05, upper = 0.5, restitution = 0.2 }\n"
+    )
+    hand.write('[joints.foot]\ntype = "revolute"\nbetween = ["bar2", "ram"]\nat = ["B", "centre"]\n')
+
+
+def wiper(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (0.1, 0.3))
+    hand.bar("bodies.bar1.points.B", (0.9, 0.8))
+    hand.use("plate", "bodies.bar2.points.B", (1.0, 0.0), (1.2, 1.8))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.plate1.points.B")
+    hand.use("motor", "joints.pin3")
+
+
+def scissor_lift(hand: Hand) -> None:
+    hand.bar((0.0, 0.0), (1.0, 0.6))
+    hand.bar((1.0, 0.0), (0.0, 0.6))
+    hand.write('[joints.middle]\ntype = "revolute"\nbetween = ["bar1", "bar2"]\nat = ["centre", "centre"]\n')
+    hand.ground("bodies.bar1.points.A")
+    hand.bar("bodies.bar2.points.A", (1.1, 0.0))
+    hand.use("slide", "bodies.bar3.points.B")
+    hand.use("spring", "bodies.bar1.points.B", "bodies.bar2.points.B")
+
+
+def watt(hand: Hand) -> None:
+    hand.bar((-1.0, 0.1), (0.0, 0.2))
+    hand.bar("bodies.bar1.points.B", (0.1, -0.2))
+    hand.bar("bodies.bar2.points.B", (1.1, -0.1))
+    hand.ground("bodies.bar1.points.A")
+    hand.ground("bodies.bar3.points.B")
+    hand.use("load", "joints.pin1")
+
+
+def bucket(hand: Hand) -> None:
+    hand.use("plate", (0.0, 0.0), (0.4, 0.1), (0.3, -0.5))
+    hand.bar("bodies.plate1.points.B", (0.2, 0.6))
+    hand.bar("bodies.bar1.points.B", (-0.4, 0.4))
+    hand.ground("bodies.plate1.points.A")
+    hand.ground("bodies.bar2.points.B")
+    hand.use("spring", "joints.pin2", (-0.9, 1.0))
+    hand.use("load", "bodies.plate1.points.C")
+
+
+def cart_pole(hand: Hand) -> None:
+    hand.bar((-0.2, 0.0), (0.2, 0.0))
+    hand.use("slide", "bodies.bar1.points.A")
+    hand.bar("bodies.bar1.points.B", (0.25, 1.0))
+    hand.write("angle = 0.0\n", behind="axis = [1.0, 0.0]")
+
+
+BELT = """
+[joints.wheels]
+type = "coupling"
+terms = { pin1 = 1.0, pin2 = -2.0 }
+"""
+
+
+def belt(hand: Hand) -> None:
+    hand.bar((-0.1, 0.0), (0.1, 0.0))
+    hand.bar((0.9, 0.0), (1.1, 0.0))
+    hand.write('[joints.pin1]\ntype = "revolute"\nbetween = ["ground", "bar1"]\nat = [[0.0, 0.0], "centre"]\n')
+    hand.write('[joints.pin2]\ntype = "revolute"\nbetween = ["ground", "bar2"]\nat = [[1.0, 0.0], "centre"]\n')
+    hand.write(BELT)
+    hand.write('[forces.drive]\ntype = "torque"\nbody = "bar1"\ntorque = 0.1\n')
+
+
+@pytest.fixture
+def page(chromium: Chromium, tmp_path: Path) -> Iterator[Page]:
+    file = tmp_path / "mine.toml"
+    file.write_text(EMPTY)
+    with Page.of(chromium, file) as opened:
+        opened.open()
+        opened.until("!document.getElementById('errors').hidden")
+        yield opened
+
+
+def column(page: Page, name: str) -> Any:
+    return np.array(page.run(f"window.symgen.column({json.dumps(name)}).values"))
+
+
+@pytest.mark.parametrize(
+    ("draw", "actions", "bodies", "freedoms"),
+    [
+        (pendulum, 6, 1, 1),
+        (four_bar, 14, 3, 0),
+        (slider_crank, 12, 3, 1),
+        (press, 11, 3, 1),
+        (wiper, 16, 3, 0),
+        (scissor_lift, 17, 3, 1),
+        (watt, 14, 3, 1),
+        (bucket, 19, 3, 1),
+        (cart_pole, 9, 2, 2),
+        (belt, 9, 2, 1),
+    ],
+)
+def test_a_mechanism_from_an_empty_file(
+    draw: Callable[[Hand], None], actions: int, bodies: int, freedoms: int, page: Page
+) -> None:
+    hand = Hand(page)
+    draw(hand)
+    page.rested()
+    page.picture(draw.__name__)
+    text = page.text("text")
+    assert page.run("document.getElementById('errors').hidden"), page.text("errors")
+    assert page.text("facts").endswith("status ok"), (page.text("facts"), page.text("status"), text)
+    assert page.text("freedoms").split(";")[0] == f"{freedoms} degree{'s' if freedoms != 1 else ''} of freedom"
+    assert text.count("[bodies.") == bodies and text.startswith(EMPTY)
+    assert hand.actions == actions
+    gap = np.max(column(page, "violation.position"))
+    assert gap < -6.0 and page.said() == []  # a power of ten
