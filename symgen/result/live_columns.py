@@ -29,7 +29,11 @@ _OF_BODIES = ("lam", "reactions", "body_reactions", "magnitudes", "joint_coordin
 
 
 def live_columns(
-    mechanism: Mechanism, compiled: CompiledModel, start: Start, bodies: CompiledModel | None = None
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    bodies: CompiledModel | None = None,
+    acting: Mechanism | None = None,
 ) -> tuple[str, dict[str, Any]]:
     """Return an expression for the functions of columns, ``null`` where JavaScript has no form of one, and their data.
 
@@ -43,8 +47,12 @@ def live_columns(
         Of the live part.
     bodies : CompiledModel, optional
         Code in coordinates of bodies, if the live part has those of joints: reactions are left out then.
+    acting : Mechanism, optional
+        The mechanism of the code, with its tree: modes and forces of rows with bounds are in its state.
     """
-    own = bodies or compiled
+    own, tree = bodies or compiled, None
+    if bodies is not None and acting is not None and acting.bounded:
+        tree = acting, compiled
     tables = dict(of_run(mechanism, own.info))
     if bodies is not None:
         tables = {table: signals for table, signals in tables.items() if table not in _OF_BODIES}
@@ -52,15 +60,16 @@ def live_columns(
         event.action == RESET for event in mechanism.events
     ):  # which change the energy that errors are measured from
         tables["energy"] = tuple(signal for signal in tables["energy"] if signal.source != e.ENERGY_ERROR)
-    if integrals(mechanism) and not own.info.integrals:
+    if integrals(mechanism) and not (own if tree is None else compiled).info.integrals:
         tables["outputs"] = tuple(s for s in tables["outputs"] if not _is_integral(mechanism, s))
     try:
-        functions, places = _functions(mechanism, own, tables, bodies is None)
+        functions, places = _functions(mechanism, own, tables, bodies is None, tree)
     except Foreign:
         return "null", {}
     tables = {table: signals for table, signals in tables.items() if table not in FORMULAS or table in functions}
     text = f"(() => {{\n{HELPERS}{javascript(functions)}\nreturn {{ {', '.join(functions)} }};\n}})()"
-    return text, _spec(mechanism, compiled, start, own, tables, places)
+    spec = _spec(mechanism, compiled, start, own, tables, places)
+    return text, spec if tree is None else {**spec, "of_state": ["outputs"]}
 
 
 def _is_integral(mechanism: Mechanism, signal: Signal) -> bool:
@@ -69,7 +78,11 @@ def _is_integral(mechanism: Mechanism, signal: Signal) -> bool:
 
 
 def _functions(
-    mechanism: Mechanism, compiled: CompiledModel, tables: Mapping[str, tuple[Signal, ...]], of_bodies: bool
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    tables: Mapping[str, tuple[Signal, ...]],
+    of_bodies: bool,
+    tree: tuple[Mechanism, CompiledModel] | None,
 ) -> tuple[dict[str, Function], dict[str, tuple[int, int]]]:
     """Return functions by table, and the places of point and centre of each joint in ``seats``."""
     functions = dict[str, "Function"]()
@@ -78,8 +91,12 @@ def _functions(
         formulas = [(c.name, c.formula) for c in columns(mechanism)]
         if not keys or len(keys) < len(formulas):
             continue
-        side = compile_side(mechanism, compiled, table, f"the table {table} of results", formulas)
-        if of_bodies or not side.reads & set(READ):
+        at_state = tree is not None and table == "outputs"
+        if tree is not None and at_state:
+            formulas = [(c.name, c.formula) for c in columns(tree[0])]
+        of = tree if tree is not None and at_state else (mechanism, compiled)
+        side = compile_side(*of, table, f"the table {table} of results", formulas)
+        if of_bodies or at_state or not side.reads & set(READ):
             functions[table] = checked_function(side.function, abi.OBSERVE)
     if not of_bodies:
         return functions, {}
@@ -144,7 +161,7 @@ def _spec(
         "nq": q,
         "nv": v,
         "joints": joints,
-        "joint_of_row": [order[row.joint] for row in info.rows],
+        "joint_of_row": [order.get(row.joint, -1) for row in info.rows],
         "multipliers": sections["multipliers"][0] if "multipliers" in sections else -1,
         "work": compiled.info.work,
         "status": {"rank": abi.RANK, "kinetic": abi.KINETIC, "potential": abi.POTENTIAL, "length": abi.LENGTH},

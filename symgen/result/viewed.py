@@ -14,7 +14,6 @@ from symgen.base.digits import cleaned
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.methods import METHODS
-from symgen.describe.bounds.keys import nouns
 from symgen.describe.formulas.evaluate import independent_values, parameter_values
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.parts.events import DOES
@@ -238,13 +237,13 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
     for name, action in run["watched"]:
         if action in DOES and name not in own:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
-    if mechanism.bounded:
-        return None, f"{NONE}: there is {nouns('some', ' or ')}, and pages do not choose their modes"
     numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
     parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
     step = run["step"] or mechanism.defaults.step
     settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
     settings = replace(settings, method=method) if method else settings
+    if mechanism.bounded:  # whose run is the loop of this scheme
+        settings = replace(settings, integrator=LIVE_INTEGRATOR)
     prepared = prepare(mechanism, settings, Purpose.STATE)
     state = {**initial["q"], **initial["v"]}
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
@@ -252,7 +251,9 @@ def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tup
     begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
     if prepared.tree is not None:
         return _live_on_tree(prepared, prepared.tree, step, begin)
-    live, note = live_part(mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism)
+    live, note = live_part(
+        mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism, run=prepared
+    )
     if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
         prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
         if prepared.tree is not None:
@@ -288,7 +289,7 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | No
         of_bodies = replace(tree.body_start, y=y)
         carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
         start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
-    live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism)
+    live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
     if live is not None and moving:
         note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
     return _with_columns(live, mechanism, run), note
@@ -308,7 +309,7 @@ def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Liv
         if name in units and not name.endswith("tolerance")
     ]
     bodies = None if run.tree is None else run.tree.bodies
-    text, spec = live_columns(mechanism, run.compiled, run.start, bodies)
+    text, spec = live_columns(mechanism, run.compiled, run.start, bodies, run.mechanism)
     return replace(
         live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
     )

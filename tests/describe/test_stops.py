@@ -78,7 +78,7 @@ def test_what_chooses_no_modes_refuses_stops() -> None:
     model = symgen.load(four_bar({"lower": -1.0}))
     sentence = "expected a mechanism without stops, got A.lower"
     with pytest.raises(InputError, match=sentence):
-        model.generate(target="c")
+        model.generate(target="cuda")
 
 
 @pytest.mark.parametrize("method", ["auto", "lagrange"])

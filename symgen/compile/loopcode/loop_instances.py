@@ -102,6 +102,7 @@ class Instances:
         meanings = {**function.__globals__, **{name: value for name, value in names.items() if value is not None}}
         result = python.FunctionType(function.__code__, meanings, function.__name__, function.__defaults__)
         result.__module__, result.__qualname__ = function.__module__, function.__qualname__
+        result.__dict__.update(function.__dict__)  # marks
         return result
 
     def meaning(self, name: str, function: Any) -> Any:

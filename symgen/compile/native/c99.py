@@ -15,7 +15,7 @@ from typing import ClassVar
 
 from symgen.compile.native import language as lang
 from symgen.compile.native.binding import MEMORY, BoundFunctions, ConstantTable, is_bound
-from symgen.compile.native.folding import visited
+from symgen.compile.native.folding import is_pure, visited
 from symgen.compile.native.printing import FunctionPrinter, ordered, word
 
 #: Functions outside the C library that printed ones call, by name.
@@ -178,6 +178,15 @@ def _names(body: object) -> frozenset[str]:
         elif isinstance(value, lang.FunctionCall):
             names.update(a for a in value.arguments if isinstance(a, str))
     return frozenset(names)
+
+
+def _only_lengths(body: tuple[lang.Statement, ...]) -> set[str]:
+    """Return the variables that are lengths of parts of arrays and nothing else, with values that call nothing."""
+    values = list(visited(body))
+    sizes = Counter(v.size.name for v in values if isinstance(v, lang.ArrayView) and isinstance(v.size, lang.Variable))
+    reads = Counter(v.name for v in values if isinstance(v, lang.Variable))
+    called = {v.name for v in values if isinstance(v, lang.Assign) and not is_pure(v.value)}
+    return {name for name, count in sizes.items() if reads[name] == count} - called
 
 
 def _parts(function: lang.Function) -> list[tuple[lang.Statement, ...]]:
@@ -363,6 +372,8 @@ class _BoundPrinter(CPrinter):
         super().__init__(function, names, written)
         self.bound, self.memory = bound, memory
         self.arrays |= bound.arrays
+        #: Lengths of parts of arrays that nothing else reads: in C an address has no length.
+        self.lengths = _only_lengths(function.body)
 
     def text(self) -> str:
         """Return the definition."""
@@ -373,6 +384,10 @@ class _BoundPrinter(CPrinter):
         lines = [f"static {self.types[f.returned]} {own}({', '.join(heads) or 'void'}) {{"]
         lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
         return "\n".join(map(broken_line, [*lines, *self._locals(used), *self.views, *body, "}"]))
+
+    def statement(self, s: lang.Statement) -> list[str]:
+        """Return one statement."""
+        return [] if isinstance(s, lang.Assign) and s.name in self.lengths else super().statement(s)
 
     def word(self, name: str) -> str:
         """Return the name of a variable, or a member of the structure."""

@@ -239,7 +239,12 @@ def _operation(e: lang.ScalarOperation, values: tuple[Any, ...]) -> Any:
 
 def _read(body: tuple[lang.Statement, ...]) -> set[str]:
     """Return the names of variables that statements read, and of arrays that they read or change."""
-    return arrays_in(body) | {value.name for value in visited(body) if isinstance(value, lang.Variable)}
+    values = list(visited(body))
+    reads = Counter(value.name for value in values if isinstance(value, lang.Variable))
+    for s in values:  # a variable that its own assignments alone read is not read
+        if isinstance(s, lang.Assign) and is_pure(s.value):
+            reads[s.name] -= sum(isinstance(v, lang.Variable) and v.name == s.name for v in visited(s.value))
+    return arrays_in(body) | {name for name, count in reads.items() if count > 0}
 
 
 def arrays_in(body: tuple[lang.Statement, ...]) -> set[str]:

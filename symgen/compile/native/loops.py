@@ -254,7 +254,7 @@ class LoopReader(LoopValues):
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
             raise Foreign("a call", node)
-        if called.inlined and not self.apart:
+        if called.inlined and not (self.apart and _gives_numbers(called)):
             if called.contracted != self.source.contracted:
                 raise Foreign(f"the function '{called.__name__}', whose sums are others", node)
             return self.copy(called, arguments, node)
@@ -363,6 +363,18 @@ class LoopReader(LoopValues):
         if copied.result in self.variables:
             return lang.Variable(self.variables[copied.result], copied.result)
         return NOTHING
+
+
+def _gives_numbers(function: Any) -> bool:
+    """Whether results of a function are numbers, so that it may be called: records and arrays have no address."""
+    plain = function.py_func
+    if hasattr(plain, "viewing"):
+        return False
+    results = [x.value for x in ast.walk(tree_of(function)) if isinstance(x, ast.Return) and x.value is not None]
+    names = [x.func.id for x in results if isinstance(x, ast.Call) and isinstance(x.func, ast.Name)]
+    made = (plain.__globals__.get(name) for name in names)
+    records = any(isinstance(x, type) and hasattr(x, "_fields") for x in made)
+    return not records and not any(isinstance(x, ast.Tuple) for x in results)
 
 
 def _ends_once(body: list[ast.stmt]) -> bool:

@@ -11,6 +11,7 @@ from symgen.compile.native.folding import visited
 
 #: Precedence of binary operators in C and JavaScript. Signs that differ are in the printers.
 _SIGNS = {"add": ("+", 12), "sub": ("-", 12), "mul": ("*", 13), "div": ("/", 13), "and": ("&&", 5), "or": ("||", 4)}
+_COMPARED = ("lt", "le", "gt", "ge", "eq", "ne")
 _SIGNS |= {"lt": ("<", 10), "le": ("<=", 10), "gt": (">", 10), "ge": (">=", 10), "eq": ("==", 9), "ne": ("!=", 9)}
 
 
@@ -225,6 +226,9 @@ class FunctionPrinter(ABC):
         """Return a binary operation by its sign."""
         sign, own = self.signs.get(name) or _SIGNS[name]
         room = "" if sign in "*/" else " "  # a sign may follow + and -
+        if name in ("eq", "ne") and getattr(first, "name", "") in _COMPARED:
+            left = right = own + 2  # compilers ask for parentheses here too
+            return f"{self.value(first, left)}{room}{sign}{room}{self.value(second, right)}", own
         left = own + 2 if name == "or" and getattr(first, "name", "") == "and" else own  # compilers ask for parentheses
         right = own + 2 if name == "or" else own + 1
         return f"{self.value(first, left)}{room}{sign}{room}{self.value(second, right)}", own

@@ -15,6 +15,7 @@ from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
 from symgen.run.compiling.checked import checked
 from symgen.run.compiling.printed import Printed, PrintedEvents
+from symgen.run.compiling.printed_run import FINDER, WORDS, run_with_modes
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
 from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
@@ -25,10 +26,13 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
+from symgen.run.rows import kept_run
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
+    from symgen.run.compiling.printed_run import PrintedRun
     from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.planning.prepare import Prepared
     from symgen.run.starts.assembler import Assembly
     from symgen.run.starts.assembly import Start
 
@@ -70,6 +74,7 @@ def live_part(
     initial: Array | None = None,
     still: Collection[str] = (),
     acting: Mechanism | None = None,
+    run: Prepared | None = None,
 ) -> tuple[Live | None, str]:
     """Return the live part of a page, or None and the reason.
 
@@ -89,6 +94,8 @@ def live_part(
         Parameters that keep their values: pages have no slider for them, nor for inputs that are formulas.
     acting : Mechanism, optional
         The mechanism of the code, with a tree in joint coordinates, whose events change the state.
+    run : Prepared, optional
+        The run by constant steps, where rows with bounds have modes.
     """
     spatial, law = mechanism.space == "spatial", compiled.law
     if compiled.shape != "straight":
@@ -106,11 +113,13 @@ def live_part(
         described = False
     else:
         described = not joint and is_described(mechanism)
+    kept = run_with_modes(acting or mechanism, run, compiled, start.datum or ()) if run is not None else None
     try:
         script = _script(mechanism, described)
         code, size = _code(
             acting or mechanism,
             compiled,
+            kept,
             exported_start(mechanism, compiled, start.datum, None if described else turns),
         )
     except NotInLines:
@@ -121,10 +130,12 @@ def live_part(
         return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
     constants = {*still, *dict(mechanism.input_formulas)}
     spec = _spec(mechanism, compiled, start, step, joint, constants)
+    if kept is not None:
+        spec["modes"] = modes_data(acting or mechanism, kept)
     return Live(f"{HELPERS}{code}\n{script}", spec), ""
 
 
-def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> tuple[str, int]:
+def _code(mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None, assembly: Assembly) -> tuple[str, int]:
     """Return emitted functions and functions of the runtime for starts and events.
 
     Returns
@@ -134,14 +145,33 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, assembly: Assembly) -> 
     size : int
         Characters of the emitted functions.
     """
-    events = PrintedEvents.of(mechanism, compiled)
-    functions = checked(compiled) | events.functions
+    events = PrintedEvents.of(mechanism, compiled) if run is None else None
+    functions = checked(compiled)
+    if run is not None:
+        functions |= run.functions
+    elif events is not None:
+        functions |= events.functions
     printed = Printed(functions)
     printed.add_start(assembly)
-    printed.add_steps(compiled, events, ("take_steps",))
+    if run is not None:
+        printed.add_run(run)
+    elif events is not None:
+        printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _drivers(mechanism):
         printed.add_lock(compiled, drivers)
-    return f"{LOOP_HELPERS}{javascript(functions, printed.bound())}", len(javascript(functions))
+    own = {name: function for name, function in functions.items() if name != FINDER}
+    return f"{LOOP_HELPERS}{javascript(functions, printed.bound())}", len(javascript(own))
+
+
+def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
+    """Return a page's data for modes: rows, words of transitions, and memory before a run; infinity is null."""
+    initial = {
+        name: [[int(i), float(array[i]) if np.isfinite(array[i]) else None] for i in np.flatnonzero(array)]
+        for name, array in run.memory.items()
+        if name not in ("y", "p", "w", "iw") and np.any(array)
+    }
+    rows = [row.name for row in mechanism.bounded]
+    return {"rows": rows, "words": list(WORDS), "kept": kept_run.OF_LOG, "status": abi.N_STATUS, "initial": initial}
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -16,10 +16,12 @@ from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render
 from symgen.describe.parts.events import RESET, STOP
+from symgen.result.targets._c_modes import values_of_modes
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.run.compiling.checked import checked, checked_function
 from symgen.run.compiling.events import DIRECTIONS
 from symgen.run.compiling.printed import Printed, PrintedEvents
+from symgen.run.compiling.printed_run import PrintedRun, run_with_modes
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
@@ -37,6 +39,7 @@ from symgen.run.planning.start_lines import (
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity
+    from symgen.compile.native import language as lang
     from symgen.compile.native.binding import BoundFunctions
     from symgen.compile.native.language import Function
     from symgen.describe.mechanism import Mechanism
@@ -150,14 +153,15 @@ class CModel:
             "columns": self.columns,
             "outputs": mechanism.outputs,
             "events": mechanism.events,
+            "moded": self.printed_run is not None,
             "acting": acting,
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
             "failed": FAILED,
-            "effects": self.events.effects is not None,
+            "effects": self.printed_run is None and self.events.effects is not None,
             "memory": [
                 {"name": name, "is_real": kind == "float", "size": size}
-                for name, (kind, size) in self.bound.memory.items()
+                for name, (kind, size) in self._memory.items()
                 if name not in _OWN
             ],
             "parameters": [
@@ -191,7 +195,19 @@ class CModel:
             "step": c_number(defaults.step),
             "every": max(1, round((defaults.output_step or defaults.step) / defaults.step)),
             **self._start(),
+            **(values_of_modes(mechanism, self.printed_run, self._memory, _OWN) if self.printed_run else {}),
         }
+
+    @property
+    def _memory(self) -> dict[str, tuple[lang.Scalar, int]]:
+        """Type and length of each array of the memory; steps of runs with modes have names of their own."""
+        memory = dict(self.bound.memory)
+        if self.printed_run is not None:
+            # compilers follow loops that end after one number once more, and miss the second
+            memory = {name: (kind, max(size, 2)) for name, (kind, size) in memory.items()}
+            memory["step_first"] = memory["step_middle"] = "float", self.compiled.info.ny
+            memory["kept_w"], memory["kept_iw"] = ("float", len(self.run.start.w)), ("int", len(COUNTERS))
+        return memory
 
     @cached_property
     def functions(self) -> dict[str, Function]:
@@ -207,7 +223,12 @@ class CModel:
         if outputs := [(output.name, output.value) for output in self.mechanism.outputs]:
             side = compile_side(self.mechanism, self.compiled, "outputs", "Outputs", outputs)
             functions["formulas_of_outputs"] = checked_function(side.function, abi.OBSERVE)
-        return functions | self.events.functions
+        return functions | (self.printed_run.functions if self.printed_run else self.events.functions)
+
+    @cached_property
+    def printed_run(self) -> PrintedRun | None:
+        """The run, where the mechanism has rows with bounds."""
+        return run_with_modes(self.mechanism, self.run, self.compiled, self.run.start.datum or ())
 
     @cached_property
     def events(self) -> PrintedEvents:
@@ -225,8 +246,12 @@ class CModel:
         printed, start = Printed(self.functions), self.run.start
         turns = None if self._is_described else start.w[abi.WINDING :][: self.compiled.info.windings].tolist()
         printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
-        further = ("apply_effects",) if self.events.effects else ()
-        printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
+        if self.printed_run is not None:
+            printed.add_run(self.printed_run)
+            printed.add_steps(self.compiled, PrintedEvents(), ("find_rates",))
+        else:
+            further = ("apply_effects",) if self.events.effects else ()
+            printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
         if self.has_driven_rows:
             printed.add_lock(self.compiled, self.drivers)
         if self.target == "fmu" and self.compiled.info.m:

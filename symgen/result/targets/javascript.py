@@ -23,7 +23,7 @@ export const model = makeLive({spec}, Object.assign(absent, emitted));
 def _write(request: Request) -> Package:
     mechanism = request.mechanism
     run = prepare(mechanism, request.settings("javascript"), Purpose.STATE)
-    live, reason = live_part(run.mechanism, run.compiled, run.start, mechanism.defaults.step)
+    live, reason = live_part(run.mechanism, run.compiled, run.start, mechanism.defaults.step, run=run)
     if live is None:
         raise InputError("--target javascript", "a mechanism that a page can work out", f"{mechanism.name}: {reason}")
     words = {"name": mechanism.name, "method": run.compiled.law.method}
@@ -32,4 +32,4 @@ def _write(request: Request) -> Package:
     return Package(request.path, files, run.compiled.derive_seconds, run.compiled.emit_seconds)
 
 
-KIND = Target(_write)
+KIND = Target(_write, bounded=True)

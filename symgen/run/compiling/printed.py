@@ -33,6 +33,7 @@ from symgen.run.starts.starting import begin_row, close_row, observe_nothing
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
+    from symgen.run.compiling.printed_run import PrintedRun
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.starts.assembler import Assembly
 
@@ -235,6 +236,10 @@ class Printed:
             own = function is apply_effects  # whose memory has another name elsewhere
             room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
             self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+
+    def add_run(self, run: PrintedRun) -> None:
+        """Add ``start_run()`` and ``advance_run(through, h, until)`` of a run with modes."""
+        self.entries.update(run.entries(self.emitted))
 
     def add_lock(self, compiled: CompiledModel, drivers: Collection[str]) -> None:
         """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""

@@ -215,7 +215,8 @@ def notes_at(n: int, width: int, nw: int) -> int:
     )
 
 
-_MEANINGS: dict[str, Any] = {
+#: Meanings of the names of the frame.
+MEANINGS: dict[str, Any] = {
     **{"EVENTS": True, "opened": opened, "ModelSystem": EventSystem},
     **{
         "located": located,
@@ -243,7 +244,7 @@ def with_events(loop: Any) -> Any:
         kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
         signature = types.int64(types.RecordType(kinds), scheme, SPAN, EVENT_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
-        _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
+        _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **MEANINGS})
     return _loops[loop]
 
 

@@ -13,6 +13,7 @@ events; a step ends where one is passed, and the scheme restarts.
 
 from __future__ import annotations
 
+from types import FunctionType
 from typing import Any
 
 from symgen.compile.store.emitted import plain
@@ -419,3 +420,12 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         return NOTHING
     hunt[DOING], hunt[TRY] = _WHOLE_STEP, hunt[WHOLE]
     return TAKE
+
+
+def deciding(notes: int) -> A:
+    """Return `decide` with room for fewer notes than `NOTES`, for a caller that takes them after each step."""
+    names: dict[str, Any] = {**globals(), "NOTES": notes}
+    for name in ("ended", "decide"):
+        code = getattr(names[name], "py_func", names[name]).__code__
+        names[name] = plain(FunctionType(code, names, name))
+    return names["decide"]

@@ -89,7 +89,7 @@ def rest_gaps(t: float, modes: Any, state: Any) -> int:
 
 
 @called
-def chosen(model: Any, state: Any) -> int:
+def choose_here(model: Any, state: Any) -> int:
     """Choose modes at the present state; return `DONE`, or `NO_MODES`."""
     _, _, modes = model
     c, t = modes.choice, state.clock[abi.TIME]
@@ -129,7 +129,7 @@ def begin_modes(model: Any, span: Any, state: Any) -> int:
         c.broken[i] = c.stopped[i] = c.left[i] = 0
         c.shut[i] = 0 if state.control[abi.BEGUN] == 0 else c.shut[i]
     c.depth[0] = TOUCHING if state.control[abi.BEGUN] == 0 else DEEP
-    return int(chosen(model, state))
+    return int(choose_here(model, state))
 
 
 def begin_modes_between_seams(model: Any, span: Any, state: Any) -> int:
@@ -218,6 +218,6 @@ def take_modes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
     ended = take_others(code, r, model, chunk, state)
     if ended == e.IMPOSSIBLE:
         return int(ended)
-    if jams or (any_of_modes and chosen(model, state) != abi.DONE):
+    if jams or (any_of_modes and choose_here(model, state) != abi.DONE):
         return int(e.NO_MODES)
     return int(ended)

@@ -363,15 +363,16 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 
 #: Sizes of a model, and the functions called at outputs.
 OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-_EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
-_EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
-_MODES = {
+#: Meanings of names here, where rows have events, effects, modes, impacts, and bounds by reactions.
+EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
+EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
+MODES = {
     **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
     **{"store_after": store_after_effects},
 }
-_STRIKING = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "take_others": take_resets}
+STRIKING = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "take_others": take_resets}
 _MODES_BETWEEN_SEAMS = {"begin_choice": begin_modes_between_seams, "take_change": choose_after_change}
-_PRESSED = {"choose_modes": choose_pressed}
+PRESSED = {"choose_modes": choose_pressed}
 _EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
 SEAMED = {"take_row": take_seams, "hold": hold_between_seams}
 _loops: dict[Any, Any] = {}
@@ -406,9 +407,9 @@ def over_rows(
         further = [OF_MODES] if modes else [OF_EFFECTS] if effects else []
         model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
-        meanings: dict[str, Any] = {**(_EVENTS if events else {}), **(_EFFECTS if effects else {})}
-        meanings |= (_MODES if modes else {}) | (_PRESSED if pressed else {})
-        meanings |= _STRIKING if effects and modes else {}
+        meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
+        meanings |= (MODES if modes else {}) | (PRESSED if pressed else {})
+        meanings |= STRIKING if effects and modes else {}
         meanings |= _MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)

@@ -62,6 +62,7 @@ NOT_APPLIED = 10
 #: - step (shape (1,)): Step that laws assume before the first one [s].
 #: - angular (shape (k,)): 1 where the measure of a row is an angle.
 #: - place_of (shape (m,)): Number among these of each row, -1 for others.
+#: - pushes (shape (k,)): 1 for one-sided rows, which stand last, else 0.
 #: - broken, stopped, left (shapes (k,)): 1 for coordinates that have just broken loose, or whose rate has just become
 #:   zero; for one-sided rows whose force has.
 #: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
@@ -92,7 +93,10 @@ CHOICE = record_type(
     ("states accelerations reactions", abi.OBSERVE),
     ("box", BOX),
     ("first count dry changes", _N),
-    ("angular place_of pushed at_rest broken stopped left rest loose taken passing shut named pressed varying", _K),
+    (
+        "angular place_of pushes pushed at_rest broken stopped left rest loose taken passing shut named pressed varying",
+        _K,
+    ),
     ("step value speed static sliding restitution before after signs trial offset alone forces scale matrix", _A),
     ("rest_of depth jam apart parts sizes bounds y w rate out room", _A),
     ("iw", _K),
@@ -128,6 +132,7 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
             *(layout_of(compiled), *(compiled_form(f) for f in functions), new_box(k), first, k, rows.dry),
             int(rows.changes),
             *(np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64), places),
+            (np.arange(k) >= rows.dry).astype(np.int64),
             *(np.full(1, -1), np.zeros(1, dtype=np.int64), *flags, np.zeros(k + 1, dtype=np.int64)),
             *(np.isin(np.arange(k), these).astype(np.int64) for these in (rows.pressed, rows.varying)),
             *(
@@ -177,7 +182,7 @@ def put_off(c: Any, w: Any) -> int:
     """Take all rows out of force before a reset or an impact, and keep which gaps are closed; return their number."""
     closed = 0
     for i in range(c.count):
-        c.shut[i] = 1 if i >= c.dry and stays_shut(c, w, i) else 0
+        c.shut[i] = 1 if c.pushes[i] != 0 and stays_shut(c, w, i) else 0
         closed += c.shut[i]
     for i in range(MODE_NUMBERS * c.count):
         w[c.first + i] = 0.0

@@ -138,7 +138,7 @@ def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> in
     for r in range(n):
         j = c.rest[r]
         force, sign = c.sliding[j], 1.0
-        if j >= c.dry and c.alone[j] > 0.0:  # accelerations as large as those that are there
+        if c.pushes[j] != 0 and c.alone[j] > 0.0:  # accelerations as large as those that are there
             force = larger(abs(c.offset[j]), usual_of(c, w, j)) / c.alone[j]
             sign = -force
         if force > 0.0 or c.varying[j] != 0:
@@ -197,7 +197,7 @@ def find_rest(c: Any, w: Any) -> int:
         c.forces[i] = 0.0
         c.taken[i] = 0
     for i in range(c.count):
-        at, pushes = MODE_NUMBERS * i, i >= c.dry
+        at, pushes = MODE_NUMBERS * i, c.pushes[i] != 0
         still = abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
         still = (still or is_held(c, w, i)) and not (pushes and not is_shut(c, w, i))
         loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
@@ -231,14 +231,14 @@ def solve_rest(c: Any, n: int, w: Any) -> int:
     for r in range(n):
         i = c.rest[r]
         box.offset[r] = c.offset[i]
-        c.taken[i] = 1 if i < c.dry and c.loose[i] == 0 else 0  # its static bound holds
+        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
         for s in range(n):
             box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
     while True:
         for r in range(n):
             i = c.rest[r]
             bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
-            pushes = i >= c.dry
+            pushes = c.pushes[i] != 0
             box.bounds[r] = 0.0 if pushes else bound
             box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
         if solve_box(n, box) != 0:
@@ -247,9 +247,9 @@ def solve_rest(c: Any, n: int, w: Any) -> int:
         for r in range(n):
             i = c.rest[r]
             if moves_at(c, n, r):
-                if i < c.dry and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
+                if c.pushes[i] == 0 and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
                     c.taken[i], again = 0, True
-                if i >= c.dry and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
+                if c.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
                     c.loose[i], again = 0, True
         if not again:
             break
@@ -257,14 +257,14 @@ def solve_rest(c: Any, n: int, w: Any) -> int:
         i = c.rest[r]
         bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
         c.passing[i] = 1 if moves else 0
-        if i >= c.dry:
+        if c.pushes[i] != 0:
             moves = moves and box.left[r] > 0.0
         elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
             moves = True
         c.forces[i] = force
         c.signs[i] = 0.0
         if moves:
-            c.signs[i] = sign_of(box.left[r] if force == 0.0 or i >= c.dry else force)
+            c.signs[i] = sign_of(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
         c.taken[i] = 0
     return SAME
 

@@ -58,15 +58,15 @@ def take_rows(c: Any, n: int, which: int, w: Any) -> None:
         best, most = -1, 0.0
         for r in range(n):
             i = c.rest[r]
-            free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (i >= c.dry and c.loose[i] != 0)
+            free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (c.pushes[i] != 0 and c.loose[i] != 0)
             if which == WITHIN:
-                free = free and (i >= c.dry or abs(c.forces[i]) < AT_BOUND * c.static[i])
+                free = free and (c.pushes[i] != 0 or abs(c.forces[i]) < AT_BOUND * c.static[i])
             elif which == PUSHING:
-                least = NO_ACCELERATION * usual_of(c, w, i)
-                free = free and i >= c.dry and -c.forces[i] * c.matrix[i * k + i] > least
+                free = free and c.pushes[i] != 0
+                free = free and -c.forces[i] * c.matrix[i * k + i] > NO_ACCELERATION * usual_of(c, w, i)
             part = independence(c, i)
             # of rows with one and two bounds on one coordinate the former carries both: one force with all bounds
-            first = best < 0 or part > (1.0 + _LEVEL) * most or (i >= c.dry and part > (1.0 - _LEVEL) * most)
+            first = best < 0 or part > (1.0 + _LEVEL) * most or (c.pushes[i] != 0 and part > (1.0 - _LEVEL) * most)
             if free and part > DEPENDENT and first:
                 best, most = i, part
         if best < 0:
@@ -101,7 +101,7 @@ def hold_rows(c: Any, w: Any) -> int:
     take_rows(c, kept, PUSHING, w)
     for r in range(kept):
         i = c.rest[r]
-        if i < c.dry and c.passing[i] == 0 and independence(c, i) <= DEPENDENT:
+        if c.pushes[i] == 0 and c.passing[i] == 0 and independence(c, i) <= DEPENDENT:
             c.signs[i] = 0.0
     take_rows(c, kept, WITHIN, w)
     take_rows(c, kept, ALL, w)
@@ -113,15 +113,15 @@ def hold_rows(c: Any, w: Any) -> int:
             count += 1
             after[at + HELD] = 1.0
             after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
-            after[at + LIMIT] = 0.0 if i >= c.dry or is_followed(c, i) else c.static[i]
+            after[at + LIMIT] = 0.0 if c.pushes[i] != 0 or is_followed(c, i) else c.static[i]
     for r in range(kept):
         i = c.rest[r]
         other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.matrix[i * k + i] > DEPENDENT * c.alone[i]
-        if other and not (i >= c.dry and independence(c, i) > DEPENDENT):
+        if other and not (c.pushes[i] != 0 and independence(c, i) > DEPENDENT):
             if share_force(c, i, count) != SAME:
                 return NOT_DETERMINED
     for i in range(k):
-        after[MODE_NUMBERS * i + SIGN] = 0.0 if i >= c.dry else c.signs[i]
+        after[MODE_NUMBERS * i + SIGN] = 0.0 if c.pushes[i] != 0 else c.signs[i]
     return SAME
 
 
@@ -164,7 +164,7 @@ def share_force(c: Any, i: int, count: int) -> int:
                 c.named[owners] = j
             a += 1
     at = MODE_NUMBERS * i
-    if i >= c.dry:
+    if c.pushes[i] != 0:
         after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
         return SAME
     if owners == 1:

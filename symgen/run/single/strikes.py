@@ -101,7 +101,7 @@ def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any)
         return SAME
     c.at_rest[0] = n
     for i in range(c.count):
-        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if i < c.dry else 0.0
+        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 else 0.0
         c.sliding[i] = 0.0
     return OTHERS if probe(t, c, y, p, w, iw, control) == SAME else NOT_FINITE
 
@@ -197,14 +197,14 @@ def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
     if apply_effects(s.model, t, now, s.chosen, s.work) != APPLIED:
         return NOT_APPLIED
     lose(c, s, False, now.y)
-    for i in range(c.count):
+    for i in range(c.dry, c.count):
         if s.active[i] != 0:
             now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
             s.left[i] = larger(end - t, 0.0)
             if s.before[i] < 0.0:
                 s.past.counts[s.events[i]] = 0
-        for number in range(OF_SERIES):
-            s.series[OF_SERIES * i + number] = 0.0
+    for number in range(OF_SERIES * c.count):
+        s.series[number] = 0.0
     return SAME
 
 

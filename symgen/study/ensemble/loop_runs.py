@@ -11,10 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.program import LANES, lane_bases
 from symgen.compile.loopcode.padding import aligned
-from symgen.describe.bounds.modes import JAM, LEAVE, MODE, REVERSE, SLIP
-from symgen.describe.parts.events import RESET
-from symgen.run.effects.accumulation import new_past
-from symgen.run.effects.effects import Effects
+from symgen.run.compiling.run_memory import effects_of_runs, modes_of_runs
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
@@ -24,13 +21,9 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import preparing, seams_of, with_table
 from symgen.run.loops.searching import decide
-from symgen.run.rows.row_events import OfEffects
-from symgen.run.rows.row_modes import OfModes
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
 from symgen.run.rows.rows import observe_nothing, over_rows
-from symgen.run.single.bounded_rows import first_step, new_choice
 from symgen.run.single.events import event_state, forget_steps
-from symgen.run.single.impacts import strikes_of
 from symgen.run.single.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.tree_start import TURNED_OVER, Carried
@@ -39,7 +32,7 @@ if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.layout.records import Span, State
     from symgen.run.loops.integrator import Integrator, Setup
-    from symgen.run.loops.run_spec import BoundedRows, Watched
+    from symgen.run.loops.run_spec import Watched
     from symgen.study.ensemble.chunks import Results, Rows
     from symgen.study.ensemble.recipe import Recipe
 
@@ -115,9 +108,10 @@ class LoopRuns:
         modes = pressed = False
         if self.watched is not None and self.watched.bounded is not None:
             modes, pressed = True, bool(self.watched.bounded.pressed)
-            further = (self._modes(self.watched, self.watched.bounded, span, sizes.width, len(state.w)),)
+            rows_and_events = self.watched, self.watched.bounded, span
+            further = (modes_of_runs(compiled, *rows_and_events, sizes.width, len(state.w)),)
         elif self.watched is not None and effects:
-            further = (self._effects(self.watched, sizes.width, len(state.w)),)
+            further = (effects_of_runs(compiled, self.watched, recipe.spec.until, sizes.width, len(state.w)),)
         examined = self.watched is not None and self.watched.rows is not None
         loop = over_rows(
             self.integrator.loop(adaptive),
@@ -195,30 +189,6 @@ class LoopRuns:
         if not jumps and self.watched.adaptive:
             forget_steps(state)
         state.control[e.EXAMINATION] = e.JUMPS if jumps else e.HOLDS
-
-    def _effects(self, watched: Watched, width: int, nw: int) -> Any:
-        """Return the effects of events, and memory for one thread."""
-        effects, events = self._what_changes(watched), len(watched.names)
-        past = new_past(events, events + len(watched.switches), width, nw, self.recipe.spec.until)
-        resets = np.array([action == RESET for action in watched.actions], dtype=np.int64)
-        chosen = np.zeros(events, dtype=np.int64)
-        return OfEffects(effects.model, watched.function, resets, chosen, effects.memory(width, nw), past)
-
-    def _what_changes(self, watched: Watched) -> Effects:
-        """Return the effects of events, where there are none too."""
-        nothing = Effects(self.compiled, watched.names, {}, observe_nothing, ())
-        return nothing if watched.effects is None else watched.effects
-
-    def _modes(self, watched: Watched, rows: BoundedRows, span: Span, width: int, nw: int) -> Any:
-        """Return rows with bounds with their events, and memory for one thread."""
-        choice = new_choice(self.compiled, rows, rate_functions(self.compiled.law_module), width, nw)
-        choice.step[0] = first_step(span)
-        effects = self._effects(watched, width, nw)
-        strikes = strikes_of(watched, rows, self._what_changes(watched), effects.work, effects.past)
-        choosing = np.array([action in (MODE, RESET) for action in watched.actions], dtype=np.int64)
-        places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM, LEAVE))
-        numbers = (np.array([at.get(name, -1) for name in watched.names]) for at in places)
-        return OfModes(choice, strikes, effects, choosing, *numbers)
 
     def _series(self) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""

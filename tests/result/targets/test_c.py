@@ -36,6 +36,10 @@ def agree(name, coordinates, folder):
     np.testing.assert_allclose(y0, start.y[: info.ny], rtol=1e-11, atol=1e-11)
     np.testing.assert_allclose(p, start.p, rtol=1e-14, atol=1e-14)
     random, w, iw = np.random.default_rng(1), start.w.copy(), np.zeros(16, dtype=np.int64)
+    if mechanism.bounded:  # the start of a run chooses their modes
+        begun = prepare(mechanism, settings).simulation()
+        begun.transitions.begin()
+        w = begun.state.w.copy()
     speed = 1.0 + np.abs(y0[info.nq : info.work]).max()
     rates = corrections = 0.0
     for k in range(STATES):

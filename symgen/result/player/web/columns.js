@@ -53,7 +53,7 @@ function makeColumns(live, code, spec, functions) {
   // -D^T lambda of each joint on its first body, about its own point, in ground axes and in those of the body.
   function reactions(q, entry, lambda, seats) {
     const of = spec.joints.map(() => new Float64Array(spec.nv));
-    for (const [row, column, constant, slot] of jacobian) of[spec.joint_of_row[row]][column] -= (slot === null ? constant : entry[slot]) * lambda[row];
+    for (const [row, column, constant, slot] of jacobian) if (spec.joint_of_row[row] >= 0) of[spec.joint_of_row[row]][column] -= (slot === null ? constant : entry[slot]) * lambda[row];
     return spec.joints.map(([, body, point, centre], j) => {
       const [force, about] = body < 0 ? onGround(q, of[j]) : onBody(q, body, of[j]), r = axesOf(q, body);
       const own = [0, 1, 2].map((k) => (point < 0 || k >= dimension ? 0 : seats[point + k] - (centre < 0 ? 0 : seats[centre + k])));
@@ -84,6 +84,9 @@ function makeColumns(live, code, spec, functions) {
     return result.map((x, i) => x * weight[i]);
   }
 
+  // Whether a function is one of the state, not of bodies.
+  const at_state = (name) => Boolean(spec.of_state?.includes(name));
+
   // All columns at a state; `begin` at the first one, which steps have not accepted.
   function values(t, y, begin) {
     const kept = [w.slice(), iw.slice()], joint = live.spec.joint;
@@ -104,7 +107,7 @@ function makeColumns(live, code, spec, functions) {
       of = reactions(q, entry, lambda, room.seats);
     }
     const rates = joint ? Float64Array.from({ length: spec.nq + spec.nv }, (_, i) => (i < spec.nq ? 0 : seen[spec.nv + i])) : ydot;
-    for (const [name, f] of Object.entries(functions)) if (name !== "seats") f(t, q, p, w, rates, room[name]);
+    for (const [name, f] of Object.entries(functions)) if (name !== "seats") f(t, at_state(name) ? y : q, p, w, at_state(name) ? ydot : rates, room[name]);
     const work = y[spec.work], total = state[0] + state[1], energy = total - work;
     if (begin) first = energy;
     w.set(kept[0]);

@@ -5,7 +5,11 @@ function makeLive(spec, code) {
   const { p, w, iw, prepare, setParameters, rhs, rates, reset, keep } = makeRates(spec, code);
 
   // What functions of the runtime take: parameters, scratch, counters and working memory.
-  const memory = code.newMemory(p, w, iw);
+  const memory = code.newMemory(p, w, iw), modes = spec.modes;
+  const initial = modes ? modes.initial : {};
+  for (const [name, array] of Object.entries(memory)) {
+    for (const [i, x] of initial[name] || []) array[i] = x === null ? Infinity : x;
+  }
 
   // -- the start ------------------------------------------------------------------------------------------------------
 
@@ -17,21 +21,33 @@ function makeLive(spec, code) {
   }
 
   // The start of a run, closed from the described one, or from the one of the page; null where it does not close.
-  function start() {
+  function close() {
     const { y, start_velocities } = memory;
     code.begin_row(memory, spec.y0);
     prepare();
     code.describe(p, y, start_velocities, y.subarray(nq + nv + 1));
     if (code.close_row(memory) !== 0) return null;
+    if (modes) return y.slice();
     w[spec.status.step] = spec.step;
     return code.accept(0, y, p, w, iw) & 1 ? null : y.slice();
+  }
+
+  // The same, with the modes of rows with bounds.
+  function start() {
+    const y = close();
+    if (!y || !modes) return y;
+    told = 0;
+    code.start_run(memory);
+    const failed = code.advance_run(memory, 0, spec.step, 0) === 2;
+    stand();
+    return failed ? null : memory.y.slice();
   }
 
   // Whether it closes with another value of one parameter; the parameters stay as they are.
   function closes(i, x) {
     const back = keep();
     setParameters([[i, x]]);
-    const y = start();
+    const y = close();
     back();
     return Boolean(y) && y.every(Number.isFinite);
   }
@@ -51,15 +67,49 @@ function makeLive(spec, code) {
   // A step; whether the motion goes on behind it. Events happen at their times.
   let result = 0;
   function step(t, y, h) {
+    if (modes) return stepInModes(t, y, h);
     memory.step_clock[0] = t;
     result = code.take_steps(memory, t + h, 2 * h, y);
     return result === 0;
   }
 
+  // The scratch of the run, which may stand at the end of a step behind what is shown; the page has the measures of that.
+  const own = { w: new Float64Array(w.length), iw: new Float64Array(iw.length) };
+  function stand() {
+    own.w.set(w);
+    own.iw.set(iw);
+    w.set(memory.run_status.subarray(0, modes.status));
+  }
+
+  // The loop of runs: no step of it is shortened for the end of this one.
+  function stepInModes(t, y, h) {
+    const { run_shown, run_times } = memory;
+    w.set(own.w);
+    iw.set(own.iw);
+    memory.y.set(y.subarray(0, ny));
+    run_shown[0] = Math.abs(t - run_times[0]) < 1e-9 * h ? run_times[0] : t;
+    result = code.advance_run(memory, 1, spec.step, t + h);
+    stand();
+    y.set(memory.y);
+    return result === 0;
+  }
+
+  // Transitions since the last call: times and names.
+  let told = 0;
+  function transitions() {
+    if (!modes) return [];
+    const count = memory.transitions_count[0], found = [];
+    for (told = Math.max(told, count - modes.kept); told < count; told++) {
+      const at = told % modes.kept, row = modes.rows[memory.transitions_rows[at]];
+      found.push({ t: memory.transitions_times[at], name: `${row}.${modes.words[memory.transitions_words[at]]}` });
+    }
+    return found;
+  }
+
   // The time where the motion has ended in the last step, and why; whether it has failed there.
   function end(y) {
-    const t = memory.step_clock[0], at_t = `at t = ${Number(t.toPrecision(6))} s`;
-    const event = spec.events[memory.step_ending[0]];
+    const t = modes ? memory.run_shown[0] : memory.step_clock[0], at_t = `at t = ${Number(t.toPrecision(6))} s`;
+    const event = spec.events[modes ? memory.run_numbers[1] : memory.step_ending[0]];
     if (event) return { t, failed: false, sentence: `the event '${event}' ends the motion ${at_t}` };
     return { t, failed: true, sentence: sentence(t, y, at_t) };
   }
@@ -82,5 +132,5 @@ function makeLive(spec, code) {
     return Array.from(seen.subarray(0, spec.nb));
   }
 
-  return { spec, p, w, iw, rhs, rates, start, closes, open, step, end, bodies, setParameters, reset };
+  return { spec, p, w, iw, rhs, rates, start, closes, open, step, end, transitions, bodies, setParameters, reset };
 }

@@ -302,6 +302,7 @@ function enliven({ emitted, makeLive, observed, makeColumns }) {
 function record(t, begin = false) {
   follow.t.push(t);
   follow.rows.push(live.bodies(t, state));
+  for (const { t: when, name } of live.transitions()) follow.moments.push([when, when, "event", name]);
   if (columns) follow.values.push(columns.values(t, state, begin));
 }
 
@@ -659,6 +660,8 @@ window.symgen = {
     const part = motion.groups.find((g) => g.names.includes(name));
     return part ? { t: Array.from(motion.t), values: Array.from(part.columns[part.names.indexOf(name)]) } : null;
   },
+  // The moments on the time axis of the motion that is shown: begin, end, kind and words.
+  moments: () => motion.moments.map((m) => [...m]),
   // Look from elsewhere: turned and tilted [rad], with a point in the middle [m].
   look(turn, tilt, at) {
     Object.assign(view.camera, { turn, tilt, at });

@@ -1,0 +1,289 @@
+"""A run with modes bound to one compiled model, for printers of other languages."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.base.ir.numerics import WARN
+from symgen.compile.native import language as lang
+from symgen.compile.native.binding import Meaning
+from symgen.compile.native.loops import read_loop
+from symgen.compile.native.pieces import Piece
+from symgen.compile.store.jit import RuntimeFunction
+from symgen.describe.bounds import modes
+from symgen.describe.parts.events import STOP
+from symgen.run.compiling.checked import checked_function
+from symgen.run.compiling.events import compile_events
+from symgen.run.compiling.printed import meanings_of
+from symgen.run.compiling.run_memory import modes_of_runs, new_transitions
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.probe import rate_functions
+from symgen.run.layout.records import RowChunk, Span
+from symgen.run.layout.redundancy import room_of_choice
+from symgen.run.loops.event_loop import notes_at
+from symgen.run.loops.seams import preparing, seams_of
+from symgen.run.loops.searching import deciding
+from symgen.run.rows.kept_run import KeptLoops, KeptModes, KeptOutput, Visible, kept_run
+from symgen.run.rows.rows import observe_nothing
+from symgen.run.single.events import event_state
+from symgen.run.single.new_state import new_state, sizes_of, span_of
+from symgen.run.starts.assembler import layout_of
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.loops.integrator import Integrator
+    from symgen.run.loops.run_spec import BoundedRows, RunSpec, Seam, Watched
+    from symgen.run.planning.prepare import Prepared
+
+#: Names of emitted functions of a run in the text, by the places where a run has them.
+SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
+    "formulas_of_events",
+    "formulas_of_rows",
+    "formulas_of_accelerations",
+    "formulas_of_reactions",
+    "formulas_of_effects",
+)
+#: Room for notes of events in a step, beside twice those of all events.
+_NOTES = 8
+#: Name of the search for events inside a step, the same for all models.
+FINDER = "find_events"
+#: Words of transitions, by the numbers of `symgen.run.rows.kept_run`.
+WORDS = (modes.SLIP, modes.STICK, modes.REVERSE, modes.HIT, modes.REST, modes.LEAVE)
+#: Arrays that never change: of records with these names, and fields of others, by the name of the record.
+_TABLES = frozenset(("layout", "changes", "scheme"))
+_CONSTANT = {
+    "choice": frozenset(("angular", "place_of", "pushes", "pressed", "varying")),
+    "strikes": frozenset(("events", "losses")),
+    "effects": frozenset(("resets",)),
+    "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves")),
+    "visible": frozenset(("ends",)),
+}
+#: Beginnings of the names of arrays in the memory; the state, parameters and scratch of the model have their own.
+_OWN = {"visible.y": "y", "visible.clock": "run_shown", "state.p": "p", "state.w": "w", "state.iw": "iw"}
+
+
+@functools.cache
+def _plain(piece: Piece) -> Any:
+    """Return a function in LLVM's language as one of the language of loops."""
+    return RuntimeFunction(piece.plain, inlined=False)
+
+
+@dataclass(frozen=True)
+class PrintedRun:
+    """A run with rows with bounds for printers.
+
+    Attributes
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    integrator : Integrator
+        The scheme.
+    spec : RunSpec
+        Steps and limits.
+    watched : Watched
+        Switching functions of events and modes.
+    datum : sequence of float
+        What coordinates are measured from.
+    seams : tuple of Seam
+        Times at which formulas jump or have kinks.
+    """
+
+    compiled: CompiledModel
+    integrator: Integrator
+    spec: RunSpec
+    watched: Watched
+    datum: Sequence[float] = ()
+    seams: tuple[Seam, ...] = ()
+
+    @cached_property
+    def functions(self) -> dict[str, lang.Function]:
+        """Emitted functions that a run has besides a law and its model, by their names in the text."""
+        rows = self._rows
+        sides = {
+            SWITCHING: self.watched.function,
+            ROWS: rows.state.function,
+            ACCELERATIONS: rows.accelerations.function,
+            REACTIONS: None if rows.reactions is None else rows.reactions.function,
+            CHANGED: None if self.watched.effects is None else self.watched.effects.formulas,
+        }
+        functions = {name: checked_function(f, abi.OBSERVE) for name, f in sides.items() if f is not None}
+        functions[FINDER] = checked_function(self._decide, abi.DECIDE)
+        law = self.compiled.law_module
+        if hasattr(law, "rates"):
+            functions["rates"] = checked_function(law.rates, abi.RHS)
+        return functions
+
+    def emitted(self, named: Mapping[str, lang.Function]) -> dict[int, lang.Function]:
+        """Return emitted functions by their identity; `named` has all that the text has, by name."""
+        law, model, rows, effects = self.compiled.law_module, self.compiled.model, self._rows, self.watched.effects
+        places = {
+            **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # the latter name is that of C
+            **dict.fromkeys(("prepareLaw", "prepare_law"), law.prepare),
+            **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
+            **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
+            **{"rates": getattr(law, "rates", None), SWITCHING: self.watched.function, ROWS: rows.state.function},
+            **{ACCELERATIONS: rows.accelerations.function, FINDER: self._decide},
+            REACTIONS: None if rows.reactions is None else rows.reactions.function,
+            CHANGED: None if effects is None else effects.formulas,
+        }
+        return {id(f): named[name] for name, f in places.items() if f is not None and name in named}
+
+    def entries(self, named: Mapping[str, lang.Function]) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
+        """Return ``start_run()`` and ``advance_run(through, h, until)`` with the meanings of their parameters.
+
+        Parameters
+        ----------
+        named : mapping of str to Function
+            Emitted functions by their names in the text, those of `functions` among them.
+        """
+        emitted, (model, scheme, span, chunk, state, outputs, visible) = self.emitted(named), self._arguments
+        start, advance, steps = self._loops
+        if steps is not None:
+            emitted[id(steps)] = read_loop(steps, steps.signature.arguments, _plain, apart=True)
+        limits = np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
+        entries = dict[str, tuple[lang.Function, dict[str, Meaning]]]()
+        for name, function, arguments in (
+            ("start_run", start, (model, limits, chunk, state, visible)),
+            ("advance_run", advance, (None, model, scheme, span, chunk, state, outputs, visible)),
+        ):
+            source = read_loop(function, function.signature.arguments, _plain, apart=True)
+            entries[name] = source, meanings_of(function, arguments, emitted, self._room)
+        return entries
+
+    @cached_property
+    def memory(self) -> dict[str, NDArray[Any]]:
+        """The arrays of the memory as they are before a run, by name."""
+        return {name: array for name, array in self._named.values() if name}
+
+    # -- arguments
+
+    @property
+    def _loops(self) -> KeptLoops:
+        loop = self.integrator.loop(self.spec.adaptive)
+        return kept_run(loop, self.watched.effects is not None, bool(self._rows.pressed), bool(self.seams))
+
+    @cached_property
+    def _decide(self) -> Any:
+        return deciding(_NOTES)
+
+    def _hunt(self, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the data of events with room for few notes: those of each step are taken before the next one."""
+        watched, width = self.watched, self.compiled.info.ny
+        if watched.switches:  # whose points stand behind the notes
+            return hunt
+        first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
+        return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
+
+    @property
+    def _rows(self) -> BoundedRows:
+        assert self.watched.bounded is not None, "a run with modes"
+        return self.watched.bounded
+
+    @cached_property
+    def _arguments(self) -> tuple[Any, ...]:
+        """Arguments of `advance_run` behind its first one; a step and its end are None, as they are passed."""
+        compiled, info, watched = self.compiled, self.compiled.info, self.watched
+        setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), sizes_of(compiled)
+        sizes, span = sizes._replace(width=info.ny), span_of(self.spec, setup)
+        state: Any = new_state(compiled, sizes, setup.memory, setup.room, self.datum)
+        state = event_state(watched, sizes, state)
+        state = state._replace(passages=np.zeros(abi.N_PASSAGE), hunt=self._hunt(state.hunt))
+        of_rows = modes_of_runs(compiled, watched, self._rows, span, info.ny, len(state.w))
+        kept = KeptModes(*of_rows, new_transitions(len(self._rows.names)))
+        rates = rate_functions(compiled.law_module)
+        model: tuple[Any, ...] = (sizes, *setup.functions, watched.function, self._decide, rates[0])
+        if self.seams:
+            seams = seams_of(compiled, self.spec.adaptive, (self.seams,))
+            model = model, seams, self._loops.steps, *preparing(compiled)
+        observers = sizes, *rates, compiled.law_module.accept, observe_nothing
+        integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
+        own = sum(
+            action != modes.MODE for action in watched.actions
+        )  # a row keeps no events of modes, which end no run
+        events = np.zeros(e.HEAD_OF_EVENTS + e.OF_EVENT * own)
+        arrays = integers, nothing, np.zeros(len(state.p)), nothing, nothing, integers, nothing, nothing, events
+        room = np.zeros(room_of_choice(info.m, info.nv))
+        chunk = RowChunk(*arrays, 0, 0, 0, layout_of(compiled), room)
+        outputs = KeptOutput(np.zeros(1), np.zeros(info.ny), np.zeros(abi.N_STATUS + info.kept))
+        ends = np.array([action == STOP for action in watched.actions[:own]], dtype=np.int64)
+        visible = Visible(np.zeros(info.ny), np.zeros(1), np.zeros(4, dtype=np.int64), ends)
+        numbers = Span(**{**span._asdict(), "until": None, "step": None, "end": np.inf})
+        return (model, observers, kept), setup.scheme, numbers, chunk, state, outputs, visible
+
+    # -- names
+
+    @cached_property
+    def _named(self) -> dict[int, tuple[str, NDArray[Any]]]:
+        """Name and array by its identity; constant ones have no name."""
+        named = dict[int, tuple[str, NDArray[Any]]]()
+        names = "model", "scheme", "span", "chunk", "state", "outputs", "visible"
+        for name, argument in zip(names, self._arguments, strict=True):
+            for path, array in _arrays(name, argument):
+                named.setdefault(id(array), ("" if _is_constant(path) else _name_of(path), array))
+        return named
+
+    @cached_property
+    def _by_path(self) -> dict[str, str]:
+        names = "model", "scheme", "span", "chunk", "state", "outputs", "visible"
+        pairs = [p for name, argument in zip(names, self._arguments, strict=True) for p in _arrays(name, argument)]
+        return {path: self._named[id(array)][0] for path, array in pairs}
+
+    def _room(self, name: str) -> str | None:
+        """Return the name of an array in the memory; see `symgen.run.compiling.printed.Naming`."""
+        return self._by_path.get(name) or None
+
+
+def run_with_modes(
+    mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float]
+) -> PrintedRun | None:
+    """Return a run for printers, None where no row of the mechanism has bounds.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        With its tree in joint coordinates.
+    run : Prepared
+        Scheme, steps, limits and events.
+    compiled, datum
+        As for a `PrintedRun`.
+    """
+    if not mechanism.bounded:
+        return None
+    watched = compile_events(mechanism, compiled, run.plan.events)
+    assert watched is not None, "rows with bounds have events"
+    return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams)
+
+
+def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
+    """Yield the paths and arrays of records."""
+    if isinstance(value, np.ndarray):
+        yield name, value
+    elif isinstance(value, tuple):
+        fields = getattr(value, "_fields", range(len(value)))
+        for field, item in zip(fields, value, strict=True):
+            yield from _arrays(f"{name}.{field}", item)
+
+
+def _is_constant(path: str) -> bool:
+    """Whether an array never changes."""
+    *owners, field = path.split(".")
+    if owners[:3] == ["model", "0", "1"]:  # seams
+        return True
+    return not _TABLES.isdisjoint(owners) or field in _CONSTANT.get(owners[-1], ())
+
+
+def _name_of(path: str) -> str:
+    """Return the name of an array in the memory."""
+    owner, _, rest = path.partition(".")
+    if path in _OWN:
+        return _OWN[path]
+    return rest.removeprefix("2.").replace(".", "_") if owner == "model" else f"{'run'}_{rest.replace('.', '_')}"

@@ -1,0 +1,166 @@
+"""Dry friction, stops and ropes in C against runs: the same steps, transitions and states."""
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symgen
+from tests.result.targets.compilers import compiled, written
+
+WORDS = ("slip", "stick", "reverse", "hit", "rest", "leave")
+#: A loop around the functions of a model, which prints outputs and transitions.
+PROGRAM = """
+#include "{prefix}.h"
+#include <stdio.h>
+#include <stdlib.h>
+static {prefix} model;
+int main(int count, char **words) {{
+    const double until = atof(words[1]), step = atof(words[2]);
+    int event = -1, seen = 0;
+    {prefix}_init(&model);
+    for (int i = 3; i + 1 < count; i += 2) {prefix}_set(&model, atoi(words[i]), atof(words[i + 1]));
+    int failed = {prefix}_start(&model);
+    for (long k = 1; !failed && event < 0; k++) {{
+        double columns[{upper}_COLUMNS], t;
+        const char *word;
+        {prefix}_bodies(&model, model.t, model.y, columns);
+        printf("%.17g", model.t);
+        for (int i = 0; i < {upper}_COLUMNS; i++) printf(",%.17g", columns[i]);
+        printf("\\n");
+        for (; (word = {prefix}_transition(&model, seen, &t)); seen++) fprintf(stderr, "%.17g %s\\n", t, word);
+        if (k*step > until*(1 + 1e-12)) break;
+        failed = {prefix}_show(&model, k*step, step, &event);
+    }}
+    return failed;
+}}
+"""
+HEAD = '[mechanism]\nname = "{}"\ngravity = [0.0, -9.81]\n'
+#: A ball of which ever faster impacts accumulate.
+BALL = (
+    HEAD.format("ball")
+    + """
+[bodies.ball]
+type = "point"
+mass = 2.0
+position = [0.0, 1.0]
+
+[joints.rail]
+type = "rows"
+rows = [{ position = "ball.x" }]
+
+[stops.floor]
+gap = "ball.y"
+restitution = 0.7
+"""
+)
+#: A pendulum between two stops.
+DOOR = (
+    HEAD.format("door")
+    + """
+[bodies.rod]
+mass = 1.2
+inertia = 0.3
+position = [0.5, 0.0]
+
+[joints.pin]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0], [-0.5, 0.0]]
+stop = { lower = -2.0, upper = 0.2, restitution = 0.4 }
+"""
+)
+#: A load on a rope of 2 m that becomes slack.
+ROPE = (
+    HEAD.format("rope")
+    + """
+[parameters]
+speed = "sqrt(3.5*9.81*2.0)"
+
+[bodies.load]
+type = "point"
+mass = 1.5
+position = [0.0, -2.0]
+velocity = ["speed", 0.0]
+
+[stops.rope]
+gap = "2.0 - sqrt(load.x**2 + load.y**2)"
+"""
+)
+
+
+def program_of(model: symgen.Model, folder: Path, **keys) -> Path:
+    """Return a program that prints outputs and transitions, compiled without a warning."""
+    written(model.mechanism, folder, **keys)
+    prefix = next(folder.glob("*.h")).stem
+    (folder / "main.c").write_text(PROGRAM.format(prefix=prefix, upper=prefix.upper()))
+    return compiled(folder)
+
+
+def rows_of(program: Path, *words: object) -> tuple[np.ndarray, list[tuple[float, str]]]:
+    """Return outputs and transitions of a program."""
+    ran = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=True)
+    pairs = (line.split() for line in ran.stderr.splitlines())
+    return np.loadtxt(ran.stdout.splitlines(), delimiter=","), [(float(t), word) for t, word in pairs]
+
+
+def transitions_of(result: symgen.Result) -> list[tuple[float, str]]:
+    """Return the transitions of a run."""
+    return [(event.t, event.name) for event in result.events if event.name.rpartition(".")[2] in WORDS]
+
+
+def assert_same_run(model, program, until, step, coordinates="absolute", most=1e-9):
+    """Compare a program with the run of its model."""
+    rows, transitions = rows_of(program, until, step)
+    result = model.simulate(
+        method="direct-correction", integrator="rk4", step=step, until=until, times=rows[:, 0], coordinates=coordinates
+    )
+    assert result.ok
+    own = np.array([result[name] for name in (*result.q.names, *result.v.names)]).T
+    assert np.abs(own - rows[:, 1:]).max() < most
+    expected = transitions_of(result)
+    assert [word for _, word in transitions] == [word for _, word in expected]
+    np.testing.assert_allclose([t for t, _ in transitions], [t for t, _ in expected], rtol=0, atol=most)
+    return transitions
+
+
+def loaded(text, tmp_path):
+    (tmp_path / "model.toml").write_text(text)
+    return symgen.load(tmp_path / "model.toml")
+
+
+def test_a_block_on_a_belt_sticks_and_slips(tmp_path):
+    model = symgen.load("belt-oscillator")
+    program = program_of(model, tmp_path / "c")
+    transitions = assert_same_run(model, program, 2.0, 0.002)
+    assert [word for _, word in transitions] == ["contact.slip", "contact.stick"] * 2
+    assert len((tmp_path / "c" / "belt_oscillator.c").read_text()) < 180_000
+
+
+@pytest.mark.slow
+def test_impacts_of_a_ball_accumulate(tmp_path):
+    model = loaded(BALL, tmp_path)
+    transitions = assert_same_run(model, program_of(model, tmp_path / "c"), 2.7, 0.003)
+    fall = np.sqrt(2.0 / 9.81)
+    assert transitions[0] == (pytest.approx(fall, abs=1e-12), "floor.hit")
+    assert transitions[-1][1] == "floor.rest"
+    assert transitions[-1][0] == pytest.approx(fall * (1.0 + 0.7) / (1.0 - 0.7), abs=1e-5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("source", "until", "step", "coordinates"),
+    [
+        (DOOR, 4.0, 1e-3, "absolute"),
+        (DOOR, 4.0, 1e-3, "joint"),
+        (ROPE, 2.0, 1e-3, "absolute"),
+        ("toggle-press", 0.4, 2e-4, "absolute"),
+        ("toggle-press", 0.4, 2e-4, "joint"),
+        ("dry-four-bar", 8.0, 1e-3, "joint"),
+    ],
+)
+def test_runs_with_stops_ropes_and_friction(source, until, step, coordinates, tmp_path):
+    model = loaded(source, tmp_path) if "\n" in source else symgen.load(source)
+    program = program_of(model, tmp_path / "c", coordinates=coordinates)
+    assert len(assert_same_run(model, program, until, step, coordinates)) > 2
