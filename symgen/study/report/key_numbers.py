@@ -87,7 +87,7 @@ def _drives(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
 
 
 def _pins(mechanism: Mechanism, result: Result) -> list[KeyNumber]:
-    """Return the largest forces of joints, those of drivers left out."""
+    """Return the largest forces of joints that are no drivers, the largest one first."""
     drivers = {joint.name for joint in mechanism.joints if joint.kind == "driver"}
     table, peaks = result.whole(("magnitudes",)), list[tuple[float, KeyNumber]]()
     for i, name in enumerate(table.names):
