@@ -176,7 +176,7 @@ class PrintedRun:
         return deciding(_NOTES)
 
     def _hunt(self, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the data of events with room for few notes: those of each step are taken before the next one."""
+        """Return the data of events with room for few notes, as all are taken before the next step."""
         watched, width = self.watched, self.compiled.info.ny
         if watched.switches:  # whose points stand behind the notes
             return hunt
