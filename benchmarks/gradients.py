@@ -111,16 +111,17 @@ def adjoint(name: str, coordinates: str, method: str, pairs: int) -> list[str]:
     run, _ = prepared(objective.mechanism, ending)
     end, pages, following = np.ones(run.compiled.info.ny), list[Any](), itertools.count(1)
     arguments = run.compiled, run.plan.integrator, run.start, run.spec
+    seeds = StartDirections(run, named_directions(run, lifted("gradients", model.mechanism, names).keys)).seeds()
     whole, last = Model(objective.mechanism), run_for_adjoint(*arguments, pages=pages)
     plain, keeping, back, gradient, simulation = medians(
         pairs,
         run.integrate,
         lambda: run_for_adjoint(*arguments, pages=pages),
-        lambda: last.back(end),
+        lambda: last.back(end, seeds),
         lambda: objective(objective.x0 * (1.0 + 1e-15 * next(following))),
         lambda: whole.simulate(ending),
     )
-    kept, more = last.run.bytes_of_steps, gradient - simulation - (keeping + back - plain)
+    kept, more = last.run.bytes_kept, gradient - simulation - (keeping + back - plain)
     cells = name, coordinates, method, str(len(names)), str(last.run.state.control[abi.STEPS]), f"{1e3 * plain:.1f}"
     ratios = (f"{x / plain:.2f}" for x in (keeping, back, keeping + back))
     sizes = f"{kept / 1e6:.1f}", f"{kept / 1e3 / last.run.state.control[abi.STEPS]:.1f}"

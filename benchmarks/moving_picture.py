@@ -1,4 +1,4 @@
-"""The moving picture of the player's page, docs/pictures/four-bar-moving.svg: a driven four-bar over one turn of its crank.
+"""The moving picture of the player's page, docs/pictures/four-bar-moving.svg: a driven four-bar over one turn.
 
 python -m benchmarks.moving_picture
 

@@ -22,9 +22,10 @@ from symgen.run.layout import abi
 from symgen.run.planning.directions import RunDirection, named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
 from symgen.run.planning.start_directions import StartDirections
-from symgen.run.single.adjoint import Adjoint, Uncovered, run_for_adjoint
+from symgen.run.single.adjoint import Adjoint, run_for_adjoint
 from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.single.directions import Course, Part, run_with_directions
+from symgen.run.single.kept_run import Uncovered
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings
@@ -115,13 +116,14 @@ class Mixed:
         return self.start.parameters(compiled) @ self.factors
 
 
-def doubt_of_steps(run: Prepared, start: StartDirections, seeds: Seeds) -> str | None:
+def doubt_of_course(run: Prepared, start: StartDirections, seeds: Seeds) -> str | None:
     """Return why derivatives by the adjoint are in doubt, by a run with directions; None where they are not.
 
     An adjoint goes back through steps that the state alone chose. Whether these are short enough for derivatives is
-    seen forward, by the embedded estimates of few mixes of all directions; constant steps have none.
+    seen forward, by the embedded estimates of few mixes of all directions; constant steps have none. Whether events are
+    together for these numbers only is seen forward as well.
     """
-    if not run.spec.adaptive:
+    if not run.spec.adaptive and run.spec.events is None:
         return None
     p, n = run.start.p, seeds.count
     sizes = np.abs(seeds.p[p != 0.0] / p[p != 0.0, np.newaxis]).max(axis=0, initial=0.0)
@@ -130,6 +132,8 @@ def doubt_of_steps(run: Prepared, start: StartDirections, seeds: Seeds) -> str |
     factors[number, number * factors.shape[1] // n] = (1.0 - 2.0 * (number % 2)) / np.where(sizes > 0.0, sizes, 1.0)
     mixed = Seeds(seeds.y @ factors, seeds.p @ factors)
     course = run_with_directions(run.compiled, run.plan.integrator, run.start, run.spec, mixed)
+    if course.doubts:
+        return course.doubts[0]
     return Sensitivities(Evaluated(run, Mixed(start, factors), course), course.outcome).doubt_of_steps(run.spec)
 
 
@@ -213,21 +217,15 @@ def adjoint_gradient(
     own = Sensitivities(Evaluated(run, ends, ends.course(adjoint)), result.outcome)
     by, n = own.table(table)[-1, place], start.count
     began = time.perf_counter()
-    y_bar, p_bar, w_bar = adjoint.back(by[n:])
+    seeds = start.seeds()
+    back, doubts = adjoint.back(by[n:], seeds)
+    slopes = by[:n] + back
     seconds = adjoint.outcome.run_seconds + time.perf_counter() - began
-    seeds, slopes = start.seeds(), by[:n].copy()
-    model = DirectedModel(run.compiled, lanes_of(n))
-    for first in range(0, n, model.lanes):
-        part = seeds.part(first, model.lanes)
-        p = model.parameters(run.start.p, part.p)
-        w = model.scratch(p, run.start.w)
-        slope = y_bar @ part.y + p_bar @ model.shadow(p, "p") + w_bar @ model.shadow(w, "w")
-        slopes[first : first + model.lanes] += slope[: n - first]
     if not np.all(np.isfinite(slopes)):
         raise Uncovered("adjoint", "slopes that are finite", "a formula without one in the part that is not taken")
     result = replace(result, notes=(*result.notes, *notes, *start.notes))
-    doubt = doubt_of_motion(result) or (doubt_of_steps(run, start, seeds) if checked else None)
+    doubt = doubt_of_motion(result) or (doubt_of_course(run, start, seeds) if checked or doubts else None)
     if result.status == "ok" and doubt:
         result = replace(result, status="unverified", reason=doubt)
     value = float(getattr(result, table).values[-1, place])
-    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_of_steps, seconds, start.directions, run, result)
+    return AdjointGradient(value, unit, slopes, adjoint.run.bytes_kept, seconds, start.directions, run, result)

@@ -25,7 +25,7 @@ from symgen.describe.parts.inputs import put
 from symgen.describe.parts.scope import Context, Scope
 from symgen.result.sensitivities import derivative_unit, place_of
 from symgen.run.layout import abi
-from symgen.run.single.adjoint import Uncovered
+from symgen.run.single.kept_run import Uncovered
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings

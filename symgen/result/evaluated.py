@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.base.ir.program import MODE_NUMBERS
 from symgen.describe.parts.events import STOP
 from symgen.result.step_errors import least_sizes
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import Prepared
+from symgen.run.single.bounded_rows import CONSTANT, HELD, SIGN
 from symgen.run.single.directed_model import DirectedModel
 from symgen.run.single.directed_observer import Observer
 from symgen.run.single.directions import Course, Part
@@ -65,9 +67,9 @@ class Evaluated:
 
     def _own(self, part: Part) -> Observer:
         outcome, info = part.outcome, part.model.plain.info
-        windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.kept]
         pieces = (*outcome.held, (np.inf, outcome.p))
-        return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w)
+        return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w, part.modes)
 
     def _carried(self, part: Part, first: int) -> Observer:
         """Return the motion of bodies that joints carry."""
@@ -89,9 +91,9 @@ class Evaluated:
         room[:, : seeds.shape[1]] = seeds
         pieces = tuple((t, model.parameters(p, room)) for t, p in (*carried.held, (np.inf, carried.p)))
         longer = np.concatenate([states, directions.reshape(k, -1)], axis=1)
-        windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.windings]
+        windings = carried.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.kept]
         w = model.scratch(pieces[-1][1], carried.w)
-        return Observer(model, part.outcome.times, longer, windings, pieces, w)
+        return Observer(model, part.outcome.times, longer, windings, pieces, w, part.modes)
 
     @cached_property
     def _motion(self) -> Outcome:
@@ -131,7 +133,7 @@ class Evaluated:
         parts = list[Array]()
         for part in self.course.parts:
             state, info = part.outcome.simulation.state, part.model.whole.info
-            windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.windings]
+            windings = state.w[np.newaxis, abi.WINDING : abi.WINDING + info.kept]
             here = np.array([outcome.end]), state.y[np.newaxis, : info.ny], windings
             observer = Observer(part.model, *here, ((np.inf, state.p),), state.w)
             values, slopes = observer.observed(watched.function, 3 * count)
@@ -139,6 +141,21 @@ class Evaluated:
             with np.errstate(divide="ignore", invalid="ignore"):
                 parts.append(-slopes[0, at] / values[0, count + at])
         return np.concatenate(parts)[: self.course.count]
+
+    def resting_together(self) -> tuple[str, ...]:
+        """Return the rows with two bounds that share forces at rest at some output, which joints do not determine."""
+        watched = self.run.spec.events
+        rows = None if watched is None else watched.bounded
+        if rows is None or not len(self.course.outcome.times):
+            return ()
+        info = self.course.parts[0].model.plain.info
+        first = abi.N_STATUS + info.windings
+        modes = self.course.outcome.status_columns[:, first : first + MODE_NUMBERS * len(info.switchable)]
+        lines = modes.reshape(len(modes), len(info.switchable), MODE_NUMBERS)
+        own = lines[:, [info.switchable.index(row) for row in info.bounded[: rows.dry]]]
+        rests = (own[:, :, HELD] != 0.0) | ((own[:, :, CONSTANT] != 0.0) & (own[:, :, SIGN] == 0.0))
+        carried = (rests & (own[:, :, HELD] == 0.0)).any(axis=1)
+        return tuple(name for name, x in zip(rows.names, rests[carried].any(axis=0), strict=False) if x)
 
     def apart(self) -> Array:
         """Return by how much directions leave the constraints, over their size, shape (n,); rounding is left out."""

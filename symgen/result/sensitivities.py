@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.formulas.readings import TABLES as FORMULAS
 from symgen.result.evaluated import Evaluated
@@ -61,7 +60,6 @@ def prepared(mechanism: Mechanism, settings: Settings) -> tuple[Prepared, tuple[
     InputError
         If the scheme, the shape of the code or the start has no directions; says what works instead.
     """
-    refuse_bounds("sensitivities", mechanism)
     notes = list[str]()
     if settings.shape == "auto":
         settings = replace(settings, shape="straight")
@@ -157,10 +155,21 @@ class Differentiated:
         reason, status = result.reason, result.status
         still = [name for name, moves in zip(own.names, own.moves, strict=True) if not moves]
         warnings = (*result.warnings, *(f"{name} changes nothing in this run" for name in still))
+        if together := self._shared(own):
+            warnings = (*warnings, together)
         doubt = own.doubt(result)
         if doubt and status == "ok":
             status, reason = "unverified", doubt
         return replace(result, sensitivities=own, notes=notes, warnings=warnings, status=status, reason=reason)
+
+    @staticmethod
+    def _shared(own: Sensitivities) -> str:
+        """Return the warning on forces at rest that joints do not determine, empty without such."""
+        rows = own.resting_together
+        if not rows:
+            return ""
+        which = f"{', '.join(rows[:-1])} and {rows[-1]}"
+        return f"{which} rest together: derivatives of their forces there are those of one way to share them"
 
 
 class Sensitivities:
@@ -217,6 +226,11 @@ class Sensitivities:
         """
         times = self._evaluated.end()
         return None if times is None else dict(zip(self.names, times.tolist(), strict=True))
+
+    @property
+    def resting_together(self) -> tuple[str, ...]:
+        """Rows with bounds that share forces at rest at some output, which joints do not determine."""
+        return self._evaluated.resting_together()
 
     @cached_property
     def moves(self) -> tuple[bool, ...]:

@@ -2,13 +2,12 @@
 
 import pytest
 from run.planning.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, SLIDER_CRANK, model
-from run.planning.test_reset_sensitivities import BALL
 
 import symgen
 from symgen import InputError
 from symgen.base.errors import AnalysisError
 from symgen.derive.methods import METHODS
-from symgen.run.single import adjoint
+from symgen.run.single import kept_run
 
 TIGHT = {"rtol": 1e-13, "atol": 1e-13, "integrator": "dop853"}
 #: Methods with an adjoint, and those whose iterations have none.
@@ -93,11 +92,11 @@ def test_motion_in_space(method, coordinates):
 def test_runs_that_are_kept_in_parts(four_bar, monkeypatch):
     settings = {"until": 2.0, "method": "direct-correction", "integrator": "rk4", "step": 1e-2, "way": "adjoint"}
     whole = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
-    monkeypatch.setattr(adjoint, "_PIECE", 1 << 11)
+    monkeypatch.setattr(kept_run, "_PIECE", 1 << 11)
     parts = four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
     assert parts.by == whole.by
     assert parts.memory > whole.memory  # the last step before each part stands in front of it
-    monkeypatch.setattr(adjoint, "MOST_KEPT", 1 << 13)
+    monkeypatch.setattr(kept_run, "MOST_KEPT", 1 << 13)
     with pytest.raises(AnalysisError, match="take larger tolerances or steps"):
         four_bar.gradient("crank.theta", by=("a", "m2"), **settings)
 
@@ -117,7 +116,6 @@ def test_whichever_costs_less_is_taken(four_bar):
     ("settings", "expected"),
     [
         ({"integrator": "abm4"}, "an explicit Runge-Kutta scheme, got 'abm4'; take dop853"),
-        ({"stop_when": "crank.theta < 0"}, "a run without events"),
         ({"method": "null-space"}, "got accelerations of the method null-space .* forward directions take all methods"),
         ({"method": "energy-projection"}, "got corrections of the method energy-projection"),
         ({"method": "coordinate-partitioning"}, "got accelerations of the method coordinate-partitioning"),
@@ -129,19 +127,6 @@ def test_what_has_no_adjoint_is_refused(four_bar, settings, expected):
     usual = {"way": "adjoint", "integrator": "rk4", "step": 1e-2, "until": 0.1}
     with pytest.raises(InputError, match=expected):
         four_bar.gradient("crank.theta", by=("a", "b"), **usual | settings)
-
-
-@pytest.mark.fast("adjoint")
-@pytest.mark.parametrize("way", ["adjoint", "auto"])
-def test_events_that_change_the_state_are_for_forward_directions(tmp_path, way):
-    ball, settings = model(tmp_path, BALL), {"until": 1.0, **TIGHT}
-    if way == "adjoint":
-        with pytest.raises(InputError, match=r"adjoint: expected a run without events, .* forward directions take it"):
-            ball.gradient("ball.y", by=("h0", "e"), way=way, **settings)
-        return
-    many = ball.gradient("ball.y", by=("h0", "e", "g", *(f"ball.{c}" for c in ("x", "vx", "vy"))), way=way, **settings)
-    assert many.way == "forward"
-    assert many.by["h0"] == pytest.approx(1.365029880359517, rel=1e-11)
 
 
 @pytest.mark.slow

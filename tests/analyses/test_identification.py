@@ -163,3 +163,34 @@ def test_the_command(rod, tmp_path, capsys, monkeypatch):
 def test_wrong_arguments(rod, data, free, said):
     with pytest.raises(InputError, match=said):
         rod.identify(data, free=free, integrator="dop853")
+
+
+BOUNCE = """
+[mechanism]
+name = "ball"
+gravity = [0.0, -9.81]
+[parameters]
+height = 1.02
+bounce = 0.75
+[bodies.ball]
+mass = 1.0
+inertia = 0.1
+position = [0.0, "height"]
+[stops.floor]
+gap = "ball.y"
+restitution = "bounce"
+"""
+
+
+@pytest.mark.slow
+def test_restitution_of_a_ball_from_noisy_heights(tmp_path):
+    ball, t, true = model(tmp_path, BOUNCE), np.linspace(0.0, 2.0, 101), {"bounce": 0.7, "height": 1.0}
+    clean = np.array(ball.simulate(until=2.0, times=t, parameters=true, rtol=1e-10, atol=1e-10)["ball.y"])
+    rng, covered, runs = np.random.default_rng(5), 0, 0
+    for _ in range(12):
+        fit = ball.identify({"t": t, "ball.y": clean + 0.01 * rng.standard_normal(len(t))}, free=tuple(true))
+        assert fit.result.ok
+        covered += sum(low <= true[name] <= high for name, (low, high) in fit.intervals.items())
+        runs = max(runs, fit.runs)
+    assert covered >= 20  # of 24 at 95 %
+    assert runs <= 20

@@ -140,8 +140,6 @@ def test_what_chooses_no_modes_refuses_friction() -> None:
             model.generate(target=target)
     with pytest.raises(InputError, match=sentence):
         model.sweep({"crank_mass": [1.0, 2.0]}, target="lanes", integrator="rk4", until=0.1)
-    with pytest.raises(InputError, match=sentence):
-        model.simulate(until=0.1, sensitivities=["crank_mass"])
 
 
 @pytest.mark.parametrize("method", ["half-explicit", "rattle"])

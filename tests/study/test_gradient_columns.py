@@ -90,7 +90,6 @@ def test_differences_of_fourth_order():
         ("four-bar", ["crank_mas"], "gradient: expected parameters of four-bar, got 'crank_mas'; .*crank_mass"),
         ("four-bar", ["crank.omega"], "expected parameters of four-bar, got 'crank.omega'"),
         ("four-bar", [3], "gradient: expected"),
-        ("belt-oscillator", ["mass"], "gradient: expected a mechanism without dry friction"),
     ],
 )
 def test_other_names_are_refused(model, names, expected):

@@ -8,12 +8,14 @@ it reads, it is added. Values of the function itself are computed again, and not
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import msgspec
 
 from symgen.base.ir.graph import CARRIED
+from symgen.base.ir.program import FREE_RHS
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
 from symgen.compile.native.llvm import LlvmPrinter, declarations, taken
@@ -47,10 +49,21 @@ def module(function: lang.Function, name: str, ends: str, together: bool = True)
         If the function is not straight.
     """
     names: dict[object, str] = {}
-    text = AdjointPrinter(
-        function, lambda f: names.setdefault(f.key, f"{name}.{len(names)}"), name, ends, together
-    ).text()
-    parts = [text, *(sines.definition(n) for n in (sines.width(1), sines.MOST) if sines.sine_name(n) in text)]
+    apart = list[lang.Function]()
+
+    def slope(f: lang.Function) -> str:
+        if ("slope", f.key) not in names:
+            names["slope", f.key] = f"{name}.{len(names)}.{f.name}"
+            apart.append(f)
+        return names["slope", f.key]
+
+    def symbol(f: lang.Function) -> str:
+        return names.setdefault(f.key, f"{name}.{len(names)}")
+
+    parts = [AdjointPrinter(function, symbol, slope, name, ends, together).text()]
+    parts += [TangentPrinter(f, slope, 1, None, together).text() for f in itertools.islice(apart, 0, None)]
+    used = "\n".join(parts)
+    parts += [sines.definition(n) for n in (sines.width(1), sines.MOST) if sines.sine_name(n) in used]
     return "\n".join([*parts, *declarations(parts), ""])
 
 
@@ -61,15 +74,23 @@ class AdjointPrinter(TangentPrinter):
     ----------
     function, symbol, together
         As for `LlvmPrinter`; the symbols are those of the tables of functions.
+    slope : callable
+        Returns the name of a callee that is not straight, with a direction beside each float.
     name, ends : str
         Name of the adjoint in machine code, and the array whose adjoint it takes.
     """
 
     def __init__(
-        self, function: lang.Function, symbol: Callable[[lang.Function], str], name: str, ends: str, together: bool
+        self,
+        function: lang.Function,
+        symbol: Callable[[lang.Function], str],
+        slope: Callable[[lang.Function], str],
+        name: str,
+        ends: str,
+        together: bool,
     ) -> None:
         super().__init__(function, symbol, 1, {}, together)
-        self.name, self.ends, self.together = name, ends, together
+        self.slope, self.name, self.ends, self.together = slope, name, ends, together
         self.inner = dict[object, lang.Function]()
         self.counters = dict[str, int]()  # of loops, which are written out
         self.names = {p.name: p.name for p in function.parameters if p.array}  # arrays of this function, of a callee
@@ -146,6 +167,8 @@ class AdjointPrinter(TangentPrinter):
 
     def called_here(self, e: lang.FunctionCall) -> Dual:
         """Print the statements of a callee, and return its result."""
+        if _branches(e.function):
+            return self.called_apart(e)
         f, names, views = e.function, dict[str, str](), dict[str, tuple[str, tuple[str, ...]]]()
         values, tangents = dict[str, str](), dict[str, str | None]()
         for parameter, argument in zip(f.parameters, e.arguments, strict=True):
@@ -163,6 +186,25 @@ class AdjointPrinter(TangentPrinter):
         self.statements(f.body)
         self.function, self.names, self.views, self.values, self.tangents, self.sines, self.before = outside
         return self.result
+
+    def called_apart(self, e: lang.FunctionCall) -> Dual:
+        """Call a function of numbers that is not straight, as the search in a table, once for each direction."""
+        arguments = [self.dual(a) for a in e.arguments if not isinstance(a, str)]
+        kind, one, terms = f"{{double, {self.kind}}}", f"<double {literal(1.0)}>", list[Term]()
+        value = ""
+        for k, (_, direction) in enumerate(arguments):
+            if direction is None and value:
+                continue
+            parts = [
+                f"double {x}, {self.kind} {one if i == k else 'zeroinitializer'}" for i, (x, _) in enumerate(arguments)
+            ]
+            pair = self.put(f'call {kind} @"{self.slope(e.function)}"({", ".join(parts)}) nounwind')
+            value = self.put(f"extractvalue {kind} {pair}, 0")
+            own = self.put(f"extractvalue {kind} {pair}, 1")
+            partial = self.put(f"extractelement {self.kind} {own}, i64 0")
+            if direction is not None:
+                terms.append((direction, lambda partial=partial: partial))  # type: ignore[misc]
+        return value, self.summed(*terms) if terms else None
 
     def summed(self, *terms: tuple[str | None, Callable[[], str] | None]) -> str:
         """Note a direction as a sum of terms."""
@@ -188,6 +230,13 @@ class AdjointPrinter(TangentPrinter):
         """Print the least or greatest of two values; the direction is the one of the value taken."""
         sign = "olt" if name == "min" else "ogt"
         return self.either(self.put(f"fcmp{self.flag} {sign} double {b}, {a}"), (b, db), (a, da))
+
+    def choose(self, statement: lang.If) -> bool:
+        """Leave out the choice of rates without bounded rows: those with them are the same where all are off."""
+        match statement.then, statement.otherwise:
+            case (lang.Return(value=lang.FunctionCall(function=lang.Function(name=name))),), () if name == FREE_RHS:
+                return True
+        return super().choose(statement)
 
     def chosen(self, e: lang.Choice) -> Dual:
         """Print both values and choose one: a second block would have to be taken back as well."""
@@ -268,6 +317,13 @@ def _whole(e: lang.Expression, counters: Mapping[str, int]) -> int:
         a, b = (_whole(argument, counters) for argument in e.arguments)
         return {"add": a + b, "sub": a - b, "mul": a * b}[e.name]
     raise Foreign("an index that changes in a function with an adjoint")
+
+
+def _branches(function: lang.Function) -> bool:
+    """Whether a function of numbers alone has a loop or a choice between statements."""
+    if function.returned != "float" or any(p.array or p.type != "float" for p in function.parameters):
+        return False
+    return any(isinstance(x, lang.If | lang.While | lang.For | lang.StatementBlock) for x in function.body)
 
 
 def correction(accept: lang.Function, rounds: int) -> lang.Function:

@@ -228,7 +228,7 @@ class StartDirections:
         along = np.linalg.pinv(motion) @ described
         y = np.zeros((info.ny, self.count))
         y[: info.nq] = motion @ along
-        holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
+        holonomic = [i for i in self._in_force if info.rows[i].holonomic]
         first, size = info.sections["residual"]
         rows = self.compiled.jacobian(self._scratch)[holonomic]
         violated = self._geometry(y, p)[first : first + size][holonomic]
@@ -254,6 +254,12 @@ class StartDirections:
         return np.asarray(motion @ (along + change)), moved & loose
 
     @cached_property
+    def _in_force(self) -> list[int]:
+        """Rows that close a start: those with bounds are off there."""
+        off = self.compiled.off(self.start.w)
+        return [i for i, row in enumerate(self.info.rows) if row.name not in off]
+
+    @cached_property
     def _scratch(self) -> Array:
         """Scratch after ``geometry`` at the start."""
         w, start = self.start.w.copy(), self.start
@@ -274,8 +280,9 @@ class StartDirections:
         rates = self._targets({f"{q.name}.rate": k for k, q in enumerate(info.joint_coordinates)})
         derived = self._geometry(y, p)
         first, size = info.sections["nu"]
-        rows, slopes = self.compiled.jacobian(self._scratch), self._jacobians(derived)
-        right = derived[first : first + size] - np.einsum("ijk,j->ik", slopes, v)
+        own = self._in_force
+        rows, slopes = self.compiled.jacobian(self._scratch)[own], self._jacobians(derived)[own]
+        right = derived[first : first + size][own] - np.einsum("ijk,j->ik", slopes, v)
         if rates:
             unit = np.zeros((info.ny, info.nv))
             unit[info.nq : info.work] = np.eye(info.nv)
@@ -283,7 +290,7 @@ class StartDirections:
             rows = np.vstack([rows, by[list(rates)]])
             right = np.vstack([right, np.array(list(rates.values())) - at[list(rates)]])
             slopes = np.concatenate([slopes, np.zeros((len(rates), info.nv, n))])
-        names = [row.name for row in info.rows] + [f"{info.joint_coordinates[k].name}.rate" for k in rates]
+        names = [info.rows[i].name for i in own] + [f"{info.joint_coordinates[k].name}.rate" for k in rates]
         scales = np.sqrt(self.compiled.section(self.start.w, "gauge"))
         free = [j for j in range(info.nv) if j not in fixed]
         apart = np.abs(v - kept)[list(fixed)].max(initial=0.0)
@@ -300,11 +307,11 @@ class StartDirections:
         masses = np.maximum(self.compiled.section(self.start.w, "mass"), 1e-300)
         scales = 1.0 / np.sqrt(masses)
         more = shortest_slope(rows, slopes, change, free, scales, self._masses(p) * change[:, np.newaxis], bool(rates))
-        own = np.zeros((info.nv, n))
+        given = np.zeros((info.nv, n))
         for j, target in fixed.items():
-            own[j] = target
+            given[j] = target
         still = {j: np.zeros(n) for j in held}
-        return own + shortest(rows, right - rows @ own, still, names, more, scales, self.directions)
+        return given + shortest(rows, right - rows @ given, still, names, more, scales, self.directions)
 
     def _masses(self, p: Array) -> Array:
         """Return the directions of the masses of velocities, shape (nv, n)."""

@@ -93,10 +93,8 @@ CHOICE = record_type(
     ("states accelerations reactions", abi.OBSERVE),
     ("box", BOX),
     ("first count dry changes", _N),
-    (
-        "angular place_of pushes pushed at_rest broken stopped left rest loose taken passing shut named pressed varying",
-        _K,
-    ),
+    ("angular place_of pushes pushed at_rest broken stopped left rest loose taken passing shut", _K),
+    ("named pressed varying", _K),
     ("step value speed static sliding restitution before after signs trial offset alone forces scale matrix", _A),
     ("rest_of depth jam apart parts sizes bounds y w rate out room", _A),
     ("iw", _K),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -29,12 +30,14 @@ class Observer:
     times, states : Array, shapes (k,), (k, longer ny)
         Outputs and their states with directions.
     windings : Array
-        Angles that count turns at the outputs.
+        Angles that count turns at the outputs, then the numbers of modes.
     pieces : tuple of (float, Array)
         Parameters with directions of earlier pieces of the run, each with the last time at which it holds, then those
         of the last one.
     w : Array
         Scratch with directions.
+    modes : sequence of (float, Array)
+        Directions of the numbers of modes, each with the last time at which they hold; none without modes.
     """
 
     model: DirectedModel
@@ -43,6 +46,7 @@ class Observer:
     windings: Array
     pieces: tuple[tuple[float, Array], ...]
     w: Array
+    modes: Sequence[tuple[float, Array]] = ()
 
     def _here(self, k: int) -> tuple[float, Array, Array]:
         """Return time, state and parameters of an output."""
@@ -71,8 +75,12 @@ class Observer:
         return rows, scratch
 
     def _wind(self, w: Array, k: int) -> None:
-        """Set the angles that count turns to their values at an output."""
+        """Set the angles that count turns, and the numbers of modes, to their values at an output."""
         w[abi.WINDING : abi.WINDING + self.windings.shape[1]] = self.windings[k]
+        if self.modes and self.model.plain.info.switchable:
+            first, size = self.model.plain.info.sections["modes"]
+            directions = next(modes for until, modes in self.modes if self.times[k] <= until)
+            self.model.shadow(w, "w")[first : first + size] = directions
 
     def observed(self, function: Any, length: int) -> tuple[Array, Array]:
         """Return the values of a function of the motion and their directions, shapes (k, length), (k, length, L).

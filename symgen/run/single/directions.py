@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,12 @@ from numpy.typing import NDArray
 from symgen.run.layout import abi
 from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.single.direction_errors import StepErrors, begin_estimates, estimating, step_errors
-from symgen.run.single.reset_directions import events_at_start, with_directions
+from symgen.run.single.moments import Moments
+from symgen.run.single.passages import Passage, PassingSimulation
+from symgen.run.single.reset_directions import events_at_start
 from symgen.run.single.run import Progress, completed
 from symgen.run.single.simulation import Simulation
+from symgen.run.single.transfer import Transfer
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -44,12 +47,15 @@ class Part:
     outcome : Outcome
         Outcome of the longer state.
     doubts : sequence of str
-        Why directions of resets are in doubt.
+        Why directions behind events are in doubt.
+    modes : sequence of (float, Array)
+        Directions of the numbers of modes, each with the last time at which they hold.
     """
 
     model: DirectedModel
     outcome: Outcome
     doubts: Sequence[str] = ()
+    modes: Sequence[tuple[float, Array]] = ()
 
     @property
     def states(self) -> Array:
@@ -82,7 +88,7 @@ class Course:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Why directions of resets are in doubt."""
+        """Why directions behind events are in doubt."""
         return tuple(doubt for part in self.parts for doubt in part.doubts)
 
     def gathered(self, of: Callable[[Part], Array]) -> Array:
@@ -98,6 +104,49 @@ class Course:
     def errors(self) -> StepErrors | None:
         """Errors of directions in steps; None for constant steps, which have no estimate."""
         return step_errors([part.outcome.simulation for part in self.parts], self.count)
+
+
+class DirectedSimulation(PassingSimulation):
+    """A run with directions, which go through its passages.
+
+    Parameters
+    ----------
+    model : DirectedModel
+        The code.
+    integrator, start, spec
+        As for `Simulation`, of the longer state.
+    seeds : Array, shape (np, L)
+        Directions of the parameters.
+
+    Attributes
+    ----------
+    transfer : Transfer
+        Takes directions through passages.
+    modes : list of (float, Array)
+        Directions of the numbers of modes before each passage, with its time.
+    """
+
+    def __init__(self, model: DirectedModel, integrator: Any, start: Start, spec: RunSpec, seeds: Array) -> None:
+        super().__init__(model.whole, integrator, start, spec)
+        self.directed = model
+        columns = np.hstack([seeds, np.zeros((len(seeds), 1))])
+        self.transfer = Transfer(Moments(model.plain, columns), spec)
+        self.modes = list[tuple[float, Array]]()
+
+    @property
+    def place(self) -> slice:
+        """Place of the numbers of modes in the scratch array."""
+        return self.transfer.moments.place_of_modes()
+
+    def passed(self, passage: Passage) -> None:
+        """Take the directions through a passage."""
+        model, state = self.directed, self.state
+        y, w = (model.shadow(x, name) for x, name in ((passage.before.y, "y"), (passage.before.w, "w")))
+        place = self.place
+        after, modes = self.transfer.through(passage, y, w[place])
+        model.shadow(state.y, "y")[:] = after
+        model.shadow(state.w, "w")[place] = modes
+        self.modes.append((passage.before.t, w[place].copy()))
 
 
 def run_with_directions(
@@ -124,10 +173,11 @@ def run_with_directions(
         initial = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
         doubts = events_at_start(spec, model, initial)
         scheme = estimating(integrator, spec, model.lanes)
-        simulation = Simulation(model.whole, scheme, initial, with_directions(spec, model, doubts))
+        simulation = DirectedSimulation(model, scheme, initial, spec, own.p)
         begin_estimates(simulation, model.sizes["y"])
         outcome = completed(simulation, progress)
-        parts.append(Part(model, outcome, doubts))
+        modes = *simulation.modes, (np.inf, model.shadow(simulation.state.w, "w")[simulation.place].copy())
+        parts.append(Part(model, outcome, (*doubts, *simulation.transfer.doubts), modes))
         progress = None
         if outcome.interrupted:
             break

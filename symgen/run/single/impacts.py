@@ -12,22 +12,26 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
+from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.modes import HIT
 from symgen.run.layout import abi
-from symgen.run.single.bounded_rows import NOT_APPLIED, OTHERS, SAME
+from symgen.run.single.bounded_rows import NOT_APPLIED, OTHERS, SAME, SIGN
 from symgen.run.single.strikes import GATHER, STRIKE, gather, new_strikes, strike
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from symgen.run.effects.effects import Impact
     from symgen.run.loops.run_spec import BoundedRows, Watched
     from symgen.run.single.events import Events
     from symgen.run.single.simulation import Simulation
+
+Array = NDArray[np.float64]
 
 
 class Impacts:
@@ -46,12 +50,15 @@ class Impacts:
         By rows, impacts at the present time.
     left : dict of int to float
         By rows that impacts have brought to rest at the present time, the time until these would have accumulated [s].
+    note : callable or None
+        Called behind each impact with the numbers of its events, the state before it and the scratch at it.
     """
 
     def __init__(self, simulation: Simulation, rows: BoundedRows) -> None:
         self.simulation, self.rows = simulation, rows
         self.latest = dict[int, "Impact"]()
         self.left = dict[int, float]()
+        self.note: Callable[[Sequence[int], Array, Array], None] | None = None
         self._entry: Callable[..., int] | None = None
         self._gathering: Callable[..., int] | None = None
 
@@ -84,7 +91,7 @@ class Impacts:
         state: Any = self.simulation.state  # an `EventState`: there are events
         s, now, effects = self._strikes, float(state.clock[abi.TIME]), self._events.watched.effects
         first = self.simulation.compiled.info.nq
-        before = state.y[first : first + len(s.v)].copy()
+        before, whole = state.y[first : first + len(s.v)].copy(), state.y.copy()
         if self._entry is None:
             arguments = choice, s, state.y, state.p, state.w
             self._entry = direct(compiled_form(strike), STRIKE, 0.0, *arguments)
@@ -100,6 +107,8 @@ class Impacts:
             )
         impact = effects.impact(numbers, s.v, s.impulses, float(s.energy[0]))
         self.latest = dict.fromkeys(active, impact)
+        if self.note is not None:
+            self.note(numbers, whole, state.w.copy())
         if state.control[abi.BEGUN] != 0:
             self._events.begin_anew(state)
         else:  # the balance of energies begins behind an impact at the start
@@ -123,11 +132,16 @@ class Impacts:
         if self._gathering is None:
             arguments = choice, s, state.y, state.p, state.w, state.iw, state.hunt
             self._gathering = direct(compiled_form(gather), GATHER, 0.0, *arguments)
-        before = s.v.copy()
+        before, whole = s.v.copy(), state.y.copy()
         code = self._gathering(now)
+        active = np.flatnonzero(s.active)
+        numbers = [int(s.events[i]) for i in active]
         if code == NOT_APPLIED:
-            numbers = [int(s.events[i]) for i in np.flatnonzero(s.active)]
             raise self._events.watched.effects.no_velocities(numbers, s.work, before, now)
+        if code == OTHERS and self.note is not None:
+            w = state.w.copy()  # the formulas of rows that come to rest read their signs
+            w[choice.first + MODE_NUMBERS * active + SIGN] = 1.0
+            self.note(numbers, whole, w)
         self.left = {int(i): float(s.left[i]) for i in np.flatnonzero(~np.isnan(s.left))}
         return bool(code == OTHERS)
 

@@ -1,28 +1,26 @@
-"""Directions of resets: how a state after an event depends on all numbers, the time of the event among them.
+"""Directions of resets and impacts: how a state after an event depends on the state before it, and on all numbers.
 
-At an event g = 0 its time changes by ``dt = -dg / g'``, and the state there by ``dy + y' dt``. The derivative of the
-reset turns that into the change of the state behind it. From this, ``y' dt`` with the rates behind the event is taken
-back. Velocities follow from the equations of the smallest impulse, which are differentiated:
+Velocities follow from the equations of the smallest impulse, which are differentiated:
 
     M (v+ - v-) = C^T i,    C v+ = c
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.bounds.modes import MODE
 from symgen.describe.parts.events import RECORD
 from symgen.run.effects.effects import Effects, Impact
 from symgen.run.layout import abi
 from symgen.run.single.directed_observer import Observer
 
 if TYPE_CHECKING:
-    from symgen.run.loops.run_spec import RunSpec, Watched
+    from symgen.run.loops.run_spec import RunSpec
     from symgen.run.single.directed_model import DirectedModel
     from symgen.run.starts.assembly import Start
 
@@ -32,28 +30,6 @@ Array = NDArray[np.float64]
 _NONE = 1e-10
 #: Roundings of a switching function up to which it is 0 at the start.
 _AT_START = 8.0
-#: Relative difference of the derivatives of the times of two events up to which these stay together.
-_TOGETHER = 1e-8
-
-
-def with_directions(spec: RunSpec, model: DirectedModel, doubts: list[str]) -> RunSpec:
-    """Return the specification of a run whose resets change directions as well.
-
-    Parameters
-    ----------
-    spec : RunSpec
-        Of the run without directions.
-    model : DirectedModel
-        The code of the run.
-    doubts : list of str
-        Takes what is in doubt of the directions behind resets.
-    """
-    watched = spec.events
-    if watched is None or watched.effects is None:
-        return spec
-    plain = {f.name: getattr(watched.effects, f.name) for f in fields(Effects)}
-    effects = DirectedEffects(**plain, model_with=model, watched=watched, doubts=doubts)
-    return replace(spec, events=replace(watched, effects=effects))
 
 
 def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[str]:
@@ -69,7 +45,7 @@ def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[s
         With directions.
     """
     watched = spec.events
-    if watched is None or all(action == RECORD for action in watched.actions):
+    if watched is None or all(action in (RECORD, MODE) for action in watched.actions):
         return []
     count = len(watched.names) + len(watched.switches)
     windings = start.w[np.newaxis, abi.WINDING : abi.WINDING + model.plain.info.windings]
@@ -78,73 +54,21 @@ def events_at_start(spec: RunSpec, model: DirectedModel, start: Start) -> list[s
     return [
         f"the event '{name}' is at the start: with other numbers it may happen behind it"
         for k, (name, action) in enumerate(zip(watched.names, watched.actions, strict=True))
-        if action != RECORD and abs(values[k]) <= _AT_START * values[2 * count + k] and np.any(slopes[k] != 0.0)
+        if action not in (RECORD, MODE)
+        and abs(values[k]) <= _AT_START * values[2 * count + k]
+        and np.any(slopes[k] != 0.0)
     ]
 
 
-@dataclass(frozen=True, kw_only=True)
-class DirectedEffects(Effects):
-    """The effects of events on a state with directions.
-
-    Attributes
-    ----------
-    model_with : DirectedModel
-        The code of the run.
-    watched : Watched
-        Its events.
-    doubts : list of str
-        What is in doubt of the directions behind resets.
-    """
-
-    model_with: DirectedModel
-    watched: Watched
-    doubts: list[str]
-
-    def apply(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
-        """Change a state and its directions by the effects of events at one time; see `Effects.apply`."""
-        model, ny = self.model_with, self.model_with.sizes["y"]
-        before, rate = y.copy(), self._rate(t, y, p, w)
-        later = self._later(numbers, t, y, p, w)
-        work = self.memory(len(y), len(w))
-        impact = self.applied(numbers, t, y, p, w, work)
-        change = model.shadow(before, "y") + np.outer(rate, later)
-        at = model.longer(before[:ny], "y", change)
-        scratch = np.concatenate([w, later])
-        after = _Reset(self, self.chosen(numbers), t, at, p, scratch, work, impact).directions()
-        y[ny : ny * (1 + model.lanes)] = (after - np.outer(self._rate(t, y, p, w), later)).ravel()
-        return impact
-
-    def _observer(self, t: float, y: Array, p: Array, w: Array) -> Observer:
-        y = y[: self.model_with.sizes["y"] * (1 + self.model_with.lanes)]
-        windings = w[np.newaxis, abi.WINDING : abi.WINDING + self.compiled.info.windings]
-        return Observer(self.model_with, np.array([t]), y[np.newaxis], windings, ((np.inf, p),), w)
-
-    def _rate(self, t: float, y: Array, p: Array, w: Array) -> Array:
-        """Return the rates of the state without directions."""
-        return self._observer(t, y, p, w).rates[0][0, : self.model_with.sizes["y"]]
-
-    def _later(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Array:
-        """Return the directions of the time of events, shape (L,)."""
-        watched = self.watched
-        count = len(watched.names) + len(watched.switches)
-        values, slopes = self._observer(t, y, p, w).observed(watched.function, 3 * count)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            times = np.array([-slopes[0, k] / values[0, count + k] for k in numbers])
-        names = " and ".join(f"'{watched.names[k]}'" for k in numbers)
-        if not np.all(np.isfinite(times)):
-            self.doubts.append(f"the event {names} at t = {t:.6g} s is met without speed: its time has no derivative")
-        elif np.any(np.ptp(times, axis=0) > _TOGETHER * np.abs(times).max(axis=0)):
-            self.doubts.append(f"the events {names} at t = {t:.6g} s are together for these numbers only")
-        return np.asarray(times[0])
-
-
-class _Reset:
+class ResetDirections:
     """A reset, and how it changes along the directions of the state at its event.
 
     Parameters
     ----------
-    effects : DirectedEffects
+    effects : Effects
         The effects of events.
+    model : DirectedModel
+        The code.
     chosen : Array of int
         1 for each event that happens.
     t : float
@@ -155,11 +79,14 @@ class _Reset:
         Working memory after the reset.
     impact : Impact
         What it changed.
+    losses : mapping of int to int
+        By number of the event, the place in the state of the energy that its impacts take, where outputs read it.
     """
 
     def __init__(
         self,
-        effects: DirectedEffects,
+        effects: Effects,
+        model: DirectedModel,
         chosen: NDArray[np.int64],
         t: float,
         y: Array,
@@ -167,24 +94,32 @@ class _Reset:
         w: Array,
         work: Any,
         impact: Impact,
+        losses: Mapping[int, int],
     ) -> None:
         self.effects, self.chosen, self.t, self.y, self.p, self.w = effects, chosen, t, y, p, w
-        self.work, self.impact, self.model = work, impact, effects.model_with
+        self.work, self.impact, self.model, self.losses = work, impact, model, losses
         self.info, self.changes = effects.compiled.info, effects.changes
 
     def directions(self) -> Array:
         """Return the directions of the state after the reset at its event, shape (ny, L)."""
         info, changes, after = self.info, self.changes, self.model.shadow(self.y, "y").copy()
         out, count = self._evaluated(self.effects.formulas, len(self.work.out), self.y), len(changes.owners)
+        numbers = self._values
         writes = changes.writes.reshape(-1, 2)
         for (event, place), slopes in zip(writes, out[2 * count :], strict=False):
             if self.chosen[event]:
                 after[place] = slopes
         struck = [k for k, event in enumerate(changes.owners) if self.chosen[event]]
         if struck:
-            velocities, energy = self._struck(struck, out[count : 2 * count], out[2 * count + len(writes) :])
+            velocities, energy, impulses = self._struck(struck, out[count : 2 * count], out[2 * count + len(writes) :])
             after[info.nq : info.work] = velocities
             after[info.work] += energy
+            for k, event in enumerate(struck):
+                place = self.losses.get(int(changes.owners[event]))
+                if place is not None:  # half of the impulse times both rates
+                    rates = numbers[event] + numbers[count + event]
+                    loss = rates * impulses[k] + self.impact.impulses[info.m + k] * (out[event] + out[count + event])
+                    after[place] -= 0.5 * loss
         return after
 
     def _evaluated(self, function: Any, length: int, y: Array) -> Array:
@@ -192,6 +127,7 @@ class _Reset:
         call = self.model.function(function, length, timed=True).caller(abi.OBSERVE.signature.arguments)
         out = np.zeros(length * (1 + self.model.lanes))
         call(self.t, y, self.p, self.w.copy(), np.zeros_like(y), out)
+        self._values = out[:length]
         return out[length:].reshape(length, self.model.lanes)
 
     def _probed(self, function: Any, length: int) -> tuple[Array, Array]:
@@ -206,8 +142,8 @@ class _Reset:
             still[j] = 0.0
         return np.stack(coefficients, axis=1), rest
 
-    def _struck(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array]:
-        """Return the directions of velocities after the smallest impulse, and of its energy."""
+    def _struck(self, struck: list[int], values: Array, entries: Array) -> tuple[Array, Array, Array]:
+        """Return the directions of velocities after the smallest impulse, of its energy, and of impulses at events."""
         info, impulse, n = self.info, self.work.impulse, self.info.nv
         k = info.m + len(struck)
         c, m = impulse.rows[: k * n].reshape(k, n), impulse.mass.reshape(n, n)
@@ -243,7 +179,10 @@ class _Reset:
             + np.einsum("i,ijk,j->k", change, mass, after + before)
             + (velocities + directions).T @ (m @ change)
         )
-        return velocities, energy + more(change, velocities - directions)
+        # C^T di = M (dv+ - dv-) + dM (v+ - v-) - dC^T i
+        pull = unit[:, np.newaxis] * (m @ velocities - loads)
+        impulses = scale[:, np.newaxis] * np.linalg.lstsq(rows.T, pull, rcond=_NONE)[0]
+        return velocities, energy + more(change, velocities - directions), impulses[info.m :]
 
     def _joints(self) -> tuple[Array, Array]:
         """Return the directions of D and nu, shapes (m, nv, L), (m, L)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from symgen.run.layout.records import Outputs
     from symgen.run.loops.integrator import Integrator
     from symgen.run.loops.run_spec import RunSpec, Seam, Watched
-    from symgen.run.single.events import Events
+    from symgen.run.single.events import Events, Happening
     from symgen.run.single.transitions import Transitions
     from symgen.run.starts.assembly import Start
 
@@ -203,8 +203,7 @@ class Simulation:
             If an event sets velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
-        if self.transitions is not None:
-            self.transitions.begin()
+        self._begin_modes()
         entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
         while True:
             if entry is None:
@@ -295,8 +294,7 @@ class Simulation:
 
         The state before is saved, see `go_back`.
         """
-        if self.transitions is not None:
-            self.transitions.begin()
+        self._begin_modes()
         entry, snapshot = self._entry, self.snapshot
         if entry is None or not self.direct:
             snapshot.take(self.scheme)
@@ -326,12 +324,7 @@ class Simulation:
             state: Any = self.state  # an `EventState` where there are events
             events = self.events.take(state)
             if code == abi.MET:
-                now = [event for _, event in events if event.t == self._clock[abi.TIME]]
-                if self.transitions is not None:
-                    self.transitions.release(now)
-                code = self.events.meet(state, events)
-                if self.transitions is not None:
-                    self.transitions.meet(now)
+                code = self._meet(events)
                 return None if code == abi.DONE else code
         if code == abi.NO_ROOM:
             self.scheme = _with_room(self.scheme)
@@ -339,20 +332,43 @@ class Simulation:
             self._choose_anew(self.state.w)  # the matrices of a scheme depend on the rows
             self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
         elif code == abi.CHANGED:
-            try:
-                self.changes.prepare()
-            except InputError:  # looped code names the formula; a run ends with one reason in both shapes
+            if not self._go_on_changed():
                 return abi.UNPREPARED
-            if not np.isfinite(self.state.p).all():
-                return abi.UNPREPARED
-            if self.transitions is not None:
-                if self.spec.seams[self.state.control[abi.PASSED] - 2].strikes:
-                    self.transitions.take_off()
-                self.transitions.begin()
             return None if self.is_ahead(until) else abi.DONE
         elif code != abi.NOTED:
             return code
         return None
+
+    def _begin_modes(self) -> None:
+        """Choose modes where the run begins, or something has changed."""
+        if self.transitions is not None:
+            self.transitions.begin()
+
+    def _meet(self, events: Sequence[tuple[int, Happening]]) -> int:
+        """Serve the events at which a loop ended; return `DONE` if it may be entered again."""
+        assert self.events is not None, "events were met"
+        now = [event for _, event in events if event.t == self._clock[abi.TIME]]
+        if self.transitions is not None:
+            self.transitions.release(now)
+        state: Any = self.state
+        code = self.events.meet(state, events)
+        if self.transitions is not None:
+            self.transitions.meet(now)
+        return code
+
+    def _go_on_changed(self) -> bool:
+        """Prepare parameters that have changed at a seam, and choose modes; return whether all are defined."""
+        try:
+            self.changes.prepare()
+        except InputError:  # looped code names the formula; a run ends with one reason in both shapes
+            return False
+        if not np.isfinite(self.state.p).all():
+            return False
+        if self.transitions is not None:
+            if self.spec.seams[self.state.control[abi.PASSED] - 2].strikes:
+                self.transitions.take_off()
+            self.transitions.begin()
+        return True
 
     @cached_property
     def _nothing(self) -> Outputs:

@@ -72,7 +72,7 @@ class Transitions:
         info = simulation.compiled.info
         self._places = [info.switchable.index(row) for row in info.bounded]
         self._pushes = np.arange(len(rows.names)) >= rows.dry
-        self._impacts = Impacts(simulation, rows)
+        self.impacts = Impacts(simulation, rows)
         self._closed: Flags | None = None  # one-sided rows that a reset has taken out of force
         self._entries = dict[str, Any]()
 
@@ -133,7 +133,7 @@ class Transitions:
 
     def _note(self, changes: Sequence[tuple[int, str]], here: Happening, starts: bool = False) -> None:
         """Have the past events name impacts and changes of modes; a start has modes, and no change of them."""
-        names, impacts, left = self.rows.names, self._impacts.latest, self._impacts.left
+        names, impacts, left = self.rows.names, self.impacts.latest, self.impacts.left
         energy = {min(impacts, default=-1): sum({id(x): x.energy for x in impacts.values()}.values())}
         self._happened.extend(
             replace(here, name=f"{names[i]}.{HIT}", impact=impact, energy=energy.get(i, 0.0))
@@ -172,7 +172,7 @@ class Transitions:
             flags[list(rows)] = 1
         self._strike()
         self._take_modes()
-        if self._impacts.latest and self._impacts.gather(c):
+        if self.impacts.latest and self.impacts.gather(c):
             self._read()
             for flags in (c.broken, c.stopped, c.left):
                 flags[:] = 0
@@ -227,12 +227,12 @@ class Transitions:
 
     def _strike(self) -> None:
         """Read the rows, and have gaps that strike change the velocities."""
-        self._impacts.latest, self._impacts.left = {}, {}
+        self.impacts.latest, self.impacts.left = {}, {}
         self._read()
         code = self._entry("find_struck", strikes)(self._now) if self._pushes.any() else SAME
         self._refuse(code)
         if code == OTHERS:
-            self._impacts.strike(self._choice)
+            self.impacts.strike(self._choice)
             self._read()
             compiled_form(strikes.forget_passed)(self._choice, self.simulation.state.w)
 

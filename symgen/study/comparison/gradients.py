@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from symgen.analyses.adjoint_gradient import adjoint_gradient
 from symgen.base.errors import InputError, SymgenError, nearest, quoted
-from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.sensitivities import SCHEMES, Differentiated
 from symgen.run.layout import abi
@@ -38,7 +37,7 @@ STEPS = tuple(10.0**-k for k in range(1, 10))
 
 
 def check_parameters(mechanism: Mechanism, names: Sequence[str]) -> None:
-    """Refuse names that are no parameters, and mechanisms whose motion has no derivatives.
+    """Refuse names that are no parameters.
 
     Raises
     ------
@@ -49,8 +48,6 @@ def check_parameters(mechanism: Mechanism, names: Sequence[str]) -> None:
     for name in names:
         if name not in parameters:
             raise InputError("gradient", f"parameters of {mechanism.name}", quoted(name), nearest(name, parameters))
-    if names:
-        refuse_bounds("gradient", mechanism)
 
 
 def width_of(value: float) -> float:

@@ -1,8 +1,8 @@
 """Explicit Runge-Kutta runs that keep their stages, and the adjoint of such a run, step by step backwards.
 
-Behind the scheme's own memory lies the number of kept steps, then one record of each: its end, the step, the
-corrections of its state, the accepted state, and the rates of all stages. The first record is the start: it has no
-stages. With these the states at stages are sums, so the adjoint evaluates nothing but adjoints.
+Behind the scheme's own memory lies the number of records, then the records: of each step its end, its length, the
+corrections of its state, the accepted state, and the rates of all stages. The first record of a part of a run is where
+it begins: it has no stages. With these the states at stages are sums, so the adjoint evaluates nothing but adjoints.
 """
 
 from __future__ import annotations
@@ -21,8 +21,11 @@ from symgen.run.loops.frame import loop
 from symgen.run.loops.schemes.explicit import ADAPTIVE_PARTS, CONSTANT_PARTS
 from symgen.run.loops.schemes.explicit import attempt as adaptive_step
 from symgen.run.loops.schemes.explicit import attempt_constant as constant_step
+from symgen.run.loops.schemes.explicit import prepare as begin_scheme
 from symgen.run.loops.schemes.explicit import renew as set_first_stage
 
+#: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept.
+RECORDS, ROUNDS, KEPT_STEPS = 0, 1, 2
 #: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; then the state.
 TIME, STEP, CORRECTIONS, ANGLES, HEAD = 0, 1, 2, 3, 8
 _F, _I = types.float64, types.int64
@@ -82,23 +85,24 @@ def record_size(width: int, stages: int) -> int:
 
 def keep(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any) -> None:
     """Keep an accepted step."""
-    width, count = system.sizes.width, int(run.memory[memory])
+    width, count = system.sizes.width, int(run.memory[memory + RECORDS])
     size = HEAD + (1 + scheme.stages) * width
     record = part(run.memory, memory + HEAD + count * size, size)
     record[TIME], record[STEP] = t, run.clock[abi.STEP]
-    record[CORRECTIONS] = run.iw[abi.ITERATIONS] - run.memory[memory + 1]
+    record[CORRECTIONS] = run.iw[abi.ITERATIONS] - run.memory[memory + ROUNDS]
     for i in range(min(HEAD - ANGLES, run.w.shape[0] - abi.WINDING)):
         record[ANGLES + i] = run.w[abi.WINDING + i]
     copied(width, run.y, part(record, HEAD, width))
     copied(scheme.stages * width, stages, part(record, HEAD + width, scheme.stages * width))
-    run.memory[memory] = count + 1.0
+    run.memory[memory + RECORDS] = count + 1.0
+    run.memory[memory + KEPT_STEPS] = run.control[abi.STEPS]
 
 
 def attempt_constant(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a constant step; note how many rounds of corrections there were before."""
-    run.memory[1] = run.iw[abi.ITERATIONS]
+    run.memory[ROUNDS] = run.iw[abi.ITERATIONS]
     return float(constant_step(system, scheme, span, run, t, following, h, between))
 
 
@@ -106,7 +110,7 @@ def attempt_adaptive(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try an adaptive step; note how many rounds of corrections there were before."""
-    run.memory[scheme.nodes.shape[0] * system.sizes.width + 1] = run.iw[abi.ITERATIONS]
+    run.memory[scheme.nodes.shape[0] * system.sizes.width + ROUNDS] = run.iw[abi.ITERATIONS]
     return float(adaptive_step(system, scheme, span, run, t, following, h, between))
 
 
@@ -121,11 +125,22 @@ def renew_adaptive(system: Any, scheme: Any, span: Any, run: Any, t: float, chan
     set_first_stage(system, scheme, span, run, t, changed)
 
 
+def prepare_adaptive(system: Any, scheme: Any, span: Any, run: Any) -> None:
+    """Keep a step that ends where rates have a kink, and set the first stage of the next one."""
+    memory = scheme.nodes.shape[0] * system.sizes.width
+    if run.control[abi.STEPS] > run.memory[memory + KEPT_STEPS]:
+        keep(system, scheme, run, run.clock[abi.TIME], memory, run.memory)
+    begin_scheme(system, scheme, span, run)
+
+
 constant = loop(
     __name__, "constant", TABLEAU, **CONSTANT_PARTS | {"attempt": attempt_constant, "renew": renew_constant}
 )
 adaptive = loop(
-    __name__, "adaptive", TABLEAU, **ADAPTIVE_PARTS | {"attempt": attempt_adaptive, "renew": renew_adaptive}
+    __name__,
+    "adaptive",
+    TABLEAU,
+    **ADAPTIVE_PARTS | {"prepare": prepare_adaptive, "attempt": attempt_adaptive, "renew": renew_adaptive},
 )
 
 

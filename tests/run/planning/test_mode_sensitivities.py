@@ -1,0 +1,186 @@
+"""Derivatives through sticks, slips, impacts and rest, forward and by the adjoint, against closed forms."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import symgen
+
+from .lengths import model
+from .mode_models import MACHINES, chain, loop, richardson
+
+TIGHT = {"rtol": 1e-12, "atol": 1e-12, "integrator": "dop853"}
+CLOSED = json.loads((Path(__file__).parents[2] / "data" / "derivatives_through_modes.json").read_text())
+
+PULLED = MACHINES / "belt-oscillator.toml"
+PUSH = '\n[inputs]\npush = { default = 0.0, unit = "N" }\n'
+BALL = """
+[mechanism]
+name = "ball"
+gravity = [0.0, "-g"]
+[parameters]
+h = { value = 1.0, unit = "m" }
+e = 0.7
+g = { value = 9.81, unit = "m/s^2" }
+[bodies.ball]
+mass = 1.0
+inertia = 0.1
+position = [0.0, "h"]
+[stops.floor]
+gap = "ball.y"
+restitution = "e"
+"""
+ROTOR = """
+[mechanism]
+name = "rotor"
+gravity = [0.0, 0.0]
+[parameters]
+J = { value = 0.2, unit = "kg m^2" }
+w0 = { value = 5.0, unit = "rad/s" }
+c = { value = 0.05, unit = "N m s" }
+T = { value = 0.3, unit = "N m" }
+[bodies.rotor]
+mass = 1.0
+inertia = "J"
+angular_velocity = "w0"
+[joints.pin]
+type = "revolute"
+between = ["ground", "rotor"]
+at = [[0.0, 0.0], "centre"]
+friction = { sliding = "T", viscous = "c" }
+"""
+QUANTITIES = {"belt": "block.x", "ball": "ball.y", "rotor": "rotor.theta"}
+NAMES = {
+    "belt": {"m": "mass", "k": "stiffness", "v": "speed", "Fs": "static", "Fd": "sliding"},
+    "ball": {name: name for name in ("h", "e", "g")},
+    "rotor": {name: name for name in ("J", "w0", "c", "T")},
+}
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("modes")
+    texts = {"ball": BALL, "rotor": ROTOR}
+    return {"belt": symgen.load("belt-oscillator"), **{name: model(folder, text) for name, text in texts.items()}}
+
+
+@pytest.mark.fast(
+    "adjoint-absolute-belt-1", "adjoint-absolute-rotor-1", "forward-absolute-ball-1", "forward-absolute-rotor-1"
+)
+@pytest.mark.parametrize(("name", "row"), [(name, row) for name in QUANTITIES for row in range(len(CLOSED[name]))])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("way", ["forward", "adjoint"])
+def test_closed_forms(models, way, coordinates, name, row):
+    values, names = CLOSED[name][row], NAMES[name]
+    found = models[name].gradient(
+        QUANTITIES[name], by=tuple(names.values()), way=way, until=values["t"], coordinates=coordinates, **TIGHT
+    )
+    assert found.value == pytest.approx(values["value"], rel=1e-11)
+    assert found.by == pytest.approx({own: values[f"d_{short}"] for short, own in names.items()}, rel=1e-9)
+    assert found.result.ok
+
+
+def status_of(found):
+    return found.result.status, found.result.reason or ""
+
+
+@pytest.mark.fast("adjoint")
+@pytest.mark.parametrize("way", ["forward", "adjoint"])
+def test_what_is_together_for_these_numbers_only_is_in_doubt(tmp_path, models, way):
+    text, settings = PULLED.read_text(), {"way": way, "until": 2.5, **TIGHT}
+    pulled = model(tmp_path, text.replace("-stiffness*block.x", "push - stiffness*block.x") + PUSH)
+    # static friction of 6 N holds the block up to 0.9 s, when the force of 3 N ends
+    for end, status in ((0.9, "unverified"), (0.8, "ok")):
+        push = f"3.0 if t > 0.25 and t < {end} else 0.0"
+        found = pulled.gradient("block.x", by=("stiffness", "static"), inputs={"push": push}, **settings)
+        assert found.result.status == status
+        if status != "ok":
+            expected = "the event 'contact.slip' and a jump at t = 0.9 s are together for these numbers only"
+            assert found.result.reason == expected
+    body, stop = BALL[BALL.index("[bodies.ball]") :].split("[stops.floor]")
+    other = (body + "[stops.other_floor]" + stop).replace("ball", "other").replace('"h"', '"2 - h"')
+    two = model(tmp_path, BALL + other)
+    status, reason = status_of(two.gradient("ball.y", by=("h",), **settings | {"until": 1.0}))
+    assert status == "unverified"
+    assert reason.startswith("the events 'floor.hit' and 'other_floor.hit' at t = 0.451524 s are together for these")
+    assert two.gradient("ball.y", by=("g",), **settings | {"until": 1.0}).result.ok
+
+
+@pytest.mark.parametrize("way", ["forward", "adjoint"])
+def test_what_rests_at_the_start_has_one_side(models, way):
+    rests = "rests at the start for these numbers only: derivatives on both sides differ"
+    still = models["rotor"].gradient("rotor.theta", by=("w0", "T"), parameters={"w0": 0.0}, way=way, until=1.0, **TIGHT)
+    assert status_of(still) == ("unverified", f"pin {rests}")
+    closed = models["ball"].gradient("ball.y", by=("h", "g"), parameters={"h": 0.0}, way=way, until=1.0, **TIGHT)
+    assert status_of(closed) == ("unverified", f"floor {rests}")
+    assert (
+        models["rotor"]
+        .gradient("rotor.theta", by=("T",), parameters={"w0": 0.0}, way=way, until=1.0, **TIGHT)
+        .result.ok
+    )
+
+
+def compare_with_differences(own, quantity, names, until, **settings):
+    """Compare both ways with differences of runs that have the same events in the same order."""
+    settings = {"until": until, **TIGHT, **settings}
+    run = own.simulate(sensitivities=names, times=[until], **settings)
+    assert run.status == "ok"
+    events, found = [event.name for event in run.events], run.gradient(quantity).row()
+    back = own.gradient(quantity, by=names, way="adjoint", **settings)
+    assert back.by == pytest.approx(found, rel=1e-8, abs=1e-8)
+    values = {p.name: p.value for p in own.mechanism.parameters}
+    for name in names:
+        value = float(getattr(values[name], "value", values[name]))
+
+        def end(x, name=name):
+            other = own.simulate(parameters={name: x}, times=[until], verify=False, **settings)
+            assert [event.name for event in other.events] == events
+            return float(other[quantity][-1])
+
+        slope, error = richardson(end, value, 2.5e-4 * value)
+        assert error < 1e-6 * max(1.0, abs(slope))
+        assert found[name] == pytest.approx(slope, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_the_dry_four_bar(coordinates):
+    dry = symgen.load("dry-four-bar")
+    compare_with_differences(dry, "crank.theta", ("torque", "crank_mass", "rocker_mass"), 10.0, coordinates=coordinates)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("make", "seed", "until"),
+    [*((chain, seed, 1.0) for seed in (1, 3, 4, 7, 8)), *((loop, seed, 2.0) for seed in (0, 2, 3, 6, 7))],
+)
+def test_random_chains_and_loops(tmp_path, make, seed, until):
+    text, names = make(seed)
+    used = tuple(name for name in names if text.count(name) > 1)
+    compare_with_differences(model(tmp_path, text), "b0.theta" if make is chain else "crank.theta", used, until)
+
+
+@pytest.mark.slow
+def test_energy_that_an_impact_takes_and_a_force_that_jumps():
+    press = symgen.load("toggle-press")
+    compare_with_differences(press, "lost", ("ram_mass", "push", "rubbing"), 0.35)
+    compare_with_differences(press, "guide.lower.force", ("ram_mass", "push"), 0.2)
+
+
+@pytest.mark.slow
+def test_forces_that_rows_at_rest_share_are_named():
+    run = symgen.load("dry-four-bar").simulate(
+        until=0.1, parameters={"torque": 10.0}, sensitivities=("torque",), integrator="dop853"
+    )
+    assert any("rest together: derivatives of their forces there" in text for text in run.warnings)
+
+
+@pytest.mark.slow
+def test_sweeps_have_derivatives_through_modes(models):
+    rows = models["rotor"].sweep({"T": [0.2, 0.3]}, quantities=["rotor.theta"], until=6.0, integrator="dop853")
+    slopes = rows.sensitivities(("J", "T"))["rotor.theta"][:, -1]
+    for torque, slope in zip((0.2, 0.3), slopes, strict=True):
+        angle = {"until": 6.0, "parameters": {"T": torque}, "way": "adjoint", "integrator": "dop853"}
+        found = models["rotor"].gradient("rotor.theta", by=("J", "T"), **angle)
+        assert dict(zip(("J", "T"), slope, strict=True)) == pytest.approx(found.by, rel=1e-6)
