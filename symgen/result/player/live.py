@@ -15,10 +15,11 @@ from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
 from symgen.run.compiling.checked import checked
 from symgen.run.compiling.printed import Printed, PrintedEvents
-from symgen.run.compiling.printed_run import FINDER, WORDS, run_with_modes
+from symgen.run.compiling.printed_run import FINDER, WORDS
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
 from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.kept_runs import run_with_modes
 from symgen.run.planning.start_lines import (
     derived_lines,
     exported_start,

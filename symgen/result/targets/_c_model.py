@@ -21,12 +21,13 @@ from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.run.compiling.checked import checked, checked_function
 from symgen.run.compiling.events import DIRECTIONS
 from symgen.run.compiling.printed import Printed, PrintedEvents
-from symgen.run.compiling.printed_run import PrintedRun, run_with_modes
+from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
 from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.kept_runs import run_with_modes
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import Prepared, prepare
 from symgen.run.planning.start_lines import (

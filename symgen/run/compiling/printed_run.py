@@ -20,7 +20,6 @@ from symgen.compile.store.jit import RuntimeFunction
 from symgen.describe.bounds import modes
 from symgen.describe.parts.events import STOP
 from symgen.run.compiling.checked import checked_function
-from symgen.run.compiling.events import compile_events
 from symgen.run.compiling.printed import meanings_of
 from symgen.run.compiling.run_memory import modes_of_runs, new_transitions
 from symgen.run.layout import abi
@@ -38,11 +37,9 @@ from symgen.run.single.new_state import new_state, sizes_of, span_of
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.integrator import Integrator
     from symgen.run.loops.run_spec import BoundedRows, RunSpec, Seam, Watched
-    from symgen.run.planning.prepare import Prepared
 
 #: Names of emitted functions of a run in the text, by the places where a run has them.
 SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
@@ -176,7 +173,7 @@ class PrintedRun:
         return deciding(_NOTES)
 
     def _hunt(self, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the data of events with room for few notes: those of each step are taken before the next one."""
+        """Return the data of events with room for few notes, as all are taken before the next step."""
         watched, width = self.watched, self.compiled.info.ny
         if watched.switches:  # whose points stand behind the notes
             return hunt
@@ -240,27 +237,6 @@ class PrintedRun:
     def _room(self, name: str) -> str | None:
         """Return the name of an array in the memory; see `symgen.run.compiling.printed.Naming`."""
         return self._by_path.get(name) or None
-
-
-def run_with_modes(
-    mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float]
-) -> PrintedRun | None:
-    """Return a run for printers, None where no row of the mechanism has bounds.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        With its tree in joint coordinates.
-    run : Prepared
-        Scheme, steps, limits and events.
-    compiled, datum
-        As for a `PrintedRun`.
-    """
-    if not mechanism.bounded:
-        return None
-    watched = compile_events(mechanism, compiled, run.plan.events)
-    assert watched is not None, "rows with bounds have events"
-    return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams)
 
 
 def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
