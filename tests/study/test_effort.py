@@ -61,6 +61,7 @@ def test_what_is_predicted():
     assert effort.predicted(implicit, 1e12) == 0.0
 
 
+@pytest.mark.slow
 def test_a_prediction_is_below_what_a_run_takes():
     """A damper that decays fast, yet can be integrated: the prediction must not stop a run that could be made."""
     level = levels_of("damping", Base.of("four-bar"), False)[2]

@@ -202,6 +202,7 @@ def test_distances_count_the_far_end():
     assert points.distance(a, b) < 1e-14
 
 
+@pytest.mark.slow
 def test_a_massless_coupler_has_references_and_they_are_those_of_a_distance_joint():
     """Both routes to a reference: SciPy's of comparisons, and the compiled one of stress studies."""
     times, found, rates = np.linspace(0.0, 1.0, 5), [], []

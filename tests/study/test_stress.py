@@ -94,6 +94,7 @@ value = "0.1 + 0.05*sin(3*t)"
 """
 
 
+@pytest.mark.slow
 def test_attempts_of_a_search_on_a_driven_cart_compile_nothing_anew(tmp_path):
     """Steps, parameters and starts are arguments of the code of one formulation."""
     file = tmp_path / "cart.toml"

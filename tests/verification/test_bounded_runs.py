@@ -34,9 +34,7 @@ def test_random_mechanisms(kind: str, seed: int, runs: tuple[str, ...]) -> None:
 
 
 @pytest.mark.fast(
-    "chain-stop-and-slip-lagrange",
     "chain-three-of-both-lagrange",
-    "chain-stop-and-brake-lagrange",
     "chain-slip-at-a-stop-lagrange",
     "chain-two-stops-lagrange",
 )

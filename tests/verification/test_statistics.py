@@ -64,6 +64,7 @@ def test_the_record_has_the_sample_and_a_motion_that_no_method_follows_does_not_
     assert lost and not pairs_of(lost, "rk4", "baumgarte")
 
 
+@pytest.mark.slow
 def test_a_line_measured_again_stands_beside_the_stored_one(monkeypatch):
     monkeypatch.setattr(statistics, "INTEGRATORS", ("rk4",))
     lines = (line_ for line_ in statistics.RECORD.lines() if predictable(line_) and "rk4" in line_["runs"])

@@ -191,7 +191,7 @@ def test_a_wall_meets_a_block_that_comes_to_rest(part: float, steps: dict[str, A
     assert result.energy_drift_max < 1e-10
 
 
-@pytest.mark.fast("text0-steps0")
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [{"integrator": "dop853", "rtol": 1e-10}, {"integrator": "rk4", "step": 1e-2}, {}])
 @pytest.mark.parametrize("text", [FLOOR, WALL])
 def test_rows_and_steps_have_these_impacts(text: str, steps: dict[str, Any]) -> None:

@@ -92,6 +92,7 @@ def test_a_terminated_run_keeps_what_it_has(tmp_path: Path) -> None:
     raise AssertionError("outputs were not saved")
 
 
+@pytest.mark.slow
 def test_a_run_in_a_thread_of_asyncio_ends_when_it_is_told_to(tmp_path: Path) -> None:
     """Ctrl-C reaches the main thread alone; what is called with the progress ends a run in another one by raising."""
     script = """
