@@ -30,6 +30,7 @@ ROOT = Path(__file__).resolve().parents[1]
 NAVIGATION = {
     "Start": (
         "docs/tutorial",
+        "docs/edit",
         "docs/tutorial-space",
         "docs/tutorials/README",
         "docs/gallery/README",
@@ -48,7 +49,6 @@ NAVIGATION = {
     ),
     "Reference": (
         "docs/file-format/README",
-        "docs/edit",
         "docs/drawing",
         "docs/player",
         "docs/command-line",
@@ -93,6 +93,16 @@ def _navigate(app: Sphinx, docname: str, content: list[str]) -> None:
         below = any(p.name != "README.md" for p in (ROOT / path.parent).glob("*.md"))
         folders = [f"{p.parent.name}/README" for p in sorted((ROOT / path.parent).glob("*/README.md"))]
         content[0] += _toctree([*(["[!R]*"] if below else []), *folders], glob=True)
+
+
+#: Folders whose pages are found by their titles alone, so that guides come first in the search: reasons and records.
+BEHIND = ("docs/decisions/", "docs/measured/", "benchmarks/")
+
+
+def _behind(app: Sphinx, doctree: nodes.document) -> None:
+    """Leave the words of reasons and records out of the search; their titles stay in it."""
+    if app.env.docname.startswith(BEHIND):
+        app.env.metadata[app.env.docname]["nosearch"] = ""
 
 
 # -- equations ---------------------------------------------------------------------------------------------------------
@@ -179,6 +189,7 @@ def setup(app: Sphinx) -> None:
     """Connect what is written here."""
     app.connect("build-finished", _play)
     app.connect("source-read", _navigate)
+    app.connect("doctree-read", _behind)
     app.connect("autodoc-before-process-signature", _short_signature)
     app.connect("autodoc-process-signature", _without_fields)
     app.connect("autodoc-process-docstring", _name_settings, priority=400)  # before napoleon reads it
