@@ -31,14 +31,15 @@ _CALLS = lang.FunctionCall, lang.Invoke, lang.Insert
 
 
 def visited(value: object) -> Iterator[Any]:
-    """Yield statements and expressions, without the bodies of called functions."""
-    if isinstance(value, tuple):
-        for each in value:
-            yield from visited(each)
-    elif not isinstance(value, lang.Function) and hasattr(value, "__struct_fields__"):
-        yield value
-        for name in value.__struct_fields__:
-            yield from visited(getattr(value, name))
+    """Yield statements and expressions in their order, without the bodies of called functions."""
+    waiting = [value]
+    while waiting:
+        each = waiting.pop()
+        if isinstance(each, tuple):
+            waiting += reversed(each)
+        elif isinstance(each, msgspec.Struct) and not isinstance(each, lang.Function):
+            yield each
+            waiting += [getattr(each, name) for name in reversed(each.__struct_fields__)]
 
 
 def is_pure(value: object) -> bool:
@@ -46,9 +47,21 @@ def is_pure(value: object) -> bool:
     return not any(isinstance(each, _CALLS) for each in visited(value))
 
 
+#: Functions that were looked through, by identity: their hash would take as long. They stay alive while they are here.
+_ASSIGNED: dict[int, tuple[lang.Function, Counter[str]]] = {}
+_MOST_KEPT = 4096
+
+
 def assigned_names(function: lang.Function) -> Counter[str]:
     """Return how often the statements of a function assign to each variable."""
-    return Counter(s.name for s in visited(function.body) if isinstance(s, lang.Assign | lang.For))
+    kept = _ASSIGNED.get(id(function))
+    if kept is not None and kept[0] is function:
+        return kept[1]
+    found = Counter(s.name for s in visited(function.body) if isinstance(s, lang.Assign | lang.For))
+    if len(_ASSIGNED) >= _MOST_KEPT:
+        _ASSIGNED.clear()
+    _ASSIGNED[id(function)] = function, found
+    return found
 
 
 class Folding:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -43,8 +44,9 @@ SWITCHING, CHANGED = "formulas_of_events", "formulas_of_effects"
 Naming = Callable[[str], str | None]
 
 
+@lru_cache(maxsize=512)
 def source_of(function: Any) -> lang.Function:
-    """Return a function of the runtime, whose callees are functions of their own.
+    """Return a function of the runtime, whose callees are functions of their own; it is read once a process.
 
     Raises
     ------
