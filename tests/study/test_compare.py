@@ -92,7 +92,7 @@ def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     show_study(study)
     text = " ".join(capsys.readouterr().out.split())
     assert "failed +" in text and "+ exceeded a limit of a run" in text and beyond.reason in text
-    notes = [note for table in comparison([study]).sections[-1].parts[0].tables for note in table.notes]
+    notes = [note for table in comparison([study]).sections[0].parts[-1].tables for note in table.notes]
     assert any(note.startswith("+ exceeded a limit of a run") for note in notes)
 
 
@@ -155,7 +155,7 @@ def test_rows_warn_of_what_single_runs_warn_of():
         assert row.warnings == single.warnings
     told = [row for row in study.rows if any("exceeds 0.4 s" in text for text in row.warnings)]
     assert [(row.method, row.step) for row in told] == [("baumgarte", 0.5)] and not study.common_warnings
-    table = comparison([study]).sections[-1].parts[0].tables[0]
+    table = comparison([study]).sections[0].parts[-1].tables[0]
     assert [note for note in table.notes if "exceeds 0.4 s" in note and note.startswith("baumgarte, euler, step 0.5 s")]
 
 

@@ -66,7 +66,7 @@ def test_journals_tables_and_reports(study, journal):
     with Journal(journal) as records:
         again = symgen.compare("four-bar", journal=records, **RUNS)
     assert again.rows == study.rows
-    tables = [table for section in comparison([study], "", [], {}).sections for table in section.tables]
+    tables = [table for part in comparison([study], "", [], {}).sections[0].parts for table in part.tables]
     table = next(table for table in tables if table.caption.startswith("Derivatives by parameters"))
     assert len(table.rows) == len(study.rows)
 
