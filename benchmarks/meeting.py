@@ -139,10 +139,10 @@ def invoked(*arguments: object) -> str:
             code = int(end.code or 0)
     if code == 0:
         return ""
-    said = err.getvalue().strip().splitlines()
-    if not said or code != 2:
+    lines = err.getvalue().strip().splitlines()
+    if not lines or code != 2:
         raise _TracebackError(err.getvalue())
-    return said[-1].removeprefix("symgen: ")
+    return lines[-1].removeprefix("symgen: ")
 
 
 def guarded(call: Callable[[], object]) -> str:
@@ -165,20 +165,20 @@ def _generated(target: str, name: str) -> Place:
 
 
 def _inverse(file: Path, folder: Path) -> str:
-    said = invoked("run", file, "--save", folder / "motion.nc")
-    return said or invoked("inverse", file, "--from", folder / "motion.nc", "--actuators", "spring")
+    refusal = invoked("run", file, "--save", folder / "motion.nc")
+    return refusal or invoked("inverse", file, "--from", folder / "motion.nc", "--actuators", "spring")
 
 
 def _identified(file: Path, folder: Path) -> str:
-    said = invoked("run", file, "--save", folder / "motion.csv", "--output-step", "0.05")
+    refusal = invoked("run", file, "--save", folder / "motion.csv", "--output-step", "0.05")
     free = ("--free", "k", "--quantity", "cart.x")
-    return said or invoked("identify", file, "--data", folder / "motion.csv", *free)
+    return refusal or invoked("identify", file, "--data", folder / "motion.csv", *free)
 
 
 def _live(file: Path, folder: Path) -> str:
-    said, mark = invoked("view", file, "-o", folder / "page.html"), "has no live part: "
-    if said:
-        return said
+    refusal, mark = invoked("view", file, "-o", folder / "page.html"), "has no live part: "
+    if refusal:
+        return refusal
     _, found, rest = (folder / "page.html").read_text(encoding="utf-8").partition(mark)
     why = rest.partition('"')[0]
     return f"a page {mark}{why}" if found else ""
@@ -275,12 +275,12 @@ def page(table: Table) -> str:
         "Methods and integrators that fit together are on [a page of their own](pairs.md).",
     ]
     for group, places in GROUPS.items():
-        said = list(dict.fromkeys(table[f][p] for f in FEATURES for p in places if table[f][p] != "+"))
+        refusals = list(dict.fromkeys(table[f][p] for f in FEATURES for p in places if table[f][p] != "+"))
         lines += ["", f"## {group}", "", f"| | {' | '.join(places)} |", "| --- |" + " --- |" * len(places)]
         for feature in FEATURES:
             cells = (table[feature][p] for p in places)
-            lines.append(f"| {feature} | {' | '.join(c if c == '+' else str(1 + said.index(c)) for c in cells)} |")
-        lines += ["", *(f"{i}. {_shown(sentence)}" for i, sentence in enumerate(said, 1))] if said else []
+            lines.append(f"| {feature} | {' | '.join(c if c == '+' else str(1 + refusals.index(c)) for c in cells)} |")
+        lines += ["", *(f"{i}. {_shown(sentence)}" for i, sentence in enumerate(refusals, 1))] if refusals else []
     done = sum(c == "+" for row in table.values() for c in row.values())
     return "\n".join([*lines, "", f"{done} of {len(FEATURES) * len(PLACES)} cells are done.", ""])
 

@@ -294,9 +294,9 @@ def _with_contacts(
         return efforts, multipliers(np.column_stack([forces, efforts]), [*range(count, first), *free])
 
     missing = np.zeros(len(still.times))
-    forces, pushing, said = contacts.along(mechanism, still, float(still.start.w[abi.LENGTH])).found(solve)
+    forces, pushing, sentences = contacts.along(mechanism, still, float(still.start.w[abi.LENGTH])).forces(solve)
     efforts, lam = solve(forces, pushing)
-    return efforts[:, :count], missing, _solved(still, others[:count], weighed)[2], lam, said
+    return efforts[:, :count], missing, _solved(still, others[:count], weighed)[2], lam, sentences
 
 
 def _motions(

@@ -82,7 +82,7 @@ class Contacts:
         return msgspec.structs.replace(mechanism, forces=(*mechanism.forces, *forces), parameters=whole)
 
     def along(self, mechanism: Mechanism, motion: PrescribedMotion, length: float) -> Along:
-        """Return what a motion says of them."""
+        """Return their reactions and closed stops along a motion."""
         formulas = list[tuple[str, Expr]]()
         for row in self.sliding:
             cosines = (cosine for line in row.across for cosine in line)
@@ -117,7 +117,7 @@ class Reaction:
         """Return the force along the coordinate at each time."""
         parts = [multipliers[:, row] for row in self.rows]
         if self.cosines:
-            parts = [sum(np.multiply(c, x) for c, x in zip(line, parts, strict=True)) for line in self.cosines]  # type: ignore[misc]
+            parts = [np.sum(np.multiply(line, parts), axis=0) for line in self.cosines]
         force: Array = self.factor * np.sqrt(np.sum(np.square(parts), axis=0))
         return force
 
@@ -135,7 +135,7 @@ class Along:
     reactions: tuple[Reaction, ...]
     closed: Flags
 
-    def found(self, solve: Solve) -> tuple[Array, Flags, list[str]]:
+    def forces(self, solve: Solve) -> tuple[Array, Flags, list[str]]:
         """Return forces by reactions, the stops that push, and sentences on both."""
         forces = np.zeros((len(self.closed), len(self.reactions)))
         pushing, apart, count = self.closed.copy(), np.inf, self.closed.shape[1]
@@ -148,16 +148,16 @@ class Along:
             forces, pushing = new, pushing & ~pulling
             if settled:
                 break
-        return forces, pushing, list(self._said(apart, forces))
+        return forces, pushing, self._sentences(apart, forces)
 
-    def _said(self, apart: float, forces: Array) -> list[str]:
-        said = list[str]()
+    def _sentences(self, apart: float, forces: Array) -> list[str]:
+        sentences = list[str]()
         for i, stop in enumerate(self.contacts.stops):
             if times := int(self.closed[:, i].sum()):
-                said.append(
+                sentences.append(
                     f"{stop.name} is closed at {counted(times, 'time')}: efforts are the least with what it can bear"
                 )
         if apart > 1e-9 * float(np.abs(forces).max(initial=0.0)):
             names = ", ".join(row.name for row in self.contacts.sliding)
-            said.append(f"forces by reactions at {names} are not found: they jam, or nearly do")
-        return said
+            sentences.append(f"forces by reactions at {names} are not found: they jam, or nearly do")
+        return sentences

@@ -15,7 +15,7 @@ from symgen.result.reading.sheet import Sheet
 
 
 def joint_equations(mechanism: Mechanism, name: str) -> dict[str, Any]:
-    """Return what a joint demands, row by row, as markup; names in it are escaped.
+    """Return the rows of a joint and their equations, as markup; names in it are escaped.
 
     Raises
     ------
@@ -33,10 +33,10 @@ def joint_equations(mechanism: Mechanism, name: str) -> dict[str, Any]:
     phi, gamma = ({line.key: line for line in lines} for lines in (sheet.phi(rows), sheet.gamma(rows)))
     parts = []
     for row in rows:
-        said = words[row.name]
-        parts.append(f"<p><b>{escape(row.name)}</b>: {escape(said.words)}</p>")
-        if said.vectors and mechanism.space == "spatial":
-            parts.append(f'<p class="vectors">{vector_equation(said.vectors)}</p>')
+        held = words[row.name]
+        parts.append(f"<p><b>{escape(row.name)}</b>: {escape(held.words)}</p>")
+        if held.vectors and mechanism.space == "spatial":
+            parts.append(f'<p class="vectors">{vector_equation(held.vectors)}</p>')
         parts += [equation(phi[row.name], " = 0")] if row.name in phi else []
         parts.append(equation(gamma[row.name]))
     parts.append(equations(sheet.jacobian(name)))

@@ -29,6 +29,11 @@ Place = tuple[str, int]
 Term = tuple[str, Callable[[], str] | None]
 
 
+def _given(text: str) -> Callable[[], str]:
+    """Return a factor whose line is there already."""
+    return lambda: text
+
+
 def module(function: lang.Function, name: str, ends: str, together: bool = True) -> str:
     """Return the text of a module that defines the adjoint of a function.
 
@@ -203,7 +208,7 @@ class AdjointPrinter(TangentPrinter):
             own = self.put(f"extractvalue {kind} {pair}, 1")
             partial = self.put(f"extractelement {self.kind} {own}, i64 0")
             if direction is not None:
-                terms.append((direction, lambda partial=partial: partial))  # type: ignore[misc]
+                terms.append((direction, _given(partial)))
         return value, self.summed(*terms) if terms else None
 
     def summed(self, *terms: tuple[str | None, Callable[[], str] | None]) -> str:

@@ -3,51 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Reading, call, difference, sum_of_terms
-from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
-from symgen.describe.bounded import BoundedRow, Family
-from symgen.describe.bounds.end_stop import STOPS
+from symgen.base.vocabulary.measures import Effort, Exerted
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.end_stop import GapStop
 from symgen.describe.bounds.modes import rate_of
-from symgen.describe.bounds.row import Bounds
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.mechanism import Event, Output
 
 
-class ElasticStop(Bounds, frozen=True):
+class ElasticStop(GapStop, frozen=True):
     """An elastic stop: a force ``stiffness depth - damping gap'`` where the gap is below 0, which never pulls.
 
     Nothing is held: it is a force of the state, without impacts and modes.
 
     Parameters
     ----------
-    name, owner : str
-        As for a rigid stop, see `symgen.describe.bounds.end_stop.EndStop`.
-    measure : Measure
-        The gap is ``measure - value``.
-    value : Expr
-        A number or an expression of parameters.
-    unit : str
-        Unit of the gap.
+    name, owner, measure, value, unit
+        See `symgen.describe.bounds.end_stop.GapStop`.
     stiffness, damping : Expr
         Force over depth [N/m or N m], and over the rate of the gap [N s/m or N m s].
     """
 
-    family: ClassVar[Family] = STOPS
-
-    name: str
-    owner: str
-    measure: Measure
-    value: Expr
-    unit: str
     stiffness: Expr
     damping: Expr = ZERO
-
-    @property
-    def row(self) -> str:
-        """Name of its force."""
-        return f"{self.name}.stop"
 
     @property
     def along(self) -> str:
@@ -58,16 +39,6 @@ class ElasticStop(Bounds, frozen=True):
     def smooth(self) -> bool:
         """A force stands in its place."""
         return True
-
-    @property
-    def where(self) -> str:
-        """Its place, for messages."""
-        return f"stop {self.name}"
-
-    @property
-    def held(self) -> Holonomic:
-        """The gap as a row."""
-        return Holonomic("stop", self.measure, self.value, self.unit)
 
     @property
     def effort(self) -> Effort:
@@ -87,11 +58,6 @@ class ElasticStop(Bounds, frozen=True):
 
     def _damper(self, rate: Expr) -> tuple[Expr, ...]:
         return () if self.damping == ZERO else (call("neg", call("mul", self.damping, rate)),)
-
-    @property
-    def place(self) -> tuple[str, Expr]:
-        """The gap."""
-        return f"gap of {self.name}", difference(rate_of(self, 0), self.value)
 
     @property
     def numbers(self) -> tuple[tuple[str, Expr], ...]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
-from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, call, sum_of_terms
+from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, difference, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
 from symgen.describe.bounded import BoundedRow, Family
 from symgen.describe.bounds.modes import (
@@ -51,8 +51,8 @@ STOPS = Family(
 )
 
 
-class EndStop(Bounds, frozen=True):
-    """A stop: a gap that does not become negative, and a force that only pushes.
+class GapStop(Bounds, frozen=True):
+    """What rigid and elastic stops share: a gap, its names and its row.
 
     Parameters
     ----------
@@ -66,11 +66,8 @@ class EndStop(Bounds, frozen=True):
         A number or an expression of parameters.
     unit : str
         Unit of the gap.
-    restitution : Expr
-        Rate after an impact over that before, with the other sign; from 0 to 1.
     """
 
-    one_sided: ClassVar[bool] = True
     family: ClassVar[Family] = STOPS
 
     name: str
@@ -78,22 +75,11 @@ class EndStop(Bounds, frozen=True):
     measure: Measure
     value: Expr
     unit: str
-    restitution: Expr = ZERO
 
     @property
     def row(self) -> str:
-        """Name of the row that is in force where the stop is closed."""
+        """Name of the row that is in force where the stop is closed; of its force where it gives way."""
         return f"{self.name}.stop"
-
-    @property
-    def along(self) -> str:
-        """The coordinate; empty where a formula is the gap."""
-        return "" if self.name == self.owner else self.name.rpartition(".")[0]
-
-    @property
-    def reversed(self) -> bool:
-        """Whether its measure is the coordinate with the other sign."""
-        return self.name == f"{self.along}.{UPPER}"
 
     @property
     def where(self) -> str:
@@ -106,15 +92,40 @@ class EndStop(Bounds, frozen=True):
         return Holonomic("stop", self.measure, self.value, self.unit)
 
     @property
+    def place(self) -> tuple[str, Expr]:
+        """The gap."""
+        return f"gap of {self.name}", difference(Reading(self.name, self.measure), self.value)
+
+
+class EndStop(GapStop, frozen=True):
+    """A stop: a gap that does not become negative, and a force that only pushes.
+
+    Parameters
+    ----------
+    name, owner, measure, value, unit
+        See `GapStop`.
+    restitution : Expr
+        Rate after an impact over that before, with the other sign; from 0 to 1.
+    """
+
+    one_sided: ClassVar[bool] = True
+
+    restitution: Expr = ZERO
+
+    @property
+    def along(self) -> str:
+        """The coordinate; empty where a formula is the gap."""
+        return "" if self.name == self.owner else self.name.rpartition(".")[0]
+
+    @property
+    def reversed(self) -> bool:
+        """Whether its measure is the coordinate with the other sign."""
+        return self.name == f"{self.along}.{UPPER}"
+
+    @property
     def effort(self) -> Effort:
         """The effort by which transitions probe accelerations: the sign of the row, which is 0 in runs."""
         return Effort("stop", self.measure, number_of(self, "sign"))
-
-    @property
-    def place(self) -> tuple[str, Expr]:
-        """The gap."""
-        measure = rate_of(self, 0)
-        return f"gap of {self.name}", measure if self.value == ZERO else call("sub", measure, self.value)
 
     @property
     def numbers(self) -> tuple[tuple[str, Expr], ...]:

@@ -126,10 +126,6 @@ def of_joint(joint: Joint, order: int) -> Table:
     return table
 
 
-def _labels(joint: Joint) -> list[str]:
-    return [label for label, _ in joint.coordinates]
-
-
 def of_reaction(joint: Joint) -> Table:
     """Return the size of the force on the first body of a joint, and its components where rows are along fixed axes.
 
@@ -317,7 +313,9 @@ class Readings:
         if owner in self._context.joint_names:
             joint = self._context.joint(owner, where)
             table = of_joint(joint, self._order)
-            if any(name.startswith(f"{owner}.") for name in self._losses) and "m" in map(joint.unit, _labels(joint)):
+            if any(name.startswith(f"{owner}.") for name in self._losses) and any(
+                joint.unit(label) == "m" for label, _ in joint.coordinates
+            ):
                 # what a row with bounds exerts along the joint is a part of the reaction that its rows do not have
                 table = {label: entry for label, entry in table.items() if label not in REACTION}
             return table

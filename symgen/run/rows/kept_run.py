@@ -303,7 +303,7 @@ def advance_run(
 
 
 def integrate(*arguments: Any) -> int:
-    """Mark the place of the loop, which `kept_run` inserts."""
+    """Mark the place of the loop, which `kept_run` inserts: it is never called."""
     raise NotImplementedError
 
 

@@ -121,7 +121,7 @@ class PassingSimulation(Simulation):
         return Moment(self._time, state.y.copy(), state.p.copy(), state.w.copy())
 
     def passed(self, passage: Passage) -> None:
-        """Take a passage; the run goes on behind it."""
+        """Take a passage; the run goes on behind it. What is done with it is up to subclasses."""
         raise NotImplementedError
 
     def _pass(self, numbers: Sequence[int], before: Moment, starts: bool = False) -> None:

@@ -116,14 +116,13 @@ def _one(study: Study) -> Section:
     text = tuple(words.sentence(t) for t in title)
     if not study.rows:
         return Section(study.mechanism, (*text, "No row was done before the interruption."))
-    found, (first, *further) = findings_of_rows(study), pictures(study) or (None,)
+    findings, shown = findings_of_rows(study), pictures(study)
     tables = (*_contact_table(study), *_gradient_table(study), *_at_table(study), *_cost_table(study))
     parts = (
-        Section(f"More on {study.mechanism}", (), found[FIRST:], tables, tuple(p for p in further if p is not None)),
+        Section(f"More on {study.mechanism}", (), findings[FIRST:], tables, shown[1:]),
         Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),
     )
-    shown = () if first is None else (first,)
-    return Section(study.mechanism, text, found[:FIRST], (_summary(study),), shown, parts, pictures_first=True)
+    return Section(study.mechanism, text, findings[:FIRST], (_summary(study),), shown[:1], parts, pictures_first=True)
 
 
 def _summary(study: Study) -> DocumentTable:

@@ -1,43 +1,9 @@
 """A cart with a pole in all kinds that make functions of their own: what a target prints of each has to fit into it."""
 
+from benchmarks.meeting import cart
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.validate import validate
 
-_CART = """
-[mechanism]
-name = "cart"
-gravity = [0.0, -9.81]
-[run]
-until = 0.4
-[parameters]
-size = { value = 0.5, unit = "m" }
-k = { value = 30.0, unit = "N/m" }
-[bodies.cart]
-mass = 2.0
-inertia = 0.1
-position = [0.1, 0.0]
-[bodies.pole]
-mass = 1.0
-inertia = %(inertia)s
-points = { pin = ["-size", 0.0], tip = ["size", 0.0] }
-position = ["0.1 + size*sin(0.4)", "-size*cos(0.4)"]
-angle = "0.4 - pi/2"
-[joints.rail]
-type = "translational"
-between = ["ground", "cart"]
-at = [[0.0, 0.0], "centre"]
-axis = [1.0, 0.0]
-angle = 0.0
-[joints.pin]
-type = "revolute"
-between = ["cart", "pole"]
-at = ["centre", "pin"]
-[forces.spring]
-type = "force"
-body = "cart"
-force = ["%(force)s", 0.0]
-%(more)s
-"""
 _TABLE = '[tables.profile]\nx = [-2.0, -1.0, 0.0, 1.0, 2.0]\ny = [-60.0, -30.0, 0.0, 30.0, 65.0]\ninterpolation = "{}"'
 _HOOK = """
 [bodies.hook]
@@ -78,7 +44,8 @@ at = [[0.0, 0.0, 0.0], "end"]
 
 
 def _cart(inertia='"size**2/3"', force="-k*cart.x - cart.vx", more=""):
-    return _CART % {"inertia": inertia, "force": force, "more": more}
+    units = 'size = { value = 0.5, unit = "m" }\nk = { value = 30.0, unit = "N/m" }'
+    return cart(inertia=inertia, force=force, more=more).replace("size = 0.5\nk = 30.0", units)
 
 
 #: Texts of files by what is special in them.

@@ -8,6 +8,7 @@ import pytest
 
 import symgen
 from tests.result.targets.compilers import compiled, written
+from tests.run.single.test_stops import BALL, ROPE
 
 WORDS = ("slip", "stick", "reverse", "hit", "rest", "leave")
 #: A loop around the functions of a model, which prints outputs and transitions.
@@ -37,24 +38,6 @@ int main(int count, char **words) {{
 }}
 """
 HEAD = '[mechanism]\nname = "{}"\ngravity = [0.0, -9.81]\n'
-#: A ball of which ever faster impacts accumulate.
-BALL = (
-    HEAD.format("ball")
-    + """
-[bodies.ball]
-type = "point"
-mass = 2.0
-position = [0.0, 1.0]
-
-[joints.rail]
-type = "rows"
-rows = [{ position = "ball.x" }]
-
-[stops.floor]
-gap = "ball.y"
-restitution = 0.7
-"""
-)
 #: A pendulum between two stops.
 DOOR = (
     HEAD.format("door")
@@ -69,23 +52,6 @@ type = "revolute"
 between = ["ground", "rod"]
 at = [[0.0, 0.0], [-0.5, 0.0]]
 stop = { lower = -2.0, upper = 0.2, restitution = 0.4 }
-"""
-)
-#: A load on a rope of 2 m that becomes slack.
-ROPE = (
-    HEAD.format("rope")
-    + """
-[parameters]
-speed = "sqrt(3.5*9.81*2.0)"
-
-[bodies.load]
-type = "point"
-mass = 1.5
-position = [0.0, -2.0]
-velocity = ["speed", 0.0]
-
-[stops.rope]
-gap = "2.0 - sqrt(load.x**2 + load.y**2)"
 """
 )
 

@@ -1,5 +1,9 @@
 """Stops that move and stops that give way, against closed forms and an event-driven simulation of their own."""
 
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -42,12 +46,17 @@ def slide(stop: str, gravity: float = -10.0, height: float = 0.3, speed: float =
     return symgen.load(validate(parse_toml(text, "slide.toml"), "slide.toml"))
 
 
+def height_above(floor: Callable[[Any], Any], t: float, y: float, v: float, x: Any) -> Any:
+    """Return how far a ball that flies from height y with speed v at t is above a floor at x."""
+    return y + v * (x - t) - 5.0 * (x - t) ** 2 - floor(x)
+
+
 def bounces(until: float) -> tuple[list[float], float, float]:
     """Return the impacts of a ball by gravity on a floor 0.02 sin(20 t) with restitution 0.5, its height and speed."""
     floor, rate = lambda t: 0.02 * np.sin(20.0 * t), lambda t: 0.4 * np.cos(20.0 * t)
     t, y, v, times = 0.0, 0.3, 0.0, []
     while True:
-        gap = lambda x, t=t, y=y, v=v: y + v * (x - t) - 5.0 * (x - t) ** 2 - floor(x)  # noqa: E731  # one parabola
+        gap = partial(height_above, floor, t, y, v)
         grid = np.arange(t + 1e-7, until, 1e-5)
         below = np.flatnonzero(gap(grid) < 0.0)
         if not len(below):
@@ -112,8 +121,13 @@ def contact(k: float, c: float, m: float, v: float) -> tuple[float, float, float
     """
     d = c / (2.0 * m)
     w = np.sqrt(k / m - d**2)
-    x = lambda t: v / w * np.exp(-d * t) * np.sin(w * t)  # noqa: E731
-    rate = lambda t: v * np.exp(-d * t) * (np.cos(w * t) - d / w * np.sin(w * t))  # noqa: E731
+
+    def x(t: Any) -> Any:
+        return v / w * np.exp(-d * t) * np.sin(w * t)
+
+    def rate(t: Any) -> Any:
+        return v * np.exp(-d * t) * (np.cos(w * t) - d / w * np.sin(w * t))
+
     end = brentq(lambda t: k * x(t) + c * rate(t), 0.3 * np.pi / w, 1.2 * np.pi / w, xtol=1e-15)
     times = np.linspace(0.0, end, 200_001)
     return end, float(np.max(k * x(times) + c * rate(times))), float(rate(end))

@@ -31,13 +31,13 @@ function insideOf(answer) {
 // Rows with bounds and their modes at the time that is shown; those that only push have words of their own.
 const SLIDING = ["slides backwards", "at rest", "slides forwards"];
 drawn.push(() => {
-  const said = [];
+  const modes = [];
   for (const g of motion.groups || []) g.names.forEach((name, k) => {
     if (!name.endsWith(".mode")) return;
     const row = name.slice(0, -5), mode = Math.round(columnAt(g.columns[k], motion.t, time));
-    said.push(`${row} ${bounded[row] ? bounded[row][mode] : SLIDING[mode + 1]}`);
+    modes.push(`${row} ${bounded[row] ? bounded[row][mode] : SLIDING[mode + 1]}`);
   });
-  modeLine.textContent = said.join("; ");
+  modeLine.textContent = modes.join("; ");
 });
 
 // The joint that the cursor is in: its equations, asked for where they are shown, and the torque of a motor.
