@@ -8,6 +8,8 @@ import pytest
 
 import symgen
 from tests.result.targets.compilers import compiled, written
+from tests.result.targets.test_fmu import fmu_of, simulated
+from tests.run.single.test_clutches import CLUTCH
 from tests.run.single.test_stops import BALL, ROPE
 
 WORDS = ("slip", "stick", "reverse", "hit", "rest", "leave")
@@ -130,3 +132,14 @@ def test_runs_with_stops_ropes_and_friction(source, until, step, coordinates, tm
     model = loaded(source, tmp_path) if "\n" in source else symgen.load(source)
     program = program_of(model, tmp_path / "c", coordinates=coordinates)
     assert len(assert_same_run(model, program, until, step, coordinates)) > 2
+
+
+@pytest.mark.slow
+def test_a_clutch_locks_in_c_and_in_an_fmu_when_its_closed_form_does(tmp_path):
+    """Torques -2 t and 2 t on 2 and 3 kg m^2: equal speeds of 4 rad/s where t^2 (1/2 + 1/3) = 10."""
+    text = CLUTCH.replace('sliding = "pressure"', 'sliding = "slope*t"') + "[run]\nuntil = 5.0\nstep = 0.002\n"
+    model = loaded(text, tmp_path)
+    ((time, word),) = assert_same_run(model, program_of(model, tmp_path / "c"), 5.0, 0.002)
+    assert (time, word) == (pytest.approx(np.sqrt(12.0), abs=1e-10), "clutch.stick")
+    rows = simulated(fmu_of(model, tmp_path / "clutch.fmu"), "CoSimulation", 5.0, step=0.5, outputs=["load.omega"])
+    assert rows["load.omega"][-1] == pytest.approx(4.0, abs=1e-10)

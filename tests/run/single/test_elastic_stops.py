@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -154,11 +155,11 @@ def test_the_contact_with_an_elastic_stop(damping: float, coordinates: str) -> N
 
 
 @pytest.mark.slow
-def test_an_elastic_stop_in_targets_and_sweeps() -> None:
+def test_an_elastic_stop_in_targets_and_sweeps(tmp_path: Path) -> None:
     """It is a force of the state: no modes, so code of every target has it, and a sweep its largest force."""
     model = slide('stop = { lower = "0.01*t", stiffness = 1000.0, damping = "20*part" }')
     assert model.mechanism.bounded == ()
-    assert model.generate(target="c").files
+    assert model.generate(tmp_path / "slide", target="c").files
     parts = np.array([0.0, 0.5, 1.0])
     sweep = model.sweep(
         {"part": parts}, quantities=["max(rail.lower.force)"], until=0.5, times=np.linspace(0.0, 0.5, 5001), **TIGHT
