@@ -181,12 +181,21 @@ def _names(body: object) -> frozenset[str]:
 
 
 def _only_lengths(body: tuple[lang.Statement, ...]) -> set[str]:
-    """Return the variables that are lengths of parts of arrays and nothing else, with values that call nothing."""
-    values = list(visited(body))
-    sizes = Counter(v.size.name for v in values if isinstance(v, lang.ArrayView) and isinstance(v.size, lang.Variable))
-    reads = Counter(v.name for v in values if isinstance(v, lang.Variable))
+    """Return the variables that are lengths of parts of arrays, or are read by such alone, with values that call nothing.
+
+    In C an address has no length.
+    """
+    values, lengths = list(visited(body)), set[str]()
     called = {v.name for v in values if isinstance(v, lang.Assign) and not is_pure(v.value)}
-    return {name for name, count in sizes.items() if reads[name] == count} - called
+    reads = Counter(v.name for v in values if isinstance(v, lang.Variable))
+    reads.subtract(v.size.name for v in values if isinstance(v, lang.ArrayView) and isinstance(v.size, lang.Variable))
+    waiting = {name for name, count in reads.items() if count == 0} - called
+    while waiting:
+        lengths |= waiting
+        own = [v.value for v in values if isinstance(v, lang.Assign) and v.name in waiting]
+        reads.subtract(v.name for v in visited(tuple(own)) if isinstance(v, lang.Variable))
+        waiting = {name for name, count in reads.items() if count == 0} - called - lengths
+    return lengths
 
 
 def _parts(function: lang.Function) -> list[tuple[lang.Statement, ...]]:
@@ -372,7 +381,7 @@ class _BoundPrinter(CPrinter):
         super().__init__(function, names, written)
         self.bound, self.memory = bound, memory
         self.arrays |= bound.arrays
-        #: Lengths of parts of arrays that nothing else reads: in C an address has no length.
+        #: Variables that are not printed.
         self.lengths = _only_lengths(function.body)
 
     def text(self) -> str:

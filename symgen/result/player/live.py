@@ -27,7 +27,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.rows import kept_run
+from symgen.run.rows import kept_modes
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -172,7 +172,7 @@ def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
         if name not in ("y", "p", "w", "iw") and np.any(array)
     }
     rows = [row.name for row in mechanism.bounded]
-    return {"rows": rows, "words": list(WORDS), "kept": kept_run.OF_LOG, "status": abi.N_STATUS, "initial": initial}
+    return {"rows": rows, "words": list(WORDS), "kept": kept_modes.OF_LOG, "status": abi.N_STATUS, "initial": initial}
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

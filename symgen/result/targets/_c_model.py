@@ -16,7 +16,7 @@ from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render
 from symgen.describe.parts.events import RESET, STOP
-from symgen.result.targets._c_modes import values_of_modes
+from symgen.result.targets._c_runs import check_integrator, values_of_run
 from symgen.result.targets._c_names import defined_names, prefix_of
 from symgen.run.compiling.checked import checked, checked_function
 from symgen.run.compiling.events import DIRECTIONS
@@ -27,7 +27,7 @@ from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
 from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
-from symgen.run.planning.kept_runs import run_with_modes
+from symgen.run.planning.kept_runs import run_with_modes, whole_run
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import Prepared, prepare
 from symgen.run.planning.start_lines import (
@@ -65,10 +65,13 @@ class CModel:
         The target, for messages.
     run : Prepared
         Its code and consistent start.
+    named : bool
+        Whether an integrator was named, whose run is printed as a whole.
     """
 
     target: str
     run: Prepared
+    named: bool = False
 
     @classmethod
     def of(cls, request: Request, target: str) -> CModel:
@@ -77,9 +80,11 @@ class CModel:
         Raises
         ------
         InputError
-            If the code is looped, implicit or too large.
+            If the code is looped, implicit or too large, or the integrator is not one that is printed.
         """
-        model = cls(target, prepare(request.mechanism, request.settings(target), Purpose.STATE))
+        check_integrator(request.integrator)
+        run = prepare(request.mechanism, request.settings(target), Purpose.STATE)
+        model = cls(target, run, request.integrator is not None)
         operations = model.compiled.law.operations.get("rhs", 0)
         if operations > MOST_OPERATIONS:
             expected = f"a right-hand side of at most {MOST_OPERATIONS} operations"
@@ -154,7 +159,10 @@ class CModel:
             "columns": self.columns,
             "outputs": mechanism.outputs,
             "events": mechanism.events,
-            "moded": self.printed_run is not None,
+            "moded": bool(mechanism.bounded),
+            "whole": self.printed_run is not None,
+            "named": self.named,
+            "adaptive": self.run.spec.adaptive,
             "acting": acting,
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
@@ -193,15 +201,15 @@ class CModel:
             "signs": _list(int(x) for x in self.run.tree.signs) if self.run.tree is not None else "",
             "observed": of_bodies.nq + 2 * of_bodies.nv,
             "until": c_number(defaults.until),
-            "step": c_number(defaults.step),
+            "step": c_number((defaults.first_step or 0.0) if self.run.spec.adaptive else defaults.step),
             "every": max(1, round((defaults.output_step or defaults.step) / defaults.step)),
             **self._start(),
-            **(values_of_modes(mechanism, self.printed_run, self._memory, _OWN) if self.printed_run else {}),
+            **(values_of_run(mechanism, self.printed_run, self._memory, _OWN) if self.printed_run else {}),
         }
 
     @property
     def _memory(self) -> dict[str, tuple[lang.Scalar, int]]:
-        """Type and length of each array of the memory; steps of runs with modes have names of their own."""
+        """Type and length of each array of the memory; steps of whole runs have names of their own."""
         memory = dict(self.bound.memory)
         if self.printed_run is not None:
             # compilers follow loops that end after one number once more, and miss the second
@@ -228,8 +236,9 @@ class CModel:
 
     @cached_property
     def printed_run(self) -> PrintedRun | None:
-        """The run, where the mechanism has rows with bounds."""
-        return run_with_modes(self.mechanism, self.run, self.compiled, self.run.start.datum or ())
+        """The run, where an integrator was named or the mechanism has rows with bounds."""
+        printed = whole_run if self.named else run_with_modes
+        return printed(self.mechanism, self.run, self.compiled, self.run.start.datum or ())
 
     @cached_property
     def events(self) -> PrintedEvents:

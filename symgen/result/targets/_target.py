@@ -38,6 +38,10 @@ class Request:
         Code for this mechanism alone, or loops over tables.
     fmi : {2, 3}
         Version of the interface of an FMU.
+    integrator : str or None
+        The integrator of a run that is printed as a whole; None where the target has its own steps.
+    rtol, atol : float or None
+        Tolerances of its adaptive steps; None for those of runs.
     """
 
     mechanism: Mechanism
@@ -47,6 +51,9 @@ class Request:
     coordinates: str = "absolute"
     shape: str = "straight"
     fmi: int = 2
+    integrator: str | None = None
+    rtol: float | None = None
+    atol: float | None = None
 
     def settings(self, target: str) -> Settings:
         """Return the settings of a run by the only method.
@@ -67,10 +74,17 @@ class Request:
             raise InputError(f"--target {target}", "the straight shape", self.shape)
         if self.methods is None or len(self.methods) != 1:
             raise InputError(f"--target {target}", "one method", ", ".join(self.methods or ("all",)))
-        method = self.methods[0]
-        options = {f"method.{key.rpartition('.')[2]}": text for key, text in (self.options or {}).items()}
+        method, integrator = self.methods[0], self.integrator or "rk4"
+        owners = ("integrator", integrator) if self.integrator else ()
+        options = dict[str, str]()
+        for key, text in (self.options or {}).items():
+            owner, _, name = key.rpartition(".")
+            options[f"{'integrator' if owner in owners else 'method'}.{name}"] = text
         coordinates = choose_coordinates(self.mechanism, self.coordinates, "straight").name
-        return Settings(method, integrator="rk4", options=options, shape="straight", coordinates=coordinates)
+        tolerances = {"rtol": self.rtol, "atol": self.atol}
+        return Settings(
+            method, integrator, options=options, shape="straight", coordinates=coordinates, **tolerances
+        )
 
 
 @dataclass(frozen=True)
@@ -85,8 +99,11 @@ class Target:
         Suffix of the mechanism's name in the default path.
     bounded : bool
         Whether its code may have bounded rows, whose modes are those that callers write.
+    runs : bool
+        Whether it can print a whole run by a named integrator.
     """
 
     write: Callable[[Request], Package]
     ending: str = ""
     bounded: bool = False
+    runs: bool = False

@@ -18,4 +18,4 @@ def _write(request: Request) -> Package:
     return Package(request.path, written, compiled.derive_seconds, compiled.emit_seconds, model.notes)
 
 
-KIND = Target(_write, bounded=True)
+KIND = Target(_write, bounded=True, runs=True)

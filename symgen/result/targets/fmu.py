@@ -136,12 +136,12 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
         name = f"output.{output.name}" if output.name in names else output.name
         outputs.append(ModelVariable(name, _OUTPUT + i, "output", unit=output.unit))
     count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
-    if values["moded"]:  # co-simulation alone: no states of an importing tool, and no indicators
+    if values["whole"]:  # co-simulation alone: no states of an importing tool, and no indicators
         count = 0
     what = "independent coordinate or velocity, state or integral"
     states = [ModelVariable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
     rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
-    exchanged = fmi == 3 and not values["moded"]
+    exchanged = fmi == 3 and not values["whole"]
     marks = [*(f"event.{event.name}" for event in mechanism.events), "event.choice_of_states"] if exchanged else []
     indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
     variables = [*parameters, *outputs, *states, *rates, *indicators]
@@ -196,4 +196,4 @@ def _binaries(prefix: str, files: Mapping[str, bytes], fmi: int) -> dict[str, by
     return binaries
 
 
-KIND = Target(_write, ".fmu", bounded=True)
+KIND = Target(_write, ".fmu", bounded=True, runs=True)

@@ -1,8 +1,9 @@
-"""A run with modes bound to one compiled model, for printers of other languages."""
+"""A run bound to one compiled model, for printers of other languages: its loop, events and modes."""
 
 from __future__ import annotations
 
 import functools
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,16 +22,18 @@ from symgen.describe.bounds import modes
 from symgen.describe.parts.events import STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.printed import meanings_of
-from symgen.run.compiling.run_memory import modes_of_runs, new_transitions
+from symgen.run.compiling.run_memory import effects_of_runs, modes_of_runs, new_transitions
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import RowChunk, Span
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.loops.event_loop import notes_at
+from symgen.run.loops.schemes import readable
 from symgen.run.loops.seams import preparing, seams_of
 from symgen.run.loops.searching import deciding
-from symgen.run.rows.kept_run import KeptLoops, KeptModes, KeptOutput, Visible, kept_run
+from symgen.run.rows.kept_modes import KeptModes
+from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import new_state, sizes_of, span_of
@@ -53,7 +56,7 @@ SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
 _NOTES = 8
 #: Name of the search for events inside a step, the same for all models.
 FINDER = "find_events"
-#: Words of transitions, by the numbers of `symgen.run.rows.kept_run`.
+#: Words of transitions, by the numbers of `symgen.run.rows.kept_modes`.
 WORDS = (modes.SLIP, modes.STICK, modes.REVERSE, modes.HIT, modes.REST, modes.LEAVE)
 #: Arrays that never change: of records with these names, and fields of others, by the name of the record.
 _TABLES = frozenset(("layout", "changes", "scheme"))
@@ -61,7 +64,7 @@ _CONSTANT = {
     "choice": frozenset(("angular", "place_of", "pushes", "pressed", "varying")),
     "strikes": frozenset(("events", "losses")),
     "effects": frozenset(("resets",)),
-    "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves")),
+    "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves", "resets")),
     "visible": frozenset(("ends",)),
 }
 #: Beginnings of the names of arrays in the memory; the state, parameters and scratch of the model have their own.
@@ -76,7 +79,7 @@ def _plain(piece: Piece) -> Any:
 
 @dataclass(frozen=True)
 class PrintedRun:
-    """A run with rows with bounds for printers.
+    """A run for printers.
 
     Attributes
     ----------
@@ -86,7 +89,7 @@ class PrintedRun:
         The scheme.
     spec : RunSpec
         Steps and limits.
-    watched : Watched
+    watched : Watched or None
         Switching functions of events and modes.
     datum : sequence of float
         What coordinates are measured from.
@@ -97,40 +100,44 @@ class PrintedRun:
     compiled: CompiledModel
     integrator: Integrator
     spec: RunSpec
-    watched: Watched
+    watched: Watched | None
     datum: Sequence[float] = ()
     seams: tuple[Seam, ...] = ()
 
     @cached_property
     def functions(self) -> dict[str, lang.Function]:
         """Emitted functions that a run has besides a law and its model, by their names in the text."""
-        rows = self._rows
-        sides = {
-            SWITCHING: self.watched.function,
-            ROWS: rows.state.function,
-            ACCELERATIONS: rows.accelerations.function,
-            REACTIONS: None if rows.reactions is None else rows.reactions.function,
-            CHANGED: None if self.watched.effects is None else self.watched.effects.formulas,
-        }
-        functions = {name: checked_function(f, abi.OBSERVE) for name, f in sides.items() if f is not None}
-        functions[FINDER] = checked_function(self._decide, abi.DECIDE)
+        functions = {name: checked_function(f, abi.OBSERVE) for name, f in self._sides.items() if f is not None}
+        if self.watched is not None:
+            functions[FINDER] = checked_function(self._decide, abi.DECIDE)
         law = self.compiled.law_module
         if hasattr(law, "rates"):
             functions["rates"] = checked_function(law.rates, abi.RHS)
         return functions
 
+    @property
+    def _sides(self) -> dict[str, Any]:
+        """Emitted functions of events and rows, None where there are none, by their names in the text."""
+        watched, rows = self.watched, self._rows
+        effects = None if watched is None else watched.effects
+        return {
+            SWITCHING: None if watched is None else watched.function,
+            ROWS: None if rows is None else rows.state.function,
+            ACCELERATIONS: None if rows is None else rows.accelerations.function,
+            REACTIONS: None if rows is None or rows.reactions is None else rows.reactions.function,
+            CHANGED: None if effects is None else effects.formulas,
+        }
+
     def emitted(self, named: Mapping[str, lang.Function]) -> dict[int, lang.Function]:
         """Return emitted functions by their identity; `named` has all that the text has, by name."""
-        law, model, rows, effects = self.compiled.law_module, self.compiled.model, self._rows, self.watched.effects
+        law, model = self.compiled.law_module, self.compiled.model
         places = {
             **dict.fromkeys(("prepareModel", "prepare_model"), model.prepare),  # the latter name is that of C
             **dict.fromkeys(("prepareLaw", "prepare_law"), law.prepare),
             **{"rhs": law.rhs, "accept": law.accept, "confirm": getattr(law, "confirm", None)},
             **{"geometry": model.geometry, "bodies": getattr(model, "bodies", None)},
-            **{"rates": getattr(law, "rates", None), SWITCHING: self.watched.function, ROWS: rows.state.function},
-            **{ACCELERATIONS: rows.accelerations.function, FINDER: self._decide},
-            REACTIONS: None if rows.reactions is None else rows.reactions.function,
-            CHANGED: None if effects is None else effects.formulas,
+            **{"rates": getattr(law, "rates", None), FINDER: self._decide},
+            **self._sides,
         }
         return {id(f): named[name] for name, f in places.items() if f is not None and name in named}
 
@@ -165,56 +172,73 @@ class PrintedRun:
 
     @property
     def _loops(self) -> KeptLoops:
-        loop = self.integrator.loop(self.spec.adaptive)
-        return kept_run(loop, self.watched.effects is not None, bool(self._rows.pressed), bool(self.seams))
+        watched, rows = self.watched, self._rows
+        pressed = rows is not None and bool(rows.pressed)
+        changes = watched is not None and watched.effects is not None
+        traits = Traits(watched is not None, changes, rows is not None, pressed, bool(self.seams))
+        return kept_run(readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits)
 
     @cached_property
     def _decide(self) -> Any:
         return deciding(_NOTES)
 
-    def _hunt(self, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _hunt(self, watched: Watched, hunt: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the data of events with room for few notes, as all are taken before the next step."""
-        watched, width = self.watched, self.compiled.info.ny
+        width = self.compiled.info.ny
         if watched.switches:  # whose points stand behind the notes
             return hunt
         first = notes_at(len(watched.names), width, len(self.compiled.scratch()))
         return hunt[: first + (_NOTES + 2 * len(watched.names)) * (2 + width)].copy()
 
     @property
-    def _rows(self) -> BoundedRows:
-        assert self.watched.bounded is not None, "a run with modes"
-        return self.watched.bounded
+    def _rows(self) -> BoundedRows | None:
+        return None if self.watched is None else self.watched.bounded
 
     @cached_property
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `advance_run` behind its first one; a step and its end are None, as they are passed."""
         compiled, info, watched = self.compiled, self.compiled.info, self.watched
         setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), sizes_of(compiled)
-        sizes, span = sizes._replace(width=info.ny), span_of(self.spec, setup)
-        state: Any = new_state(compiled, sizes, setup.memory, setup.room, self.datum)
-        state = event_state(watched, sizes, state)
-        state = state._replace(passages=np.zeros(abi.N_PASSAGE), hunt=self._hunt(state.hunt))
-        of_rows = modes_of_runs(compiled, watched, self._rows, span, info.ny, len(state.w))
-        kept = KeptModes(*of_rows, new_transitions(len(self._rows.names)))
+        sizes, span, memory = sizes._replace(width=info.ny), span_of(self.spec, setup), setup.memory
+        if self.spec.adaptive:
+            lengths = len(compiled.parameter_array(defaultdict(float), {})), len(compiled.scratch())
+            memory = readable.memory_of(info.ny, setup.scheme, *lengths)
+        state: Any = new_state(compiled, sizes, memory, setup.room, self.datum)
+        state = state._replace(passages=np.zeros(abi.N_PASSAGE))
         rates = rate_functions(compiled.law_module)
-        model: tuple[Any, ...] = (sizes, *setup.functions, watched.function, self._decide, rates[0])
+        model: tuple[Any, ...] = (sizes, *setup.functions)
+        if watched is not None:
+            state = event_state(watched, sizes, state)
+            state = state._replace(hunt=self._hunt(watched, state.hunt))
+            model = *model, watched.function, self._decide, rates[0]
         if self.seams:
             seams = seams_of(compiled, self.spec.adaptive, (self.seams,))
             model = model, seams, self._loops.steps, *preparing(compiled)
         observers = sizes, *rates, compiled.law_module.accept, observe_nothing
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
-        own = sum(
-            action != modes.MODE for action in watched.actions
-        )  # a row keeps no events of modes, which end no run
+        actions = () if watched is None else watched.actions
+        own = sum(action != modes.MODE for action in actions)  # a row keeps no events of modes, which end no run
         events = np.zeros(e.HEAD_OF_EVENTS + e.OF_EVENT * own)
         arrays = integers, nothing, np.zeros(len(state.p)), nothing, nothing, integers, nothing, nothing, events
         room = np.zeros(room_of_choice(info.m, info.nv))
         chunk = RowChunk(*arrays, 0, 0, 0, layout_of(compiled), room)
         outputs = KeptOutput(np.zeros(1), np.zeros(info.ny), np.zeros(abi.N_STATUS + info.kept))
-        ends = np.array([action == STOP for action in watched.actions[:own]], dtype=np.int64)
-        visible = Visible(np.zeros(info.ny), np.zeros(1), np.zeros(4, dtype=np.int64), ends)
+        ends = np.array([action == STOP for action in actions[:own]], dtype=np.int64)
+        clock = np.array([0.0, self.spec.until][: 1 + self.spec.adaptive])
+        visible = Visible(np.zeros(info.ny), clock, np.zeros(4, dtype=np.int64), ends)
         numbers = Span(**{**span._asdict(), "until": None, "step": None, "end": np.inf})
-        return (model, observers, kept), setup.scheme, numbers, chunk, state, outputs, visible
+        of_model = model, observers, *self._further(span, len(state.w))
+        return of_model, setup.scheme, numbers, chunk, state, outputs, visible
+
+    def _further(self, span: Span, nw: int) -> tuple[Any, ...]:
+        """Return what stands behind the functions of a model: rows with bounds, or effects of events."""
+        compiled, watched, rows, width = self.compiled, self.watched, self._rows, self.compiled.info.ny
+        if watched is not None and rows is not None:
+            of_rows = modes_of_runs(compiled, watched, rows, span, width, nw)
+            return (KeptModes(*of_rows, new_transitions(len(rows.names))),)
+        if watched is not None and watched.effects is not None:
+            return (effects_of_runs(compiled, watched, span.end, width, nw),)
+        return ()
 
     # -- names
 

@@ -11,7 +11,7 @@ from symgen.describe.parts.events import RESET
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
 from symgen.run.layout.probe import rate_functions
-from symgen.run.rows.kept_run import OF_LOG, Transitions
+from symgen.run.rows.kept_modes import OF_LOG, Transitions
 from symgen.run.rows.row_events import OfEffects
 from symgen.run.rows.row_modes import OfModes
 from symgen.run.single.bounded_rows import first_step, new_choice

@@ -1,4 +1,4 @@
-"""Runs with modes for printers of other languages: from a prepared run to its loop bound to the model."""
+"""Runs for printers of other languages: from a prepared run to its loop bound to the model."""
 
 from __future__ import annotations
 
@@ -29,8 +29,11 @@ def run_with_modes(
     compiled, datum
         As for a `PrintedRun`.
     """
-    if not mechanism.bounded:
-        return None
-    watched = compile_events(mechanism, compiled, run.plan.events)
-    assert watched is not None, "rows with bounds have events"
+    return whole_run(mechanism, run, compiled, datum) if mechanism.bounded else None
+
+
+def whole_run(mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float]) -> PrintedRun:
+    """Return a run for printers, with its events and seams; parameters as for `run_with_modes`."""
+    rtol = run.spec.rtol if run.spec.adaptive else None
+    watched = compile_events(mechanism, compiled, run.plan.events, rtol)
     return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams)

@@ -1,0 +1,78 @@
+"""Whole runs of a mechanism in C: their integrators, numbers of their memory, and words for what happens in them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.base.errors import InputError
+from symgen.compile.native.c99 import broken_line, c_number
+from symgen.run.compiling.printed_run import WORDS
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.integrators._tableau import Tableau
+from symgen.run.planning.outputs import DEFAULT_OUTPUTS
+from symgen.run.rows import kept_modes, kept_run
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.compiling.printed_run import PrintedRun
+
+
+def check_integrator(name: str | None) -> None:
+    """Refuse an integrator that is not printed: explicit Runge-Kutta schemes are, as they have no matrices.
+
+    Raises
+    ------
+    InputError
+        If it is another one, or none.
+    """
+    if name is not None and type(INTEGRATORS.get(name, "integrator")) is not Tableau:
+        known = [each for each in INTEGRATORS.names if type(INTEGRATORS.get(each, "integrator")) is Tableau]
+        raise InputError(f"integrator '{name}'", f"an explicit Runge-Kutta scheme: {', '.join(known)}", "another one")
+
+
+def values_of_run(
+    mechanism: Mechanism, run: PrintedRun, used: Collection[str], own: Collection[str]
+) -> dict[str, Any]:
+    """Return what templates print of a whole run.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The mechanism.
+    run : PrintedRun
+        Its run.
+    used, own : collection of str
+        Names of the arrays that the printed functions use, and of those that others set.
+    """
+    watched = run.watched
+    return {
+        "bounded": [row.name for row in mechanism.bounded],
+        "words": WORDS,
+        "of_log": kept_modes.OF_LOG,
+        "functions_of_events": 0 if watched is None else len(watched.names) + len(watched.switches),
+        "ending": kept_run.ENDING,
+        "changed": kept_run.CHANGED,
+        "end": kept_run.END_TIME,
+        "integrator": run.integrator.name,
+        "between": _time_between(mechanism),
+        "initial": [
+            {"name": name, "numbers": _cells(name, array)}
+            for name, array in run.memory.items()
+            if name in used and name not in own and np.any(array)
+        ],
+    }
+
+
+def _time_between(mechanism: Mechanism) -> str:
+    """Return the time between two rows of an adaptive run [s]."""
+    every = mechanism.defaults.output_step
+    return f"until/{DEFAULT_OUTPUTS - 1}" if every is None else c_number(every)
+
+
+def _cells(name: str, array: Any) -> str:
+    """Return places and numbers of an array that are not 0."""
+    return broken_line(", ".join(f"{{{i}, {c_number(float(array[i]))}}}" for i in np.flatnonzero(array)))
