@@ -11,6 +11,7 @@ from symgen.compile.native.c99 import broken_line, c_number
 from symgen.run.compiling.printed_run import WORDS
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
+from symgen.run.layout import abi
 from symgen.run.planning.outputs import DEFAULT_OUTPUTS
 from symgen.run.rows import kept_modes, kept_run
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from symgen.describe.mechanism import Mechanism
     from symgen.run.compiling.printed_run import PrintedRun
+    from symgen.run.layout.compiled import CompiledModel
 
 
 def check_integrator(name: str | None) -> None:
@@ -34,9 +36,7 @@ def check_integrator(name: str | None) -> None:
         raise InputError(f"integrator '{name}'", f"an explicit Runge-Kutta scheme: {', '.join(known)}", "another one")
 
 
-def values_of_run(
-    mechanism: Mechanism, run: PrintedRun, used: Collection[str], own: Collection[str]
-) -> dict[str, Any]:
+def values_of_run(mechanism: Mechanism, run: PrintedRun, used: Collection[str], own: Collection[str]) -> dict[str, Any]:
     """Return what templates print of a whole run.
 
     Parameters
@@ -59,12 +59,20 @@ def values_of_run(
         "end": kept_run.END_TIME,
         "integrator": run.integrator.name,
         "between": _time_between(mechanism),
+        "scales": ", ".join(f"{{{first}, {behind}}}" for first, behind in _scales(run.compiled)),
         "initial": [
             {"name": name, "numbers": _cells(name, array)}
             for name, array in run.memory.items()
             if name in used and name not in own and np.any(array)
         ],
     }
+
+
+def _scales(compiled: CompiledModel) -> list[tuple[int, int]]:
+    """Return the first places of scales in the scratch, and those behind them."""
+    alone = ((place, place + 1) for place in (abi.LENGTH, abi.SPEED, abi.MEAN_MASS))
+    sections = (compiled.info.sections[name] for name in ("gauge", "row_weight"))
+    return [*alone, *((first, first + size) for first, size in sections if size)]
 
 
 def _time_between(mechanism: Mechanism) -> str:

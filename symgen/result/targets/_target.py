@@ -82,9 +82,7 @@ class Request:
             options[f"{'integrator' if owner in owners else 'method'}.{name}"] = text
         coordinates = choose_coordinates(self.mechanism, self.coordinates, "straight").name
         tolerances = {"rtol": self.rtol, "atol": self.atol}
-        return Settings(
-            method, integrator, options=options, shape="straight", coordinates=coordinates, **tolerances
-        )
+        return Settings(method, integrator, options=options, shape="straight", coordinates=coordinates, **tolerances)
 
 
 @dataclass(frozen=True)

@@ -26,12 +26,12 @@ if TYPE_CHECKING:
     from symgen.run.loops.run_spec import Seam
 
 #: Numbers of `Seams.head`: the present row, and 1 where steps are adaptive, and where modes are chosen at each change.
-ROW, ADAPTIVE, CHOOSES = range(3)
+ROW, VARYING, CHOOSES = range(3)
 _A, _K = types.float64[::1], types.int64[::1]
 
 
 #: The seams of all rows one after the other; a single run is one row.
-#: - head: `ROW`, `ADAPTIVE` and `CHOOSES`.
+#: - head: `ROW`, `VARYING` and `CHOOSES`.
 #: - rows (shape (rows + 1,)): First seam of each row.
 #: - times: Of seams, in order in each row [s].
 #: - skips (shape (seams,)): 1 for seams behind which a run goes on at the next one, without a step; 2 where rates of
@@ -76,7 +76,7 @@ def part_before(seams: Any, count: int, span: Any, clock: Any, control: Any) -> 
     shorter by that much, and the grid is moved for it.
     """
     to, step, origin = due(seams, count), float(span.step), float(clock[abi.ORIGIN])
-    if seams.head[ADAPTIVE] == 0 and to <= span.until:
+    if seams.head[VARYING] == 0 and to <= span.until:
         ahead = math.floor((to - origin) / step + 0.5)
         before = origin + (ahead - 1.0) * step
         if abs(to - (origin + ahead * step)) <= abi.SAME_TIME * step:
@@ -126,7 +126,7 @@ def is_defined(p: Any) -> bool:
 
 def same(seams: Any, span: Any, t: float) -> float:
     """Return the difference up to which times near a time count as the same [s]."""
-    if seams.head[ADAPTIVE] != 0:
+    if seams.head[VARYING] != 0:
         return abi.RESOLVED_TIME * abs(t)
     return abi.SAME_TIME * float(span.step)
 
