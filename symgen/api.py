@@ -244,6 +244,9 @@ class Model(Analysed, Shown):
         shape: str = "straight",
         target: str = "cpu",
         fmi: int = 2,
+        integrator: str | None = None,
+        rtol: float | None = None,
+        atol: float | None = None,
     ) -> Package:
         """Write the emitted code into a folder: readable modules and a script that simulates the mechanism.
 
@@ -264,6 +267,12 @@ class Model(Analysed, Shown):
             ``fmu``.
         fmi : {2, 3}
             Version of FMI of an FMU.
+        integrator : str, optional
+            Of C and FMUs: the explicit Runge-Kutta scheme of a run that is printed as a whole, with its error control,
+            events and limits, such as ``dop853``; its options are ``integrator.NAME``. By default steps are those of
+            the classical scheme.
+        rtol, atol : float, optional
+            Tolerances of its adaptive steps; by default those of `simulate`.
 
         Returns
         -------
@@ -292,6 +301,7 @@ class Model(Analysed, Shown):
             arguments.one_of("coordinates", coordinates, COORDINATES),
             arguments.one_of("shape", shape, SHAPES[1:]),
             fmi,
+            *kind.check_run(target, integrator, rtol, atol),
         )
         return kind.write(request)
 

@@ -25,6 +25,15 @@ _LISTED = [f"  {name:<12}{_TARGETS.summary(name)}" for name in _TARGETS.names]
 )
 @click.option("--all", "every", is_flag=True, help="Emit all methods that suit the mechanism.")
 @setting_options("options", "coordinates", text={"options": "Such as direct-correction.weight=mass."})
+@setting_options(
+    *("integrator", "rtol", "atol"),
+    text={
+        "integrator": "Of C and FMUs: print a whole run by this scheme, such as dop853, with its error control.",
+        "rtol": "Relative tolerance of its adaptive steps.",
+        "atol": "Absolute tolerance of its adaptive steps.",
+    },
+    otherwise={"integrator": "(steps of the classical scheme)"},
+)
 @click.option(
     "--shape",
     type=click.Choice(["straight", "looped"]),
@@ -48,6 +57,9 @@ def command(
     every: bool,
     options: dict[str, str],
     coordinates: str,
+    integrator: str | None,
+    rtol: float | None,
+    atol: float | None,
     shape: str,
     target: str,
     fmi: str,
@@ -66,7 +78,16 @@ def command(
     mechanism = load(model)
     selection = None if every else methods or "direct-correction"
     package = mechanism.generate(
-        output, selection, options, coordinates=coordinates, shape=shape, target=target, fmi=int(fmi)
+        output,
+        selection,
+        options,
+        coordinates=coordinates,
+        shape=shape,
+        target=target,
+        fmi=int(fmi),
+        integrator=integrator,
+        rtol=rtol,
+        atol=atol,
     )
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in package.files]

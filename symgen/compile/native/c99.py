@@ -181,7 +181,7 @@ def _names(body: object) -> frozenset[str]:
 
 
 def _only_lengths(body: tuple[lang.Statement, ...]) -> set[str]:
-    """Return the variables that are lengths of parts of arrays, or are read by such alone, with values that call nothing.
+    """Return the variables that are lengths of parts of arrays, or that such alone read; their values call nothing.
 
     In C an address has no length.
     """

@@ -16,8 +16,8 @@ from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render
 from symgen.describe.parts.events import RESET, STOP
-from symgen.result.targets._c_runs import check_integrator, values_of_run
 from symgen.result.targets._c_names import defined_names, prefix_of
+from symgen.result.targets._c_runs import check_integrator, values_of_run
 from symgen.run.compiling.checked import checked, checked_function
 from symgen.run.compiling.events import DIRECTIONS
 from symgen.run.compiling.printed import Printed, PrintedEvents

@@ -8,6 +8,7 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.compile.native.c99 import broken_line, c_number
+from symgen.result.targets._c_reasons import values_of_ends
 from symgen.run.compiling.printed_run import WORDS
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
@@ -60,6 +61,7 @@ def values_of_run(mechanism: Mechanism, run: PrintedRun, used: Collection[str], 
         "integrator": run.integrator.name,
         "between": _time_between(mechanism),
         "scales": ", ".join(f"{{{first}, {behind}}}" for first, behind in _scales(run.compiled)),
+        **values_of_ends(run),
         "initial": [
             {"name": name, "numbers": _cells(name, array)}
             for name, array in run.memory.items()

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 
@@ -81,7 +82,7 @@ class Request:
             owner, _, name = key.rpartition(".")
             options[f"{'integrator' if owner in owners else 'method'}.{name}"] = text
         coordinates = choose_coordinates(self.mechanism, self.coordinates, "straight").name
-        tolerances = {"rtol": self.rtol, "atol": self.atol}
+        tolerances: dict[str, Any] = {"rtol": self.rtol, "atol": self.atol}
         return Settings(method, integrator, options=options, shape="straight", coordinates=coordinates, **tolerances)
 
 
@@ -105,3 +106,32 @@ class Target:
     ending: str = ""
     bounded: bool = False
     runs: bool = False
+
+    def check_run(
+        self, target: str, integrator: str | None, rtol: float | None, atol: float | None
+    ) -> tuple[str | None, float | None, float | None]:
+        """Return integrator and tolerances of a whole run, checked.
+
+        Parameters
+        ----------
+        target : str
+            Name of the target, for messages.
+        integrator, rtol, atol
+            As for a `Request`.
+
+        Raises
+        ------
+        InputError
+            If one is given that the target does not take, or of the wrong kind.
+        """
+        given = {"integrator": integrator, "rtol": rtol, "atol": atol}
+        first = next((name for name, value in given.items() if value is not None), None)
+        if first is not None and not self.runs:
+            raise InputError(first, "target 'c' or 'fmu', which print a whole run", f"target '{target}'")
+        if integrator is None:
+            if first is not None:
+                raise InputError(first, "an integrator with it, such as 'dop853'", "none")
+            return None, None, None
+        name = arguments.text("integrator", integrator, "the name of an integrator")
+        relative = None if rtol is None else arguments.number("rtol", rtol, positive=True)
+        return name, relative, None if atol is None else arguments.number("atol", atol, positive=True)

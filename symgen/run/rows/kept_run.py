@@ -257,6 +257,8 @@ def advance_run(
         control[abi.OUTPUTS] = 0
         code = go_on(model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible)
     numbers[END_CODE] = code
+    if code > abi.DONE:
+        take_notes(code, 0, model, chunk, state)
     ended = code != abi.DONE or numbers[ENDING] >= 0
     if ended:
         show(observers[0], state.w, outputs, 0, state.y)

@@ -36,7 +36,7 @@ Progress = Callable[[float], None]
 #: it coarsely or not at all.
 CPU_CLOCK = getattr(time, "thread_time", time.perf_counter) if os.name == "posix" else time.perf_counter
 #: Message for runs without progress.
-_STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
+STIFF = "where the motion is stiff, an implicit integrator (radau5) takes longer steps"
 
 
 def integrate(
@@ -264,7 +264,7 @@ def end_reason(
         more = "at the present rate the rest would take more than" if attempts < spec.max_attempts else "that is all of"
         return (
             f"{sentence}: {attempts} attempts at a step brought it to t = {time:.6g} of {spec.until:g} s, and {more} "
-            f"max_attempts = {spec.max_attempts:g}; {jumping if jumps else _STIFF}"
+            f"max_attempts = {spec.max_attempts:g}; {jumping if jumps else STIFF}"
         )
     if (code == abi.TINY_STEP and jumps) or (code == abi.NEWTON and not spec.adaptive and spec.in_place):
         return f"{sentence}{where}; {jumping}"

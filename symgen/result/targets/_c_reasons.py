@@ -1,0 +1,94 @@
+"""Reasons for the ends of runs in C: the sentences of runs, with formats for their numbers."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from symgen.describe.bounds.advice import JUMPING
+from symgen.describe.bounds.keys import nouns
+from symgen.describe.bounds.modes import MODE
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.rows.kept_run import END_CODE, END_TIME
+from symgen.run.single.run import STIFF
+
+if TYPE_CHECKING:
+    from symgen.run.compiling.printed_run import PrintedRun
+    from symgen.run.loops.run_spec import RunSpec
+
+_AT = " at t = %.6g s"
+
+
+class Reason(NamedTuple):
+    """A reason: the code of an end, a format, and expressions for its numbers."""
+
+    code: int
+    format: str
+    arguments: str
+
+
+def reasons_of(run: PrintedRun) -> list[Reason]:
+    """Return the reasons for which a run may end before its time."""
+    return [Reason(code, c_text(text), numbers) for code, text, numbers in _reasons(run)]
+
+
+def values_of_ends(run: PrintedRun) -> dict[str, Any]:
+    """Return what templates print of the ends of a run."""
+    watched = run.watched
+    names = () if watched is None else watched.names
+    return {
+        "reasons": reasons_of(run),
+        "watched": ", ".join(map(c_text, names)),
+        "gathers": watched is not None and watched.effects is not None,
+        "own_events": sum(action != MODE for action in (() if watched is None else watched.actions)),
+        "codes": {
+            **{"place": END_CODE, "event": e.IMPOSSIBLE_EVENT, "which": e.GATHERING, "accumulation": e.ACCUMULATION},
+            **{"impossible": e.IMPOSSIBLE, "unprepared": abi.UNPREPARED, "gathered": abi.GATHERED},
+        },
+    }
+
+
+def c_text(text: str) -> str:
+    """Return a text as a string of C."""
+    return json.dumps(text).replace("?", "\\?")  # no trigraphs
+
+
+def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
+    """Yield codes, formats and what stands in them."""
+    spec, words = run.spec, {code: text.replace("%", "%%") for code, text in abi.REASONS.items()}
+    jumps = run.watched is not None and run.watched.jumps
+    jumping = f"{JUMPING}; {spec.in_place}".replace("%", "%%")
+    for code in (abi.NOT_FINITE, abi.CORRECTION, abi.VANISHED, abi.UNPREPARED, abi.JUMPED, abi.TURNED):
+        yield code, words[code] + _AT, "t"
+    phi, drift = _numbers(abi.PHI_MEASURE, abi.LENGTH), _numbers(abi.DRIFT_MEASURE, abi.SPEED)
+    yield abi.POSITION, f"{words[abi.POSITION]} (%.3g > {spec.max_violation:g} x %.3g){_AT}", f"{phi}, t"
+    yield abi.VELOCITY, f"{_velocities(spec)} (%.3g > {spec.velocity_limit:g} x %.3g){_AT}", f"{drift}, t"
+    energy = f"(double)model->run_gauges[{abi.ENERGY_SCALE}]"
+    yield abi.ENERGY, f"{words[abi.ENERGY]} ({spec.max_energy_error:g} of %.3g J){_AT}", f"{energy}, t"
+    yield abi.TINY_STEP, f"{words[abi.TINY_STEP]}{_AT}" + (f"; {jumping}" if jumps else ""), "t"
+    if spec.adaptive:
+        attempts = f"(model->run_control[{abi.STEPS}] + model->run_control[{abi.REJECTED}])"
+        rest = "at the present rate the rest would take more than"
+        yield (
+            abi.NO_PROGRESS,
+            f"{words[abi.NO_PROGRESS]}: %d attempts at a step brought it to t = %.6g of %g s, and %s max_attempts = "
+            f"{spec.max_attempts:g}; {jumping if jumps else STIFF}",
+            f"{attempts}, t, (double)model->run_shown[{END_TIME}], "
+            f'{attempts} < {spec.max_attempts!r} ? "{rest}" : "that is all of"',
+        )
+    if run.watched is not None:
+        yield abi.UNDEFINED, f"the condition of the event '%s' is undefined{_AT}", "event, t"
+        reset = "reset: expected velocities that the joints and each other allow, got others"
+        yield e.IMPOSSIBLE, f"event '%s': {reset}{_AT}", "event, t"
+        yield e.NO_MODES, f"{nouns('fact')}: expected modes that are determined, got none{_AT}", "t"
+
+
+def _numbers(*places: int) -> str:
+    return ", ".join(f"(double)w[{place}]" for place in places)
+
+
+def _velocities(spec: RunSpec) -> str:
+    words = abi.REASONS[abi.VELOCITY]
+    return words if spec.max_velocity_violation is None else words.replace("max_violation", "the root of max_violation")
