@@ -205,6 +205,7 @@ class CModel:
             "every": max(1, round((defaults.output_step or defaults.step) / defaults.step)),
             **self._start(),
             **(values_of_run(mechanism, self.printed_run, self._memory, _OWN) if self.printed_run else {}),
+            "bytes": self._bytes,
         }
 
     @property
@@ -217,6 +218,15 @@ class CModel:
             memory["step_first"] = memory["step_middle"] = "float", self.compiled.info.ny
             memory["kept_w"], memory["kept_iw"] = ("float", len(self.run.start.w)), ("int", len(COUNTERS))
         return memory
+
+    @property
+    def _bytes(self) -> int:
+        """Number of bytes of the memory of a mechanism at most, where numbers have 64 bits and integers 32."""
+        info, start = self.compiled.info, self.run.start
+        others = {name: room for name, room in self._memory.items() if name not in _OWN}
+        sizes = [("float", 1 + info.ny + len(start.p) + len(start.w)), ("int", len(COUNTERS)), *others.values()]
+        numbers = sum(8 * size if kind == "float" else 8 * -(-size // 2) for kind, size in sizes)
+        return numbers + 8 * (1 + len(info.parameters) // 8)
 
     @cached_property
     def functions(self) -> dict[str, Function]:
