@@ -23,6 +23,7 @@ from symgen.run.compiling.events import DIRECTIONS
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
+from symgen.run.effects.locking import DEPENDENT, NEARLY_EXACT
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
@@ -273,7 +274,7 @@ class CModel:
             further = ("apply_effects",) if self.events.effects else ()
             printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
         if self.has_driven_rows:
-            printed.add_lock(self.compiled, self.drivers)
+            printed.add_lock(self.compiled, self.drivers, NEARLY_EXACT if self.named else DEPENDENT)
         if self.target == "fmu" and self.compiled.info.m:
             printed.add_jacobian(self.compiled)
         return printed.bound()

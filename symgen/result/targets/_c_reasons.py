@@ -11,6 +11,7 @@ from symgen.describe.bounds.keys import nouns
 from symgen.describe.bounds.modes import MODE
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
+from symgen.run.planning.dead_centre import ENDS
 from symgen.run.rows.kept_run import END_CODE, END_TIME
 from symgen.run.single.run import STIFF
 
@@ -45,6 +46,8 @@ def values_of_ends(run: PrintedRun) -> dict[str, Any]:
         "own_events": sum(action != MODE for action in (() if watched is None else watched.actions)),
         "codes": {
             **{"place": END_CODE, "event": e.IMPOSSIBLE_EVENT, "which": e.GATHERING, "accumulation": e.ACCUMULATION},
+            **{"sine": abi.LAST_SINE, "fall": abi.FALL, "zone": abi.IN_ZONE, "step": abi.STEP},
+            "locking": " || ".join(f"code == {code}" for code in ENDS),
             **{"impossible": e.IMPOSSIBLE, "unprepared": abi.UNPREPARED, "gathered": abi.GATHERED},
         },
     }
@@ -78,7 +81,7 @@ def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
             f"{attempts}, t, (double)model->run_shown[{END_TIME}], "
             f'{attempts} < {spec.max_attempts!r} ? "{rest}" : "that is all of"',
         )
-    if run.watched is not None:
+    if run.watched is not None and run.watched.names:
         yield abi.UNDEFINED, f"the condition of the event '%s' is undefined{_AT}", "event, t"
         reset = "reset: expected velocities that the joints and each other allow, got others"
         yield e.IMPOSSIBLE, f"event '%s': {reset}{_AT}", "event, t"

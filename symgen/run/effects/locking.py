@@ -16,11 +16,14 @@ from symgen.run.layout.start_records import INSTANT, LAYOUT, record_type
 
 _A, _K = types.float64[::1], types.int64[::1]
 
-#: Sine of the angle between rows below which they vanish together, its square where rows depend on each other always,
-#: the share of the largest factor below which a row takes no part, and the number of inverse iterations.
-SINE, DEPENDENT, HOLDS, ROUNDS = 1e-2, 1e-12, 3e-5, 8
-#: Layout, ``geometry``, and 1 for each row of a driver, else 0.
-LOCK_MODEL = types.RecordType((LAYOUT, abi.MEASURE, _K))
+#: Sine of the angle between rows below which they vanish together, the share of the largest factor below which a row
+#: takes no part, and the number of inverse iterations.
+SINE, HOLDS, ROUNDS = 1e-2, 3e-5, 8
+#: Square of that sine where rows depend on each other always: steps that halve up to a dead centre do not come so near
+#: to it, those with error control come nearer.
+DEPENDENT, NEARLY_EXACT = 1e-12, 1e-24
+#: Layout, ``geometry``, 1 for each row of a driver, else 0, and that square.
+LOCK_MODEL = types.RecordType((LAYOUT, abi.MEASURE, _K, types.float64))
 #: Working memory, and what is found.
 #: - numbers, scale, factors, sums: Of the choice of rows; reciprocal lengths of rows, and factors of rows in the
 #:   combination that vanishes, before and after an iteration.
@@ -53,7 +56,7 @@ def find_lock(model: Any, t: float, now: Any, work: Any) -> bool:
     work : LockWork
         Working memory.
     """
-    layout, geometry, driven = model
+    layout, geometry, driven, dependent = model
     m, n, numbers, factors, jumps = layout.m, layout.nv, work.numbers, work.factors, work.jumps
     width, largest, usual, size, locked = n + m, 0.0, 0.0, 0.0, False
     geometry(t, now.y, now.p, now.w)
@@ -63,7 +66,7 @@ def find_lock(model: Any, t: float, now: Any, work: Any) -> bool:
         work.scale[i] = 1.0 / math.sqrt(square) if square > 0.0 else 0.0
         usual = work.scale[i] if work.scale[i] > usual else usual
         factors[i] = 1.0 + i / m
-    farthest(layout, width, m, DEPENDENT, 0, now.w, numbers)
+    farthest(layout, width, m, dependent, 0, now.w, numbers)
     for _ in range(ROUNDS):
         for j in range(n):
             jumps[j] = 0.0

@@ -28,7 +28,7 @@ _HOLDS = 1e-9**0.5
 #: Kind of the joints that drive.
 DRIVER = "driver"
 #: How a run ends that a dead centre may end.
-_ENDS = (abi.NO_PROGRESS, abi.TINY_STEP, abi.CORRECTION)
+ENDS = (abi.NO_PROGRESS, abi.TINY_STEP, abi.CORRECTION)
 
 
 def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
@@ -90,7 +90,7 @@ def dead_centre_at_end(mechanism: Mechanism, outcome: Outcome) -> str:
     sine, fall = float(state.gauges[abi.LAST_SINE]), float(state.gauges[abi.FALL])
     rest = 0.5 * sine / fall if fall > 0.0 else 0.0  # its square falls to 0 in a straight line
     near = state.control[abi.IN_ZONE] == 1 or 0.0 < rest < 2.0 * state.clock[abi.STEP]
-    if outcome.code not in _ENDS or not near or not len(outcome.states):
+    if outcome.code not in ENDS or not near or not len(outcome.states):
         return ""
     compiled = outcome.compiled
     own = compiled is outcome.simulation.compiled
