@@ -160,8 +160,8 @@ def _run(*options: str) -> Place:
     return lambda file, folder: invoked("run", file, *options)
 
 
-def _generated(target: str, name: str) -> Place:
-    return lambda file, folder: invoked("generate", file, "--target", target, "-o", folder / name)
+def _generated(target: str, name: str, *further: str) -> Place:
+    return lambda file, folder: invoked("generate", file, "--target", target, "-o", folder / name, *further)
 
 
 def _inverse(file: Path, folder: Path) -> str:
@@ -242,6 +242,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "modules": _generated("cpu", "cpu"),
         "lanes": _generated("lanes", "lanes"),
         "C": _generated("c", "c"),
+        "C, dop853": _generated("c", "c", "--integrator", "dop853"),
         "FMU": _generated("fmu", "cart.fmu"),
         "JavaScript": _generated("javascript", "js"),
         "live page": _live,
