@@ -30,7 +30,7 @@ BEGIN, END, LENGTH, COMPLETE, HEAD = range(5)
 
 
 def memory_of(width: int, scheme: Any, parameters: int, scratch: int) -> int:
-    """Return the count of numbers that a run keeps: those of the scheme, and of its last step."""
+    """Return the count of numbers that a run keeps: the memory of the scheme, and its last step."""
     return int(HEAD + 2 * (1 + len(scheme.nodes)) * width + parameters + scratch)
 
 
