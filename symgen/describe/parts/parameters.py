@@ -20,7 +20,7 @@ from symgen.describe.parts.sections import InputSection, ParameterSection
 
 
 class Parameters:
-    """The parameters and inputs of a description being read; `limits` are those of parameters that have been read.
+    """The parameters and inputs of a description being read; `limits` grows as they are read.
 
     Parameters
     ----------
