@@ -54,6 +54,7 @@ def test_a_linear_system_has_zeros_for_rounding(name: str) -> None:
     assert system.to_dict()["A"] == system.A.tolist()
 
 
+@pytest.mark.slow
 def test_a_quantity_alone_is_judged_beside_its_motion(capsys: pytest.CaptureFixture[str]) -> None:
     """The ram is guided level and does not turn: its columns are rounding throughout."""
     main(["run", "shaper", "--quantity", "ram"])
