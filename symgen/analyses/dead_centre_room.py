@@ -25,7 +25,7 @@ _POSITIONS = 200
 _WHOLE = 1.0 - 1e-9
 
 
-class Room(NamedTuple):
+class DeadCentreRoom(NamedTuple):
     """The way from an end of a driver's travel to a dead centre.
 
     Attributes
@@ -49,7 +49,7 @@ class Room(NamedTuple):
 
 def room_to_dead_centre(
     mechanism: Mechanism, times: NDArray[np.float64], parameters: Mapping[str, float]
-) -> tuple[Room, ...]:
+) -> tuple[DeadCentreRoom, ...]:
     """Return the rooms beyond both ends of a driver's travel.
 
     There are none where a mechanism has no driver or several of them, where freedom is left, where the driver does
@@ -89,13 +89,13 @@ def _rooms(
     first: float,
     looked: float,
     parameters: Mapping[str, float],
-) -> Iterator[Room]:
+) -> Iterator[DeadCentreRoom]:
     for backward, end in zip((True, False), ends, strict=True):
         value = call("sub" if backward else "add", Number(first), Name("t"))
         times = np.linspace(0.0, end + looked, _POSITIONS)
         motion = driven_motion(_with_value(mechanism, name, value), Settings(parameters=dict(parameters)), times)
         way = motion.passages[-1].t - end if motion.ended and motion.passages else math.nan
-        yield Room(name, row.unit, way, looked, backward)
+        yield DeadCentreRoom(name, row.unit, way, looked, backward)
 
 
 def _with_value(mechanism: Mechanism, name: str, value: Expr) -> Mechanism:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.describe.formulas.evaluate import evaluate
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Limit, Mechanism
+    from symgen.describe.mechanism import Mechanism, OperatingLimit
     from symgen.result.result import Result
 
 
@@ -70,7 +70,7 @@ def _reached(mechanism: Mechanism, result: Result) -> Iterator[ReachedLimit]:
             yield ReachedLimit(limit.name, unit, side, bound, float(values[k]), float(result.t[k]))
 
 
-def _bounds(limit: Limit, parameters: Mapping[str, float]) -> Iterator[tuple[str, float]]:
+def _bounds(limit: OperatingLimit, parameters: Mapping[str, float]) -> Iterator[tuple[str, float]]:
     for side, end in (("smallest", limit.smallest), ("largest", limit.largest)):
         if end is not None:
             yield side, evaluate(end, parameters, f"{limit.name}.{side}")

@@ -30,8 +30,8 @@ from symgen.describe.mechanism import (
     Force,
     Hold,
     Joint,
-    Limit,
     Mechanism,
+    OperatingLimit,
     Output,
     Parameter,
     Rotor,
@@ -56,7 +56,7 @@ from symgen.describe.parts.holds import body_holds, holds_of, joint_holds
 from symgen.describe.parts.kinds import FORCES, JOINTS
 from symgen.describe.parts.limits import limits_of
 from symgen.describe.parts.numbers import read_defaults, read_points
-from symgen.describe.parts.own_units import check_single
+from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
 from symgen.describe.parts.scope import Context, Scope
 from symgen.describe.parts.sections import (
@@ -123,7 +123,7 @@ class _Validator:
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
         self._numbers = FormulaNames("a number or an expression of parameters", {})
-        self._limits: list[Limit] = []  # of parameters and outputs
+        self._limits: list[OperatingLimit] = []  # of parameters and outputs
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -365,7 +365,7 @@ class _Validator:
         scope = self.scope("outputs", name)
         value = scope.of_motion(key, section.value)
         unit = unit_of(section.unit, f"{where}.unit")
-        check_single(scope, value, unit)
+        check_own_unit(scope, value, unit)
         self._limits += limits_of(name, section, unit, self._numbers, where, si=False)
         return Output(name, value, unit.text)
 

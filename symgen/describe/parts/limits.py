@@ -8,11 +8,11 @@ from symgen.base.errors import InputError, quoted
 from symgen.base.units import Unit, read_amount, unit_of
 from symgen.base.vocabulary.expressions import Expr, Number
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.describe.mechanism import Limit
+from symgen.describe.mechanism import OperatingLimit
 from symgen.describe.parts.fields import Scalar
 
 
-class Limited(Protocol):
+class LimitedSection(Protocol):
     """A section with limits."""
 
     @property
@@ -25,8 +25,8 @@ class Limited(Protocol):
 
 
 def limits_of(
-    name: str, section: Limited, unit: Unit, allowed: FormulaNames, where: str, *, si: bool
-) -> tuple[Limit, ...]:
+    name: str, section: LimitedSection, unit: Unit, allowed: FormulaNames, where: str, *, si: bool
+) -> tuple[OperatingLimit, ...]:
     """Return the limits of an entry; none where it has no such key.
 
     Parameters
@@ -53,7 +53,7 @@ def limits_of(
     low, high = ends
     if isinstance(low, Number) and isinstance(high, Number) and low.value > high.value:
         raise InputError(f"{where}.largest", f"at least the smallest, {section.smallest}", str(section.largest))
-    return (Limit(name, low, high),)
+    return (OperatingLimit(name, low, high),)
 
 
 def _end(value: float | str, unit: Unit, allowed: FormulaNames, where: str, si: bool) -> Expr:

@@ -11,7 +11,7 @@ from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import evaluate, evaluation_order
 from symgen.describe.formulas.names import line
 from symgen.describe.formulas.parser import FormulaNames
-from symgen.describe.mechanism import Limit, Parameter
+from symgen.describe.mechanism import OperatingLimit, Parameter
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import Scalar, read_table, read_value
 from symgen.describe.parts.limits import limits_of
@@ -40,7 +40,7 @@ class Parameters:
         self.source, self.errors, self.sections = source, errors, sections
         elsewhere = frozenset(("t", *sections["inputs"], *tables))
         plain = {name: name for name in sections["parameters"]}
-        self.limits = list[Limit]()
+        self.limits = list[OperatingLimit]()
         self.names = FormulaNames("a number or an expression of parameters", plain, elsewhere=elsewhere)
 
     def where(self, section: str, name: str) -> str:
