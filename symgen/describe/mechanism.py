@@ -403,6 +403,8 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
     bounded: tuple[BoundedRow, ...] = ()  # their rows stand behind those of joints; one-sided ones are last
     limits: tuple[OperatingLimit, ...] = ()  # of outputs and parameters: nothing is computed with them
+    author: str = ""  # as is the title, for people
+    revision: str = ""
 
     def __repr__(self) -> str:
         counted = (

@@ -36,7 +36,8 @@ class MechanismBuilder:
     name : str
         Lower-case words joined by dashes.
     **keys
-        Further keys of ``[mechanism]``: ``title``, ``source``, ``space``, ``gravity``, ``shape``.
+        Further keys of ``[mechanism]``: ``title``, ``source``, ``author``, ``revision``, ``space``, ``gravity``,
+        ``shape``.
 
     Examples
     --------

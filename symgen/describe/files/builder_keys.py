@@ -16,6 +16,8 @@ class MechanismKeys(TypedDict, total=False):
 
     title: str
     source: str
+    author: str
+    revision: str
     space: Literal["planar", "spatial"]
     gravity: Vector
     shape: Mapping[str, Any] | Iterable[Mapping[str, Any]]

@@ -222,6 +222,8 @@ class _Validator:
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=events,
             limits=tuple(self._limits),
+            author=line(head.author),
+            revision=line(head.revision),
         )
         with self.errors.apart():
             mechanism = with_smooth(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])

@@ -31,6 +31,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         Lower-case words joined by dashes.
     title, source : str
         One line for people; where the data come from.
+    author, revision : str
+        Who is responsible for the file, and its revision, for reports.
     space : str
         ``"planar"`` or ``"spatial"``.
     gravity : vector
@@ -42,6 +44,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     name: Text
     title: Text = ""
     source: Text = ""
+    author: Text = ""
+    revision: Text = ""
     space: Literal["planar", "spatial"] = "planar"
     gravity: Vector | None = None
     shape: ShapeSection | tuple[ShapeSection, ...] | None = None

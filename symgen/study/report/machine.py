@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import date
 from functools import partial
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import numpy as np
 
@@ -36,7 +38,7 @@ LOADS = {"N m": "Torques and moments", "N": "Forces", "W": "Powers"}
 _RATE = ".rate"
 
 
-def machine(model: Model, result: Result, command: str = "", over: str = "t") -> Document:
+def machine(model: Model, result: Result, command: str = "", over: str = "t", page: str = "") -> Document:
     """Return the report of a machine.
 
     Parameters
@@ -49,6 +51,8 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
         The command that makes the report again.
     over : str
         Column along the horizontal axis of curves, such as ``crank.theta``.
+    page : str, optional
+        Name of the file beside the report that plays the motion.
 
     Raises
     ------
@@ -57,6 +61,7 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
     """
     along = result.along(over)
     facts = [
+        *_origin(model),
         *lines(result),
         *((f"parameter {name}", _amount(model, name, value)) for name, value in result.parameters.items()),
         ("versions", version_list()),
@@ -72,7 +77,14 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
         _at_rest(model, result),
     ]
     title = model.mechanism.title or model.name
-    return Document(title, (_lead(result),), tuple(facts), command, tuple(sections))
+    return Document(title, (_lead(result),), tuple(facts), command, tuple(sections), quote(page))
+
+
+def _origin(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield who answers for the file, its revision, and the day of the report."""
+    own = {"author": model.mechanism.author, "revision": model.mechanism.revision}
+    yield from ((label, text) for label, text in own.items() if text)
+    yield "date", date.today().isoformat()
 
 
 def _amount(model: Model, name: str, value: float) -> str:
