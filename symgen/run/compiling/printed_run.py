@@ -36,7 +36,7 @@ from symgen.run.rows.kept_modes import KeptModes
 from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
-from symgen.run.single.new_state import new_state, sizes_of, span_of
+from symgen.run.single.new_state import model_sizes, new_state, span_of
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
@@ -198,7 +198,7 @@ class PrintedRun:
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `advance_run` behind its first one; a step and its end are None, as they are passed."""
         compiled, info, watched = self.compiled, self.compiled.info, self.watched
-        setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), sizes_of(compiled)
+        setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), model_sizes(compiled)
         sizes, span, memory = sizes._replace(width=info.ny), span_of(self.spec, setup), setup.memory
         if self.spec.adaptive:
             lengths = len(compiled.parameter_array(defaultdict(float), {})), len(compiled.scratch())
