@@ -144,12 +144,13 @@ class StepReadings:
         """Return the derivatives of the last step, with its scheme, constraints and corrections: A, B and C.
 
         They are of the last call of `step`, or of its last part where Ctrl-C was listened for in between; `t` and `dt`
-        of the result say which.
+        of the result say which. Impacts and changes of modes inside move with the state and the inputs; a coordinate
+        at rest is held where the state has it.
 
         Raises
         ------
         InputError
-            If no step was made, inputs jumped during it, or the scheme, the shape of the code or an event has none.
+            If no step was made, inputs jumped during it, or the scheme, the shape of the code or a formula has none.
         """
         from symgen.result.stepping.derivatives import StepDirections
 
