@@ -6,11 +6,10 @@ have directions behind the state, implicit ones the equations of their stages (`
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,16 +17,17 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.result.sensitivities import SCHEMES
+from symgen.result.stepping.horizon import Horizon
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout.scheme_records import Stages
-from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.run.single.simulation import Simulation
+from symgen.run.single.directed_model import DirectedModel, Seeds, few_passes
 from symgen.run.single.step_directions import StepsAgain
+from symgen.run.single.steps_ahead import DirectedRun, StepsAhead
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
-    from symgen.run.starts.assembly import Start
+    from symgen.run.single.simulation import Simulation
 
 Array = NDArray[np.float64]
 WHERE = "derivatives"
@@ -36,10 +36,11 @@ ONE_STEP = tuple(name for name in SCHEMES if not name.startswith("abm"))
 IMPLICIT = "radau5", "sdirk", "trapezoidal"
 #: Part of the state by which the step with directions may differ, as rounding makes it.
 SAME = 1e-9
+_NO_DOUBTS: tuple[str, ...] = ()
+_TIME, _STEPS = abi.TIME, abi.STEPS  # looked up at every step
 
 
-@dataclass(frozen=True)
-class StepDerivatives:
+class StepDerivatives(NamedTuple):
     """How the state after a step depends on the state before and on inputs, and outputs on the state after it.
 
     The tuples ``states``, ``inputs`` and ``outputs`` hold the names of rows and columns.
@@ -94,31 +95,22 @@ class StepDirections:
 
     def __init__(self, prepared: Prepared, loop: Simulation) -> None:
         _check(prepared, loop)
-        self._prepared, self._loop, compiled = prepared, loop, prepared.compiled
-        info = compiled.info
-        self._places = np.array([*range(info.work), *range(info.ny)[info.own_states]])
-        quantities = (*info.coordinates, *info.velocities, *info.states)
-        self._states = tuple(q.name for q in quantities)
+        self._prepared, self._loop, info = prepared, loop, prepared.compiled.info
+        self._places = [*range(info.work), *range(info.ny)[info.own_states]]
+        self.states = tuple(q.name for q in (*info.coordinates, *info.velocities, *info.states))
         names = [q.name for q in info.parameters]
         hidden = {name for name, words in prepared.plan.inputs.words.items() if isinstance(words, str)}
-        self._inputs = tuple(name for name in info.inputs if name not in hidden)
-        count = self._count = len(self._places) + len(self._inputs)
-        self._model = DirectedModel(compiled, lanes_of(count))
-        y, p = np.zeros((self._model.sizes["y"], count)), np.zeros((self._model.sizes["p"], count))
-        y[self._places, range(len(self._places))] = 1.0
-        for k, name in enumerate(self._inputs, len(self._places)):
-            p[names.index(name), k] = 1.0
+        self.inputs = tuple(name for name in info.inputs if name not in hidden)
+        self.input_places = [names.index(name) for name in self.inputs]
+        self._n, count = len(self._places), len(self._places) + len(self.inputs)
+        self._model = DirectedModel(prepared.compiled, few_passes(count))
+        y, p = (np.zeros((self._model.sizes[name], count)) for name in "yp")
+        y[self._places, range(self._n)] = 1.0
+        p[self.input_places, range(self._n, count)] = 1.0
         self._seeds = Seeds(y, p)
-        self._parts = [self._seeds.part(first, self._model.lanes) for first in range(0, count, self._model.lanes)]
-        self._known = dict[int, tuple[bytes, Array, Array]]()
-
-    @cached_property
-    def _longer(self) -> Start:
-        """The start of the run with room for directions."""
-        model, start = self._model, self._prepared.start
-        return replace(
-            start, y=model.longer(start.y, "y"), p=model.longer(start.p, "p"), w=model.longer(start.w, "w"), saved=None
-        )
+        self._clock, self._control = memoryview(loop.state.clock), memoryview(loop.state.control)
+        self._began = _counts(self._before)
+        self._ahead = dict[int, StepsAhead]()
 
     @cached_property
     def _before(self) -> Mapping[str, NDArray[Any]]:
@@ -144,38 +136,46 @@ class StepDirections:
         InputError
             If no step was made, inputs jumped during it, or it cannot be made again.
         """
-        first = self._loop.snapshot.first
-        before, now = self._before if first is None else self._views(first), self._loop.state
-        t, until = float(before["clock"][abi.TIME]), float(now.clock[abi.TIME])
-        if not until > t or before["control"][abi.STEPS] >= now.control[abi.STEPS]:
+        loop, (clock, control), until = self._loop, self._began, self._clock[_TIME]
+        first, doubts = loop.snapshot.first, _NO_DOUBTS
+        if first is not None:
+            before = self._views(first)
+            clock, control = _counts(before)
+        t = clock[_TIME]
+        if not until > t or control[_STEPS] >= self._control[_STEPS]:
             raise InputError(WHERE, "a step before", "none")
-        if any(t < seam.t < until for seam in self._loop.spec.seams):
-            raise InputError(WHERE, "a step during which inputs are held", "one in which they jump")
-        n, count = len(self._places), self._count
-        again, doubts = self._again, tuple[str, ...]()
-        if again is None:
-            after = self._straight(until)
+        if loop.spec.seams:
+            self._refuse_jumps(t, until)
+        outputs, left_out, taken = self.outputs
+        if self.is_straight:
+            a, b, c = self._straight(until)
         else:
-            after, doubts = self._passing(again, before, until), tuple(dict.fromkeys(again.transfer.doubts))
-        outputs, left_out, c = self._outputs
-        a, b = after[:, :n], after[:, n:count]
-        return StepDerivatives(a, b, c(), self._states, self._inputs, outputs, left_out, t, until - t, doubts)
+            again = self._again
+            again.span = loop.span
+            self._compare(again.made_again(self._before if first is None else before, until), again.state.y)
+            after, n = again.slopes[self._places], self._n
+            a, b, c = after[:, :n], after[:, n:], self._outputs_at_state()[taken, :n]
+            doubts = tuple(dict.fromkeys(again.transfer.doubts))
+        return StepDerivatives(a, b, c, self.states, self.inputs, outputs, left_out, t, until - t, doubts)
+
+    def _refuse_jumps(self, t: float, until: float) -> None:
+        for seam in self._loop.spec.seams:
+            if t < seam.t < until:
+                raise InputError(WHERE, "a step during which inputs are held", "one in which they jump")
+
+    @cached_property
+    def is_straight(self) -> bool:
+        """Whether one compiled call makes steps with their derivatives: explicit schemes without events do."""
+        return self._loop.spec.events is None and not isinstance(self._loop.scheme, Stages)
 
     # -- steps with events, and of implicit schemes --------------------------------------------------------------------
 
     @cached_property
-    def _again(self) -> StepsAgain | None:
-        """What makes steps with events, and of implicit schemes, again; None for explicit schemes without events."""
+    def _again(self) -> StepsAgain:
+        """What makes the last step again."""
         loop, ready = self._loop, self._prepared
-        if loop.spec.events is None and not isinstance(loop.scheme, Stages):
-            return None
-        return StepsAgain(ready.compiled, ready.plan.integrator, ready.start, replace(loop.spec, seams=()), self._seeds)
-
-    def _passing(self, again: StepsAgain, before: Mapping[str, NDArray[Any]], until: float) -> Array:
-        """Return directions of the states behind the last piece."""
-        again.span = self._loop.span
-        self._compare(again.made_again(before, until), again.state.y)
-        return np.asarray(again.slopes[self._places])
+        spec = replace(loop.spec, seams=())
+        return StepsAgain(ready.compiled, ready.plan.integrator, ready.start, spec, self._seeds)
 
     def _compare(self, ended: bool, y: Array) -> None:
         """Refuse steps that are others than those of the run."""
@@ -187,104 +187,119 @@ class StepDirections:
     # -- explicit schemes without events -------------------------------------------------------------------------------
 
     @cached_property
-    def _simulation(self) -> Simulation:
-        loop = self._loop
-        return Simulation(self._model.whole, self._prepared.plan.integrator, self._longer, replace(loop.spec, seams=()))
+    def _directed(self) -> DirectedRun:
+        loop, ready, side = self._loop, self._prepared, self._side
+        function, count = (None, 0) if side is None else (side.function, len(ready.mechanism.outputs))
+        spec, integrator = replace(loop.spec, seams=()), ready.plan.integrator
+        of_inputs = self.input_places
+        return DirectedRun(
+            self._model, integrator, ready.start, spec, self._seeds, self._places, of_inputs, function, count
+        )
 
     @cached_property
-    def _into(self) -> tuple[tuple[Array, Array], ...]:
-        """Pairs of arrays, each of the run with directions and from before the step."""
-        state, sizes, before = self._simulation.state, self._model.sizes, self._before
-        return tuple((getattr(state, name)[: sizes[name]], before[name][: sizes[name]]) for name in ("y", "w"))
+    def _one(self) -> StepsAhead:
+        return StepsAhead(self._directed, self._before, end=self._loop.state.y, same=SAME)
 
     @cached_property
-    def _directions(self) -> tuple[Array, Array, Array]:
-        """Directions behind y and w in the run with directions, and the first ones as a matrix."""
-        model, state = self._model, self._simulation.state
-        y, w = model.sizes["y"], model.sizes["w"]
-        return state.y[y : y * (1 + model.lanes)], state.w[w:], model.shadow(state.y, "y")
+    def _results(self) -> tuple[Array, Array, Array | None]:
+        """Where the call leaves A, B, and C with all outputs."""
+        one, n = self._one, self._n
+        slopes, taken = one.slopes[0], self.outputs[2]
+        return slopes[:, :n], slopes[:, n : n + len(self.inputs)], one.by_outputs[0][:, :n] if taken else None
 
-    def _straight(self, until: float) -> Array:
-        """Return directions of the states behind the last piece."""
-        lanes = self._model.lanes
-        after = np.empty((len(self._places), lanes * len(self._parts)))
-        for k in range(len(self._parts)):
-            after[:, k * lanes : (k + 1) * lanes] = self._after(k, until)[self._places]
-        return after
+    def _straight(self, until: float) -> tuple[Array, Array, Array]:
+        """Return A, B and C of the last piece."""
+        one = self._one
+        if self._loop.spec.adaptive:
+            self._directed.rescale(self._before)
+        if one.made(self._loop.span, until) != abi.DONE:
+            raise InputError(WHERE, "a step that is the same once more", "another one")
+        (a, b, c), (_, left_out, taken) = self._results, self.outputs
+        if c is None:
+            return a.copy(), b.copy(), self._no_outputs
+        return a.copy(), b.copy(), c[taken] if left_out else c.copy()
 
-    def _after(self, k: int, until: float) -> Array:
-        """Make the step with some directions; return them behind it, shape (ny, L)."""
-        simulation, (y, w, slopes) = self._simulation, self._directions
-        state = simulation.state
-        state.p[:], w[:] = self._numbers(k, self._before["p"])
-        y[:] = self._parts[k].y.ravel()
-        for there, before in self._into:
-            there[:] = before
-        simulation.span = self._loop.span
-        self._count_from(simulation)
-        self._compare(simulation.go(until, math.inf) == abi.DONE, state.y)
-        return slopes
+    @cached_property
+    def _no_outputs(self) -> Array:
+        return np.zeros((0, self._n))
 
-    def _count_from(self, simulation: Simulation) -> None:
-        """Give the run with directions the counts before the step; what its scheme keeps of past rates is made anew.
+    def straight_ahead(self, values: Array, dt: float) -> Horizon | None:
+        """Return steps from the present state in one compiled call; None where that cannot make them.
 
-        Beginning anew leaves the next step of adaptive runs as it is.
+        Parameters
+        ----------
+        values : Array, shape (N, m)
+            Inputs that are held in each.
+        dt : float
+            Their length [s].
         """
-        state, before = simulation.state, self._before
-        for name in ("iw", "clock", "gauges", "control"):
-            getattr(state, name)[:] = before[name]
-        if state.control[abi.BEGUN] != 1:
-            return
-        state.control[abi.BEGUN] = abi.AFRESH
-        if not simulation.spec.adaptive:
-            return
-        long, short = len(state.y), len(before["y"])
-        for name in ("share", "metric", "scales"):
-            array, own = getattr(state, name), before[name]
-            array[:short], array[long : long + short] = own[:short], own[short:]
-        simulation.span = simulation.span._replace(step=float(before["clock"][abi.NEXT]))
-        simulation.go(math.inf, float(state.control[abi.STEPS]))
-        state.clock[:] = before["clock"]
-        kept = [abi.REFUSED, abi.BARRED]
-        state.control[kept] = before["control"][kept]
+        loop, steps = self._loop, len(values)
+        span, now = loop.span, self._clock[_TIME]
+        ends = now + dt * np.arange(steps + 1.0)
+        if not self.is_straight or loop.spec.adaptive or any(now < seam.t < ends[-1] + dt for seam in loop.spec.seams):
+            return None
+        own, directed = self._copies, self._directed
+        for name, array in own.items():
+            array[:] = getattr(loop.state, name)
+        if self._prepared.plan.settings.step is None and span.step != dt:  # each call is a step
+            span = span._replace(step=dt)
+            own["clock"][abi.ORIGIN], own["control"][abi.INDEX], own["control"][abi.BEGUN] = now, 0, abi.AFRESH
+        if steps not in self._ahead:
+            self._ahead = {steps: StepsAhead(directed, own, steps)}
+        ahead = self._ahead[steps]
+        ahead.values[:] = values
+        if ahead.made(span, now + dt, dt) != abi.DONE:
+            return None
+        n, (outputs, _, taken) = self._n, self.outputs
+        a, b = ahead.slopes[:, :, :n].copy(), ahead.slopes[:, :, n : n + len(self.inputs)].copy()
+        c = ahead.by_outputs[:, taken, :n]
+        return Horizon(np.vstack([self.state(), ahead.states]), a, b, c, ends, self.states, self.inputs, outputs)
 
-    def _numbers(self, k: int, p: Array) -> tuple[Array, Array]:
-        """Return parameters with directions, and the directions of scratch that follow them, kept while they stay."""
-        known = self._known.get(k)
-        numbers = p.tobytes()
-        if known is None or known[0] != numbers:
-            model = self._model
-            longer = model.parameters(p, self._parts[k].p)
-            w = model.scratch(longer, self._loop.state.w)
-            known = self._known[k] = numbers, longer, w[model.sizes["w"] :]
-        return known[1], known[2]
+    def state(self) -> Array:
+        """Return the present states."""
+        return np.asarray(self._loop.state.y[self._places])
+
+    @cached_property
+    def _copies(self) -> dict[str, NDArray[Any]]:
+        """Arrays of a state from which steps ahead begin."""
+        return {name: array.copy() for name, array in self._before.items()}
 
     # -- outputs -------------------------------------------------------------------------------------------------------
 
     @cached_property
-    def _outputs(self) -> tuple[tuple[str, ...], tuple[str, ...], Any]:
-        """Names of outputs with derivatives, of others, and what computes them at the present state."""
-        mechanism, compiled = self._prepared.mechanism, self._prepared.compiled
+    def _side(self) -> Any:
+        mechanism = self._prepared.mechanism
         formulas = [(output.name, output.value) for output in mechanism.outputs]
-        if not formulas:
-            return (), (), lambda: np.zeros((0, len(self._places)))
-        side = compile_side(mechanism, compiled, "outputs", "Outputs", formulas)
-        taken = [i for i in range(len(formulas)) if i not in side.of_forces]
-        model, count = self._model, len(formulas)
-        call = model.function(side.function, count).caller(abi.OBSERVE.signature.arguments)
+        return compile_side(mechanism, self._prepared.compiled, "outputs", "Outputs", formulas) if formulas else None
 
-        def slopes() -> Array:
-            now, parts = self._loop.state, list[Array]()
-            for seeds in self._parts:
-                y, p, w = model.longer(now.y, "y", seeds.y), model.longer(now.p, "p"), model.longer(now.w, "w")
-                out = np.zeros(count * (1 + model.lanes))
-                call(float(now.clock[abi.TIME]), y, p, w, np.zeros_like(y), out)
-                parts.append(out[count:].reshape(count, model.lanes))
-            return np.concatenate(parts, axis=1)[taken, : len(self._places)]
+    @cached_property
+    def outputs(self) -> tuple[tuple[str, ...], tuple[str, ...], list[int]]:
+        """Names of outputs with derivatives and of others, and the places of the former."""
+        names = [output.name for output in self._prepared.mechanism.outputs]
+        of_forces = () if self._side is None else self._side.of_forces
+        taken = [i for i in range(len(names)) if i not in of_forces]
+        return tuple(names[i] for i in taken), tuple(name for i, name in enumerate(names) if i in of_forces), taken
 
-        names = [name for name, _ in formulas]
-        others = tuple(name for i, name in enumerate(names) if i not in taken)
-        return tuple(names[i] for i in taken), others, slopes
+    def _outputs_at_state(self) -> Array:
+        """Return the directions of all outputs at the present state."""
+        model, now, count = self._model, self._loop.state, len(self._prepared.mechanism.outputs)
+        if self._side is None:
+            return np.zeros((0, self._seeds.count))
+        call = model.function(self._side.function, count).caller(abi.OBSERVE.signature.arguments)
+        parts = list[Array]()
+        for first in range(0, self._seeds.count, model.lanes):
+            seeds = self._seeds.part(first, model.lanes)
+            y, p, w = model.longer(now.y, "y", seeds.y), model.longer(now.p, "p"), model.longer(now.w, "w")
+            out = np.zeros(count * (1 + model.lanes))
+            call(float(now.clock[abi.TIME]), y, p, w, np.zeros_like(y), out)
+            parts.append(out[count:].reshape(count, model.lanes))
+        return np.concatenate(parts, axis=1)
+
+
+def _counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:
+    """Return clock and control of a state, which are read faster this way."""
+    clock, control = (memoryview(before[name]) for name in ("clock", "control"))  # type: ignore[arg-type]  # arrays are
+    return clock, control
 
 
 def _check(prepared: Prepared, loop: Simulation) -> None:

@@ -152,12 +152,15 @@ class StepReadings:
         InputError
             If no step was made, inputs jumped during it, or the scheme, the shape of the code or a formula has none.
         """
+        self._advance.recover()
+        return (self._directions or self._make_directions()).last()
+
+    def _make_directions(self) -> StepDirections:
+        """Make what has derivatives of steps; its import would take longer than many of its calls."""
         from symgen.result.stepping.derivatives import StepDirections
 
-        self._advance.recover()
-        if self._directions is None:
-            self._directions = StepDirections(self._prepared, self._loop)
-        return self._directions.last()
+        self._directions = StepDirections(self._prepared, self._loop)
+        return self._directions
 
     @property
     def _prepared(self) -> Prepared:

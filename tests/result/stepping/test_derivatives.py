@@ -211,6 +211,7 @@ def test_an_implicit_step_has_its_derivatives():
     compare(found, after, np.eye(4), {"push": 0.3}, 3e-3, 1e-11)
 
 
+@pytest.mark.slow
 def test_an_adaptive_run_has_derivatives_of_its_steps():
     run = cart().start(coordinates="joint", integrator="dop853", rtol=1e-12, atol=1e-12)
     run.step(0.1)
@@ -232,6 +233,48 @@ def test_a_linear_prediction_of_a_control_holds():
     run.restore(saved)
     run.step(1e-2, {"push": 0.3 + 1e-5})
     assert np.abs(np.array(run.state) - there - found.B[:, 0] * 1e-5).max() < 1e-12
+
+
+HORIZONS = {
+    "one call": (cart, {"coordinates": "joint", "integrator": "rk4", "step": 5e-3}),
+    "steps by calls": (cart, {"coordinates": "joint", "integrator": "rk4"}),
+    "events": (lambda: rubbed(1.0, 0.05), {"coordinates": "joint", "integrator": "rk4", "step": 1e-2}),
+}
+
+
+@pytest.mark.parametrize("name", HORIZONS)
+def test_a_horizon_has_the_steps_and_the_derivatives_of_calls_one_by_one(name):
+    make, settings = HORIZONS[name]
+    run, pushes = make().start(**settings), [1.0, 1.1, 0.9, 0.8]
+    run.step(6e-2)
+    now = run.save()
+    ahead = run.horizon({"push": pushes}, 1e-2)
+    same = run.horizon([[push] for push in pushes], 1e-2)
+    assert run.t == now.t and np.array_equal(ahead.x, same.x) and ahead.states == run.state.names
+    for k, push in enumerate(pushes):
+        assert np.array_equal(ahead.x[k], run.state) and ahead.t[k] == pytest.approx(run.t)
+        run.step(1e-2, {"push": push})
+        found = run.derivatives()
+        for one, own in zip(found[:3], (ahead.A[k], ahead.B[k], ahead.C[k]), strict=True):
+            assert np.abs(one - own).max(initial=0.0) < 1e-13
+    assert np.array_equal(ahead.x[-1], run.state) and ahead.outputs == found.outputs
+    assert bool(run.events) == (name == "events")
+
+
+def test_a_horizon_wants_inputs_of_each_step():
+    run = cart().start(coordinates="joint", integrator="rk4", step=1e-2)
+    with pytest.raises(InputError, match=r"horizon: expected inputs of shape \(steps, 1\), of push, got shape \(3,\)"):
+        run.horizon([1.0, 2.0, 3.0], 1e-2)
+    with pytest.raises(
+        InputError, match=r"horizon: expected an input that is a number in this run, got 'pusch'.*'push'"
+    ):
+        run.horizon({"pusch": [1.0]}, 1e-2)
+    with pytest.raises(InputError, match="horizon: 'push': expected finite numbers"):
+        run.horizon({"push": [np.nan]}, 1e-2)
+    run = rubbed(1.0, 0.05).start(coordinates="joint", integrator="rk4", step=1e-2)
+    run.every(0.1, lambda t, sim: None)
+    with pytest.raises(InputError, match="horizon: expected a run without controllers, as its steps have events"):
+        run.horizon({"push": [1.0]}, 1e-2)
 
 
 def test_a_horizon_is_the_product_of_its_steps():
