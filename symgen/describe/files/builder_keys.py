@@ -33,6 +33,13 @@ class RunKeys(TypedDict, total=False):
     verify: bool
 
 
+class LimitKeys(TypedDict, total=False):
+    """Limits of ``[parameters.NAME]`` and ``[outputs.NAME]``."""
+
+    smallest: Scalar
+    largest: Scalar
+
+
 class TableKeys(TypedDict, total=False):
     """Keys of ``[tables.NAME]`` besides its points."""
 

@@ -85,11 +85,15 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         Unit of a number, such as ``"mm"``; SI by default. In formulas every name stands for its value in SI units.
     note : str
         For people.
+    smallest, largest : scalar
+        Limits with which reports compare the value: numbers in `unit` or with their own, or formulas of parameters.
     """
 
     value: Scalar
     unit: Text = ""
     note: Text = ""
+    smallest: Scalar | None = None
+    largest: Scalar | None = None
 
 
 class InputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -158,10 +162,14 @@ class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
         An expression of t, parameters, body coordinates, points, joint coordinates, forces and accelerations.
     unit : str
         Unit of the number that the formula gives.
+    smallest, largest : scalar
+        Limits with which reports compare it: numbers in `unit` or with their own, or formulas of parameters.
     """
 
     value: OutputFunction
     unit: Text = ""
+    smallest: Scalar | None = None
+    largest: Scalar | None = None
 
 
 class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
