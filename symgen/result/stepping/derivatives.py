@@ -178,7 +178,7 @@ class StepDirections:
         return StepsAgain(ready.compiled, ready.plan.integrator, ready.start, spec, self._seeds)
 
     def _compare(self, ended: bool, y: Array) -> None:
-        """Refuse steps that are others than those of the run."""
+        """Refuse steps that differ from the steps of the run."""
         own = self._model.sizes["y"]
         here, now = y[:own], self._loop.state.y[:own]
         if not (ended and np.abs(here - now).max() <= SAME * max(1.0, np.abs(now).max())):

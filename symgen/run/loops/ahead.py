@@ -116,7 +116,7 @@ def keep_outputs(a: Any, state: Any, k: int, observe: Any) -> None:
 
 
 def ends_elsewhere(a: Any, y: Any) -> bool:
-    """Whether a state is another one than that of the run behind its step."""
+    """Whether a state differs from the state of the run behind its step."""
     largest, off = 1.0, 0.0
     for i in range(a.end.shape[0]):
         largest, off = max(largest, abs(a.end[i])), max(off, abs(a.end[i] - y[i]))

@@ -1,13 +1,13 @@
-"""Directions of one step of a Runge-Kutta scheme, from its stages, with those of its beginning and its length.
+"""Directions of one step of a Runge-Kutta scheme, from its stages.
 
-Explicit stages k are rates at Y = y + h A k, whose directions follow one after the other. Implicit ones satisfy
-F(t + c h, Y, k) = 0, so that
+The beginning of a step and its length have directions, too. Explicit stages k are rates at Y = y + h A k, whose
+directions follow one after the other. Implicit stages satisfy F(t + c h, Y, k) = 0, so that
 
     (dF/dk + h A dF/dY) dk = -(dF/dY (dy + A k dh) + dF/dt (dt + c dh) + dF/dp dp),
 
-with the emitted derivatives at converged stages. The state at the end has the directions dy + h b dk + b k dh, and its
-correction those of the emitted ``accept``. Nothing is left to the accuracy of the scheme: where an event ends a step,
-its length has directions, and a step is not the motion itself.
+with the emitted derivatives at converged stages. The state at the end has the directions dy + h b dk + b k dh; the
+emitted ``accept`` corrects state and directions. Where an event ends a step, the scheme itself is differentiated by the
+length of the step: the rate of the motion would leave the error of the scheme.
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ class ImplicitStages(StageDirections):
 
     @cached_property
     def _directed(self) -> Any:
-        """The residual with directions; those of time follow the scratch."""
+        """The residual with directions; directions of time follow the scratch."""
         model = self.moments.model
         places = {**model.sizes, "k": self._n, "r": self._n, "t": model.sizes["w"] * (1 + model.lanes)}
         function = directed(self.law.residual, model.lanes, tuple(sorted(places.items())))

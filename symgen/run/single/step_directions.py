@@ -109,7 +109,7 @@ class StepsAgain(PassingSimulation):
         self._begin()
 
     def passed(self, passage: Passage) -> None:
-        """Take the directions through a passage; those of the time of its events are of the time from then on."""
+        """Take the directions through a passage, whose events give directions to the time from then on."""
         self._follow(bool(passage.numbers))
         self.slopes, self._modes, later = self.transfer.at_event(passage, self.slopes, self._modes, self._motion)
         self._later = self._later + later
