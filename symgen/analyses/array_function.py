@@ -25,7 +25,7 @@ _FAULTS = {
     projection.LIGHT: ("a position where every velocity has inertia", "one where bodies are too light: M is singular"),
     projection.SINGULAR: (
         "a position where the rows have the rank that they have at the start",
-        "a singular one, where it is smaller",
+        "a singular one, where it is smaller, or bodies that are too light beside others",
     ),
     projection.MISSING: ("accelerations that the actuators can make", "others"),
     projection.UNDEFINED: ("numbers for which every formula is finite", "others"),

@@ -152,6 +152,9 @@ class Functions:
     def actuated(self, *names: str) -> ArrayFunction:
         """Return the function (q, v, a) of the values of named actuators that make `a`, shape (number of names,).
 
+        It does not check rows: of an `a` that breaks D a = gamma it returns what M a + h asks of the motions that the
+        rows allow.
+
         Parameters
         ----------
         *names : str

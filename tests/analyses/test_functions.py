@@ -352,6 +352,16 @@ def test_an_input_of_the_file_is_an_actuator():
     assert close(f.actuated("motor")(q, v, a, driven), np.array([3.0]), 1e-11)
 
 
+def test_actuators_have_values_for_accelerations_that_break_rows():
+    f = parallelogram().functions("joint")
+    q, v = f.start
+    a = f.forward_dynamics(q, v, np.zeros(3)) + np.array([0.0, 1.0, 0.0])
+    assert np.abs(f.constraint_jacobian(q) @ a - f.gamma(q, v)).max() > 0.1
+    _, T = f.reduction(q, ["crank.omega"])
+    asked = T[:, 0] @ (f.mass_matrix(q) @ a + f.bias(q, v))  # along the motion that the rows allow
+    assert f.actuated("motor")(q, v, a) == pytest.approx(asked / 2.0, rel=1e-12)  # the crank has twice the input
+
+
 def test_accelerations_that_no_actuator_makes_are_refused():
     builder = MechanismBuilder("disc").input("motor", 0.0, unit="N m").body("disc", mass=1.0, inertia=0.5)
     f = Model(builder.force("drive", "torque", body="disc", torque="motor").build()).functions("absolute")
@@ -380,6 +390,10 @@ def test_light_bodies_are_refused():
     with pytest.raises(InputError, match="every velocity has inertia, got one where bodies are too light"):
         f.forward_dynamics(q, v, v)
     assert f.mass_matrix(q)[3, 3] == 0.0
+    f = parallelogram(mass=1e-18).functions("absolute")
+    assert np.abs(f.constraint_jacobian(q) @ f.forward_dynamics(q, v, v) - f.gamma(q, v)).max() < 1e-13
+    with pytest.raises(InputError, match="or bodies that are too light beside others"):
+        parallelogram(mass=1e-30).functions("absolute").forward_dynamics(q, v, v)
     free = Model(MechanismBuilder("free").body("a", mass="m", inertia=0.1).parameter("m", 1.0).build())
     f = free.functions("absolute")
     with pytest.raises(InputError, match="one where bodies are too light"):

@@ -432,6 +432,8 @@ def rows():
     yield from each("step u", NO_MAPPING, lambda x, v: x.sim.step(0.01, v), "parameters, got {}")
     yield from each("restore", NO_MAPPING, lambda x, v: x.sim.restore(v), "expected what `save` returned, got {}")
     yield "meter", lambda x: x.sim.meter(3), "meter: expected "
+    yield "horizon", lambda x: x.sim.horizon("a", 0.01), "horizon: expected numbers, got 'a'"
+    yield "horizon dt", lambda x: x.sim.horizon([[]], 0.0), "dt: expected a finite number above 0, got 0"
     yield "meter name", lambda x: x.sim.meter(["bob.xx"]), "meter"
     starts = {"3": 3, "[1.0]": [1.0]}
     yield from each("reset", starts, lambda x, v: x.sim.reset(v), "start: expected values by the names of coordinates")
@@ -524,7 +526,7 @@ def test_no_function_with_arguments_is_left_out():
         *(f"Result.{n}" for n in "gradient save plot reaction columns select series view".split()),
         *"Labelled.row Labelled.unit Study.save Study.plot".split(),
         *(f"Sweep.{n}" for n in "save plot reasons sensitivities contributions".split()),
-        *(f"SteppedRun.{n}" for n in "step run every set meter restore reset".split()),
+        *(f"SteppedRun.{n}" for n in "step run every set meter horizon restore reset".split()),
         *(
             f"MechanismBuilder.{n}"
             for n in "run parameter input table body beam joint force state stop output event".split()

@@ -1,43 +1,46 @@
 """Derivatives of the step that a run has just made: the same step once more, with directions beside the state.
 
-Scheme, constraints and corrections are in them. The code with directions is made once a run; a call copies the state
-from before the step and enters the loop, once for eight directions.
+Scheme, constraints, corrections and events are in them. What makes the step again depends on the run: explicit schemes
+have directions behind the state, implicit ones the equations of their stages (`symgen.run.single.step_directions`).
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.describe.bounds.keys import nouns
+from symgen.describe.facts.kinks import discontinuities_of
 from symgen.result.sensitivities import SCHEMES
+from symgen.result.stepping.horizon import Horizon
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
-from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.run.single.simulation import Simulation
+from symgen.run.layout.scheme_records import Stages
+from symgen.run.single.directed_model import DirectedModel, Seeds, few_passes
+from symgen.run.single.step_directions import StepsAgain
+from symgen.run.single.steps_ahead import DirectedRun, StepsAhead
 
 if TYPE_CHECKING:
     from symgen.run.planning.prepare import Prepared
+    from symgen.run.single.simulation import Simulation
 
 Array = NDArray[np.float64]
 WHERE = "derivatives"
-#: Schemes whose steps need no history, of those that have directions.
+#: Schemes whose steps need no history, of those that have directions; implicit ones with directions of their stages.
 ONE_STEP = tuple(name for name in SCHEMES if not name.startswith("abm"))
+IMPLICIT = "radau5", "sdirk", "trapezoidal"
 #: Part of the state by which the step with directions may differ, as rounding makes it.
 SAME = 1e-9
-#: Arrays of a state that the same step begins with besides y, p and w.
-_COUNTS = ("iw", "clock", "gauges", "control")
+_NO_DOUBTS: tuple[str, ...] = ()
+_TIME, _STEPS = abi.TIME, abi.STEPS  # looked up at every step
 
 
-@dataclass(frozen=True)
-class StepDerivatives:
+class StepDerivatives(NamedTuple):
     """How the state after a step depends on the state before and on inputs, and outputs on the state after it.
 
     The tuples ``states``, ``inputs`` and ``outputs`` hold the names of rows and columns.
@@ -54,6 +57,8 @@ class StepDerivatives:
         Outputs that depend on accelerations, forces or the history.
     t, dt : float
         Where the step began, and its length [s].
+    doubts : tuple of str
+        Why derivatives are in doubt, where an event in the step has none or other ones on its two sides.
     """
 
     A: Array
@@ -65,6 +70,7 @@ class StepDerivatives:
     left_out: tuple[str, ...]
     t: float
     dt: float
+    doubts: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         sizes = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
@@ -88,51 +94,38 @@ class StepDirections:
     """
 
     def __init__(self, prepared: Prepared, loop: Simulation) -> None:
-        name, compiled = prepared.plan.integrator.name, prepared.compiled
-        if name not in ONE_STEP:
-            raise InputError(WHERE, f"an explicit scheme of one step ({', '.join(ONE_STEP)})", f"'{name}'")
-        if compiled.shape != "straight":
-            raise InputError(WHERE, "code of the shape 'straight'", f"shape '{compiled.shape}'")
-        if loop.spec.events is not None:
-            bounded = nouns(joined=", ")
-            raise InputError(WHERE, f"a run without events, {bounded} and comparisons in formulas", "one with")
-        self._prepared, self._loop, self._info = prepared, loop, compiled.info
-        info = compiled.info
-        self._places = np.array([*range(info.work), *range(info.ny)[info.own_states]])
-        quantities = (*info.coordinates, *info.velocities, *info.states)
-        self._states = tuple(q.name for q in quantities)
+        _check(prepared, loop)
+        self._prepared, self._loop, info = prepared, loop, prepared.compiled.info
+        self._places = [*range(info.work), *range(info.ny)[info.own_states]]
+        self.states = tuple(q.name for q in (*info.coordinates, *info.velocities, *info.states))
         names = [q.name for q in info.parameters]
         hidden = {name for name, words in prepared.plan.inputs.words.items() if isinstance(words, str)}
-        self._inputs = tuple(name for name in info.inputs if name not in hidden)
-        count = len(self._places) + len(self._inputs)
-        self._model = DirectedModel(compiled, lanes_of(count))
-        own_p, own_y = self._model.sizes["p"], self._model.sizes["y"]
-        y, p = np.zeros((own_y, count)), np.zeros((own_p, count))
-        y[self._places, range(len(self._places))] = 1.0
-        for k, name in enumerate(self._inputs, len(self._places)):
-            p[names.index(name), k] = 1.0
-        seeds = Seeds(y, p)
-        self._parts = [seeds.part(first, self._model.lanes) for first in range(0, count, self._model.lanes)]
-        self._seeds, self._count = [part.y.ravel() for part in self._parts], count
-        self._known = dict[int, tuple[bytes, Array, Array]]()
-
-    @cached_property
-    def _simulation(self) -> Simulation:
-        model, start, loop = self._model, self._prepared.start, self._loop
-        longer = replace(
-            start, y=model.longer(start.y, "y"), p=model.longer(start.p, "p"), w=model.longer(start.w, "w"), saved=None
-        )
-        return Simulation(model.whole, self._prepared.plan.integrator, longer, replace(loop.spec, seams=()))
+        self.inputs = tuple(name for name in info.inputs if name not in hidden)
+        self.input_places = [names.index(name) for name in self.inputs]
+        self._n, count = len(self._places), len(self._places) + len(self.inputs)
+        self._model = DirectedModel(prepared.compiled, few_passes(count))
+        y, p = (np.zeros((self._model.sizes[name], count)) for name in "yp")
+        y[self._places, range(self._n)] = 1.0
+        p[self.input_places, range(self._n, count)] = 1.0
+        self._seeds = Seeds(y, p)
+        self._clock, self._control = memoryview(loop.state.clock), memoryview(loop.state.control)
+        self._began = _counts(self._before)
+        self._ahead = dict[int, StepsAhead]()
 
     @cached_property
     def _before(self) -> Mapping[str, NDArray[Any]]:
         """The arrays of the state before the last piece: views that show the present one."""
+        return self._views(self._loop.snapshot.copy)
+
+    def _views(self, copy: Array) -> Mapping[str, NDArray[Any]]:
+        """Return the arrays of a state in a copy of its memory."""
         snapshot, arrays = self._loop.snapshot, dict[str, NDArray[Any]]()
         begin = snapshot.front.ctypes.data
-        for name in ("y", "p", "w", *_COUNTS):
-            now = getattr(self._loop.state, name)
+        for name, now in self._loop.state._asdict().items():
+            if name in ("passages", "room"):
+                continue
             first = (now.ctypes.data - begin) // 8
-            arrays[name] = snapshot.copy[first : first + len(now)].view(now.dtype)
+            arrays[name] = copy[first : first + len(now)].view(now.dtype)
         return arrays
 
     def last(self) -> StepDerivatives:
@@ -143,84 +136,181 @@ class StepDirections:
         InputError
             If no step was made, inputs jumped during it, or it cannot be made again.
         """
-        before, now = self._before, self._loop.state
-        t, until = float(before["clock"][abi.TIME]), float(now.clock[abi.TIME])
-        if not until > t or before["control"][abi.STEPS] >= now.control[abi.STEPS]:
+        loop, (clock, control), until = self._loop, self._began, self._clock[_TIME]
+        first, doubts = loop.snapshot.first, _NO_DOUBTS
+        if first is not None:
+            before = self._views(first)
+            clock, control = _counts(before)
+        t = clock[_TIME]
+        if not until > t or control[_STEPS] >= self._control[_STEPS]:
             raise InputError(WHERE, "a step before", "none")
-        if any(t < seam.t < until for seam in self._loop.spec.seams):
-            raise InputError(WHERE, "a step during which inputs are held", "one in which they jump")
-        lanes, n, count = self._model.lanes, len(self._places), self._count
-        after = np.empty((n, lanes * len(self._parts)))
-        for k in range(len(self._parts)):
-            after[:, k * lanes : (k + 1) * lanes] = self._after(k, until)[self._places]
-        outputs, left_out, c = self._outputs
-        a, b = after[:, :n], after[:, n:count]
-        return StepDerivatives(a, b, c(), self._states, self._inputs, outputs, left_out, t, until - t)
+        if loop.spec.seams:
+            self._refuse_jumps(t, until)
+        outputs, left_out, taken = self.outputs
+        if self.is_straight:
+            a, b, c = self._straight(until)
+        else:
+            again = self._again
+            again.span = loop.span
+            self._compare(again.made_again(self._before if first is None else before, until), again.state.y)
+            after, n = again.slopes[self._places], self._n
+            a, b, c = after[:, :n], after[:, n:], self._outputs_at_state()[taken, :n]
+            doubts = tuple(dict.fromkeys(again.transfer.doubts))
+        return StepDerivatives(a, b, c, self.states, self.inputs, outputs, left_out, t, until - t, doubts)
+
+    def _refuse_jumps(self, t: float, until: float) -> None:
+        for seam in self._loop.spec.seams:
+            if t < seam.t < until:
+                raise InputError(WHERE, "a step during which inputs are held", "one in which they jump")
 
     @cached_property
-    def _into(self) -> tuple[tuple[Array, Array], ...]:
-        """Pairs of arrays, each of the run with directions and from before the step."""
-        state, sizes, before = self._simulation.state, self._model.sizes, self._before
-        own = ((getattr(state, name)[: sizes[name]], before[name][: sizes[name]]) for name in ("y", "w"))
-        return *own, *((getattr(state, name), before[name]) for name in _COUNTS)
+    def is_straight(self) -> bool:
+        """Whether one compiled call makes steps with their derivatives: explicit schemes without events do."""
+        return self._loop.spec.events is None and not isinstance(self._loop.scheme, Stages)
+
+    # -- steps with events, and of implicit schemes --------------------------------------------------------------------
 
     @cached_property
-    def _directions(self) -> tuple[Array, Array, Array]:
-        """Directions behind y and w in the run with directions, and the first ones as a matrix."""
-        model, state = self._model, self._simulation.state
-        y, w = model.sizes["y"], model.sizes["w"]
-        return state.y[y : y * (1 + model.lanes)], state.w[w:], model.shadow(state.y, "y")
+    def _again(self) -> StepsAgain:
+        """What makes the last step again."""
+        loop, ready = self._loop, self._prepared
+        spec = replace(loop.spec, seams=())
+        return StepsAgain(ready.compiled, ready.plan.integrator, ready.start, spec, self._seeds)
 
-    def _after(self, k: int, until: float) -> Array:
-        """Make the step with some directions; return them behind it, shape (ny, L)."""
-        simulation, (y, w, slopes) = self._simulation, self._directions
-        state, own = simulation.state, self._model.sizes["y"]
-        state.p[:], w[:] = self._numbers(k, self._before["p"])
-        y[:] = self._seeds[k]
-        for there, before in self._into:
-            there[:] = before
-        if state.control[abi.BEGUN] == 1:
-            state.control[abi.BEGUN] = abi.AFRESH  # what the scheme keeps of the last rates has no directions
-        simulation.span = self._loop.span
-        code = simulation.go(until, math.inf)
-        here, now = state.y[:own], self._loop.state.y[:own]
-        same = here.tobytes() == now.tobytes() or np.abs(here - now).max() <= SAME * max(1.0, np.abs(now).max())
-        if code != abi.DONE or not same:
+    def _compare(self, ended: bool, y: Array) -> None:
+        """Refuse steps that differ from the steps of the run."""
+        own = self._model.sizes["y"]
+        here, now = y[:own], self._loop.state.y[:own]
+        if not (ended and np.abs(here - now).max() <= SAME * max(1.0, np.abs(now).max())):
             raise InputError(WHERE, "a step that is the same once more", "another one")
-        return slopes
 
-    def _numbers(self, k: int, p: Array) -> tuple[Array, Array]:
-        """Return parameters with directions, and the directions of scratch that follow them, kept while they stay."""
-        known = self._known.get(k)
-        numbers = p.tobytes()
-        if known is None or known[0] != numbers:
-            model = self._model
-            longer = model.parameters(p, self._parts[k].p)
-            w = model.scratch(longer, self._loop.state.w)
-            known = self._known[k] = numbers, longer, w[model.sizes["w"] :]
-        return known[1], known[2]
+    # -- explicit schemes without events -------------------------------------------------------------------------------
 
     @cached_property
-    def _outputs(self) -> tuple[tuple[str, ...], tuple[str, ...], Any]:
-        """Names of outputs with derivatives, of others, and what computes them at the present state."""
-        mechanism, compiled = self._prepared.mechanism, self._prepared.compiled
+    def _directed(self) -> DirectedRun:
+        loop, ready, side = self._loop, self._prepared, self._side
+        function, count = (None, 0) if side is None else (side.function, len(ready.mechanism.outputs))
+        spec, integrator = replace(loop.spec, seams=()), ready.plan.integrator
+        of_inputs = self.input_places
+        return DirectedRun(
+            self._model, integrator, ready.start, spec, self._seeds, self._places, of_inputs, function, count
+        )
+
+    @cached_property
+    def _one(self) -> StepsAhead:
+        return StepsAhead(self._directed, self._before, end=self._loop.state.y, same=SAME)
+
+    @cached_property
+    def _results(self) -> tuple[Array, Array, Array | None]:
+        """Where the call leaves A, B, and C with all outputs."""
+        one, n = self._one, self._n
+        slopes, taken = one.slopes[0], self.outputs[2]
+        return slopes[:, :n], slopes[:, n : n + len(self.inputs)], one.by_outputs[0][:, :n] if taken else None
+
+    def _straight(self, until: float) -> tuple[Array, Array, Array]:
+        """Return A, B and C of the last piece."""
+        one = self._one
+        if self._loop.spec.adaptive:
+            self._directed.rescale(self._before)
+        if one.made(self._loop.span, until) != abi.DONE:
+            raise InputError(WHERE, "a step that is the same once more", "another one")
+        (a, b, c), (_, left_out, taken) = self._results, self.outputs
+        if c is None:
+            return a.copy(), b.copy(), self._no_outputs
+        return a.copy(), b.copy(), c[taken] if left_out else c.copy()
+
+    @cached_property
+    def _no_outputs(self) -> Array:
+        return np.zeros((0, self._n))
+
+    def straight_ahead(self, values: Array, dt: float) -> Horizon | None:
+        """Return steps from the present state in one compiled call; None where that cannot make them.
+
+        Parameters
+        ----------
+        values : Array, shape (N, m)
+            Inputs that are held in each.
+        dt : float
+            Their length [s].
+        """
+        loop, steps = self._loop, len(values)
+        span, now = loop.span, self._clock[_TIME]
+        ends = now + dt * np.arange(steps + 1.0)
+        if not self.is_straight or loop.spec.adaptive or any(now < seam.t < ends[-1] + dt for seam in loop.spec.seams):
+            return None
+        own, directed = self._copies, self._directed
+        for name, array in own.items():
+            array[:] = getattr(loop.state, name)
+        if self._prepared.plan.settings.step is None and span.step != dt:  # each call is a step
+            span = span._replace(step=dt)
+            own["clock"][abi.ORIGIN], own["control"][abi.INDEX], own["control"][abi.BEGUN] = now, 0, abi.AFRESH
+        if steps not in self._ahead:
+            self._ahead = {steps: StepsAhead(directed, own, steps)}
+        ahead = self._ahead[steps]
+        ahead.values[:] = values
+        if ahead.made(span, now + dt, dt) != abi.DONE:
+            return None
+        n, (outputs, _, taken) = self._n, self.outputs
+        a, b = ahead.slopes[:, :, :n].copy(), ahead.slopes[:, :, n : n + len(self.inputs)].copy()
+        c = ahead.by_outputs[:, taken, :n]
+        return Horizon(np.vstack([self.state(), ahead.states]), a, b, c, ends, self.states, self.inputs, outputs)
+
+    def state(self) -> Array:
+        """Return the present states."""
+        return np.asarray(self._loop.state.y[self._places])
+
+    @cached_property
+    def _copies(self) -> dict[str, NDArray[Any]]:
+        """Arrays of a state from which steps ahead begin."""
+        return {name: array.copy() for name, array in self._before.items()}
+
+    # -- outputs -------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _side(self) -> Any:
+        mechanism = self._prepared.mechanism
         formulas = [(output.name, output.value) for output in mechanism.outputs]
-        if not formulas:
-            return (), (), lambda: np.zeros((0, len(self._places)))
-        side = compile_side(mechanism, compiled, "outputs", "Outputs", formulas)
-        taken = [i for i in range(len(formulas)) if i not in side.of_forces]
-        model, count = self._model, len(formulas)
-        call = model.function(side.function, count).caller(abi.OBSERVE.signature.arguments)
+        return compile_side(mechanism, self._prepared.compiled, "outputs", "Outputs", formulas) if formulas else None
 
-        def slopes() -> Array:
-            now, parts = self._loop.state, list[Array]()
-            for seeds in self._parts:
-                y, p, w = model.longer(now.y, "y", seeds.y), model.longer(now.p, "p"), model.longer(now.w, "w")
-                out = np.zeros(count * (1 + model.lanes))
-                call(float(now.clock[abi.TIME]), y, p, w, np.zeros_like(y), out)
-                parts.append(out[count:].reshape(count, model.lanes))
-            return np.concatenate(parts, axis=1)[taken, : len(self._places)]
+    @cached_property
+    def outputs(self) -> tuple[tuple[str, ...], tuple[str, ...], list[int]]:
+        """Names of outputs with derivatives and of others, and the places of the former."""
+        names = [output.name for output in self._prepared.mechanism.outputs]
+        of_forces = () if self._side is None else self._side.of_forces
+        taken = [i for i in range(len(names)) if i not in of_forces]
+        return tuple(names[i] for i in taken), tuple(name for i, name in enumerate(names) if i in of_forces), taken
 
-        names = [name for name, _ in formulas]
-        others = tuple(name for i, name in enumerate(names) if i not in taken)
-        return tuple(names[i] for i in taken), others, slopes
+    def _outputs_at_state(self) -> Array:
+        """Return the directions of all outputs at the present state."""
+        model, now, count = self._model, self._loop.state, len(self._prepared.mechanism.outputs)
+        if self._side is None:
+            return np.zeros((0, self._seeds.count))
+        call = model.function(self._side.function, count).caller(abi.OBSERVE.signature.arguments)
+        parts = list[Array]()
+        for first in range(0, self._seeds.count, model.lanes):
+            seeds = self._seeds.part(first, model.lanes)
+            y, p, w = model.longer(now.y, "y", seeds.y), model.longer(now.p, "p"), model.longer(now.w, "w")
+            out = np.zeros(count * (1 + model.lanes))
+            call(float(now.clock[abi.TIME]), y, p, w, np.zeros_like(y), out)
+            parts.append(out[count:].reshape(count, model.lanes))
+        return np.concatenate(parts, axis=1)
+
+
+def _counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:
+    """Return clock and control of a state, which are read faster this way."""
+    clock, control = (memoryview(before[name]) for name in ("clock", "control"))  # type: ignore[arg-type]  # arrays are
+    return clock, control
+
+
+def _check(prepared: Prepared, loop: Simulation) -> None:
+    """Refuse runs whose steps have no directions."""
+    name, compiled, watched = prepared.plan.integrator.name, prepared.compiled, loop.spec.events
+    if name not in ONE_STEP and not isinstance(loop.scheme, Stages):
+        expected = f"a scheme whose steps have derivatives ({', '.join((*ONE_STEP, *IMPLICIT))})"
+        raise InputError(WHERE, expected, f"'{name}'")
+    if compiled.shape != "straight":
+        raise InputError(WHERE, "code of the shape 'straight'", f"shape '{compiled.shape}'")
+    jumps = any(x.jumps for x in discontinuities_of(prepared.mechanism))
+    if jumps or (watched is not None and watched.rows is not None):
+        hint = "write kinks by max, min or abs, and jumps as an event, which resets a state of the file"
+        raise InputError(WHERE, "a run without jumps of formulas", "formulas that jump where the state passes 0", hint)

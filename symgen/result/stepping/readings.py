@@ -144,19 +144,23 @@ class StepReadings:
         """Return the derivatives of the last step, with its scheme, constraints and corrections: A, B and C.
 
         They are of the last call of `step`, or of its last part where Ctrl-C was listened for in between; `t` and `dt`
-        of the result say which.
+        of the result say which. Impacts and changes of modes inside move with the state and the inputs; a coordinate
+        at rest is held where the state has it.
 
         Raises
         ------
         InputError
-            If no step was made, inputs jumped during it, or the scheme, the shape of the code or an event has none.
+            If no step was made, inputs jumped during it, or the scheme, the shape of the code or a formula has none.
         """
+        self._advance.recover()
+        return (self._directions or self._make_directions()).last()
+
+    def _make_directions(self) -> StepDirections:
+        """Make what has derivatives of steps; its import would take longer than many of its calls."""
         from symgen.result.stepping.derivatives import StepDirections
 
-        self._advance.recover()
-        if self._directions is None:
-            self._directions = StepDirections(self._prepared, self._loop)
-        return self._directions.last()
+        self._directions = StepDirections(self._prepared, self._loop)
+        return self._directions
 
     @property
     def _prepared(self) -> Prepared:

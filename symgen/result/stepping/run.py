@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from symgen.result.result import Result
+    from symgen.result.stepping.horizon import Horizon, Inputs
     from symgen.run.loops.run_spec import RunSpec
     from symgen.run.planning.prepare import Prepared
 
@@ -172,6 +173,38 @@ class SteppedRun(StepReadings):
         if self._foreseen and until > self._horizon:
             self._look_ahead(until)
         return self._go(until)
+
+    def horizon(self, inputs: Inputs, dt: float) -> Horizon:
+        """Return the states of steps ahead of the present state with the derivatives of each; the run stays there.
+
+        Parameters
+        ----------
+        inputs : array_like, shape (N, m), or mapping of str to sequence
+            Values that hold in each of N steps: of all inputs, in the order of the file, or by name, where others stay.
+        dt : float
+            Length of each step, as `step` takes it [s].
+
+        Returns
+        -------
+        Horizon
+            ``x``, ``A``, ``B`` and ``C``, step by step.
+
+        Raises
+        ------
+        InputError
+            If an argument is wrong, or steps have no derivatives; see `derivatives`.
+        StepError
+            If a step fails.
+        """
+        from symgen.result.stepping.horizon import horizon
+
+        self._advance.recover()
+        return horizon(self, self._directions or self._make_directions(), inputs, dt)
+
+    @property
+    def is_controlled(self) -> bool:
+        """Whether functions are called as the run goes on."""
+        return bool(self._clocks)
 
     def every(self, interval: float, controller: Controller) -> None:
         """Call a function at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.

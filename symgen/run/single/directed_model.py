@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 #: Numbers of directions that code is made for.
 LANES = (2, 4, 8)
+#: Most directions of code in one pass over a step: more of them leave too few registers.
+MOST_LANES = 12
 #: Functions of a model and of a law that have a form with directions in a run, and their types.
 _MODEL = {"prepare": e.PREPARE, "masses": abi.MOVE, "geometry": abi.MEASURE}
 _LAW = {"prepare": e.PREPARE, "rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT, "rates": abi.RHS}
@@ -159,3 +161,11 @@ def for_derivatives(module: Any, name: str) -> Any:
 def lanes_of(count: int) -> int:
     """Return the number of directions that code is made for, for a number of them."""
     return next((lanes for lanes in LANES if lanes >= count), LANES[-1])
+
+
+def few_passes(count: int) -> int:
+    """Return the number of directions of code that goes over a step as seldom as can be, for a number of them."""
+    if count <= LANES[0]:
+        return LANES[0]
+    passes = -(-count // MOST_LANES)
+    return -(-count // (4 * passes)) * 4

@@ -140,7 +140,11 @@ class Snapshot:
         The part of this memory that is always copied.
     rows : int
         Count of numbers of the table of passages in the copy.
+    first : Array or None
+        The first copy of the last piece of the run, where events inside have made others since.
     """
+
+    first: Array | None = None
 
     def __init__(self, state: State) -> None:
         arrays = state._asdict()
@@ -161,6 +165,11 @@ class Snapshot:
     def copy(self) -> Array:
         """The copy; runs that nobody steps from Python need none."""
         return self.front.copy()
+
+    def keep(self) -> None:
+        """Keep the copy as the first one of a piece of the run."""
+        if self.first is None:
+            self.first = self.copy.copy()
 
     def take(self, scheme: Any) -> None:
         """Copy the state, and the memory in a scheme's record."""

@@ -303,6 +303,7 @@ class Simulation:
             snapshot.take(self.scheme)
         else:
             snapshot.rows = 0
+        snapshot.first = None
         most = self.span.most if most is None else most
         while True:
             if not entry.has(self.scheme, self.span):
@@ -311,6 +312,7 @@ class Simulation:
                 return code
             if (ended := self._ended(code, until)) is not None:
                 return ended
+            snapshot.keep()  # the entry copies the state anew
 
     def go_back(self) -> None:
         """Restore the state saved when `go` was last called, or entered its loop after an event."""

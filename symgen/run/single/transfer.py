@@ -64,6 +64,11 @@ class Transfer:
     doubts: list[str] = field(default_factory=list)
     _last: tuple[Passage, Array] | None = None
 
+    def begin_anew(self) -> None:
+        """Forget the last passage and all doubts."""
+        self._last = None
+        self.doubts.clear()
+
     @property
     def watched(self) -> Watched | None:
         """Switching functions of the run."""
@@ -84,22 +89,33 @@ class Transfer:
         y, modes : Array, shapes (ny, k), (numbers of modes, k)
             Directions at the same time, without that of the motion.
         """
+        rate = self.moments.rates(self._plain(passage.before)) if passage.numbers else np.zeros(len(y))
+        y, modes, later = self.at_event(passage, y, modes, rate)
+        if passage.numbers:
+            y = y - np.outer(self.moments.rates(self._plain(passage.after)), later)
+        return y, modes
+
+    def at_event(self, passage: Passage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
+        """Return the directions of state, modes and time of a passage behind it, at its own time.
+
+        Parameters
+        ----------
+        passage, y, modes
+            As for `through`: directions before at a time that has none.
+        rate : Array, shape (ny,)
+            How the state before changes with the time of its events.
+        """
         before, after = (self._plain(x) for x in (passage.before, passage.after))
         free = Free(self.moments, before, Directions(*(self._with(x) for x in (y, np.zeros(y.shape[1]), modes))))
+        later = np.zeros(y.shape[1])
         if passage.numbers:
-            rate = self.moments.rates(before)
             later = self._later(passage, before, y, modes, rate, free)
             y = y + np.outer(rate, later)
-        else:
-            later = np.zeros(y.shape[1])
         self._compare(passage, later, free)
         for struck in passage.effects:
             y = self._through_effects(struck.numbers, self._plain(struck.at), y, later)
         here = Directions(self._with(y), self._with(later), self._with(modes))
-        modes = self._modes(passage, before, after, here, free)
-        if passage.numbers:
-            y = y - np.outer(self.moments.rates(after), later)
-        return y, modes
+        return y, self._modes(passage, before, after, here, free), later
 
     def _plain(self, x: Moment) -> Moment:
         """Return a state without the directions behind its arrays."""

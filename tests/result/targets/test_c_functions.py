@@ -40,7 +40,7 @@ def compare(name, coordinates, folder):
         given = arguments(function, state)
         exact = np.asarray(function(*given))
         value, code = library.call(quantity, exact.shape, given)
-        assert code == 0 and apart(value, exact) < 1e-12, quantity
+        assert code == 0 and apart(value, exact, quantity) < 1e-13, quantity
     body = f.mechanism.bodies[0]
     place = f"{body.name}_{body.points[0][0]}" if body.points else body.name
     frame = f.frame(place.replace("_", ".", 1) if body.points else body.name)
