@@ -249,6 +249,8 @@ class CModel:
         printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
         if self.printed_run is not None:
             printed.add_run(self.printed_run)
+            if self.target == "fmu":
+                printed.add_exchange(self.printed_run)
             printed.add_steps(self.compiled, PrintedEvents(), ("find_rates",))
         else:
             further = ("apply_effects",) if self.events.effects else ()

@@ -343,20 +343,8 @@ def kept_run(loop: Any, impacts: bool, pressed: bool, seams: bool) -> KeptLoops:
     """
     key = loop, impacts, pressed, seams
     if key not in _loops:
-        (module, own, scheme, *functions), meanings = frame.RECIPES[loop]
-        meanings = {**meanings, **MEANINGS, "store": show, "_MAX_PASSAGES": 1}
-        system = types.RecordType((*frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS))
-        steps, name = None, f"{module.rpartition('.')[2]}_{own}"
-        if seams:
-            signature = types.int64(system, scheme, SPAN, EVENT_STATE, KEPT_OUTPUT)
-            steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
-            system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
-        name += "_striking" * impacts + "_pressed" * pressed + "_seamed" * seams
-        meanings |= {**MODES, **(STRIKING if impacts else {}), **(PRESSED if pressed else {})}
-        meanings |= {"choose_here": choose_and_log, **(_SEAMED if seams else {"integrate": frame.integrate})}
-        meanings |= {"meet_impacts": strike_and_log} if impacts else {}
-        model = types.RecordType((system, OBSERVERS, KEPT_MODES))
-        kinds = CHUNK, EVENT_STATE, KEPT_OUTPUT, VISIBLE
+        name, meanings, steps, model = recipe_of(*key)
+        scheme, kinds = frame.RECIPES[loop][0][2], (CHUNK, EVENT_STATE, KEPT_OUTPUT, VISIBLE)
         start = types.int64(model, _A, CHUNK, EVENT_STATE, VISIBLE)
         advance = types.int64(types.int64, model, scheme, SPAN, *kinds)
         _loops[key] = KeptLoops(
@@ -365,3 +353,23 @@ def kept_run(loop: Any, impacts: bool, pressed: bool, seams: bool) -> KeptLoops:
             steps,
         )
     return _loops[key]
+
+
+def recipe_of(loop: Any, impacts: bool, pressed: bool, seams: bool) -> tuple[str, dict[str, Any], Any, types.Kind]:
+    """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and their model.
+
+    Parameters are those of `kept_run`.
+    """
+    (module, own, scheme, *functions), meanings = frame.RECIPES[loop]
+    meanings = {**meanings, **MEANINGS, "store": show, "_MAX_PASSAGES": 1}
+    system = types.RecordType((*frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS))
+    steps, name = None, f"{module.rpartition('.')[2]}_{own}"
+    if seams:
+        signature = types.int64(system, scheme, SPAN, EVENT_STATE, KEPT_OUTPUT)
+        steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
+        system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+    name += "_striking" * impacts + "_pressed" * pressed + "_seamed" * seams
+    meanings |= {**MODES, **(STRIKING if impacts else {}), **(PRESSED if pressed else {})}
+    meanings |= {"choose_here": choose_and_log, **(_SEAMED if seams else {"integrate": frame.integrate})}
+    meanings |= {"meet_impacts": strike_and_log} if impacts else {}
+    return name, meanings, steps, types.RecordType((system, OBSERVERS, KEPT_MODES))
