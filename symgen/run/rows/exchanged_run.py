@@ -25,8 +25,10 @@ from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is
 from symgen.run.loops.searching import TO_EVENT
 from symgen.run.loops.switching import is_sought, taken_for
 from symgen.run.rows.kept_run import CHANGED, ENDING, VISIBLE, meet, recipe_of
-from symgen.run.rows.row_modes import begin_modes
-from symgen.run.single.bounded_rows import put_off
+from symgen.run.rows.row_modes import begin_modes, rest_gaps
+from symgen.run.single.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
+from symgen.run.single.choice import read_rows
+from symgen.run.single.strikes import end_flights
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
 
@@ -234,6 +236,17 @@ def exchange_run(
     return int(code)
 
 
+def rest_low_gaps(t: float, modes: Any, state: Any) -> int:
+    """Bring gaps to rest as `rest_gaps` does, and where an importer's tolerance loses their flights."""
+    c, count = modes.choice, modes.strikes.pushing[0]
+    code = rest_gaps(t, modes, state)
+    if count > 0 and code == SAME:
+        code = end_flights(t, c, modes.strikes, state.y, state.p, state.w)
+        if code == OTHERS and read_rows(t, c, state.y, state.p, state.w) != SAME:
+            code = OUT_OF_RANGE
+    return int(code)
+
+
 _loops: dict[Any, tuple[Any, Any]] = {}
 _SEAMED = {"system_of": system_between_seams, "next_time": next_seam, "pass_seams": pass_due_seams}
 
@@ -243,6 +256,7 @@ def exchanged_run(loop: Any, impacts: bool, pressed: bool, seams: bool) -> tuple
     key = loop, impacts, pressed, seams
     if key not in _loops:
         name, meanings, _, model = recipe_of(*key)
+        meanings |= {"gather_impacts": rest_low_gaps} if impacts else {}
         meanings |= _SEAMED if seams else {}
         indicate = types.int64(_F, _A, model, EVENT_STATE, _A)
         exchange = types.int64(_K, _F, model, SPAN, CHUNK, EVENT_STATE, VISIBLE, EXCHANGE)
