@@ -40,8 +40,9 @@ QUIET, HAPPENED, OVER, STUCK = range(4)
 #: Places of times: that of the next jump or kink of formulas; the one behind a jump, from which formulas are evaluated.
 NEXT, BEHIND = range(2)
 
-#: Values of functions below this part of their size are 0 for an importer that has located it; and the least one.
-_NEAR, _TINY = 2.0**-36, 1e-300
+#: Values of functions below this part of their size are 0 for an importer that has located that; a margin that sleeps
+#: has fallen to 0 at this part of what lifts it; and the least value.
+_NEAR, _FALLEN, _TINY = 2.0**-36, 0.25, 1e-300
 
 #: Times for an importer [s].
 EXCHANGE = record_type("Exchange", __name__, ("times", _A))
@@ -122,19 +123,23 @@ def indicate_run(t: float, y: Any, model: Any, state: Any, values: Any) -> int:
 def reach(hunt: Any, n: int) -> None:
     """Have functions that are about to pass 0, and are 0 up to rounding, pass it here.
 
-    An importer that has located an event stands on it up to rounding, on either side.
+    An importer that has located an event stands on it up to rounding, on either side. A margin that sleeps passes where
+    it has lost what lifts it.
     """
     at, out = records.N_HEAD, records.N_HEAD + records.N_COLUMNS * n
     for k in range(n):
         margin, side = hunt[at + records.MARGIN * n + k] != 0.0, hunt[at + records.LOCAL * n + k]
         size = hunt[at + records.MEASURE * n + k] if margin else hunt[at + records.SIZE * n + k]
-        near = abs(hunt[out + k]) <= _NEAR * size and size < math.inf
-        if hunt[at + records.OF_FORCES * n + k] != 0.0:  # whose slope is not that of forces
-            near = near and side * (hunt[out + k] - hunt[at + records.G_START * n + k]) <= 0.0
+        asleep, g = hunt[at + records.ASLEEP * n + k], hunt[out + k]
+        if asleep > 0.0:
+            near = asleep < math.inf and g + asleep < _FALLEN * asleep
+        elif hunt[at + records.OF_FORCES * n + k] != 0.0:  # whose slope is not that of forces
+            near = abs(g) <= _NEAR * size and side * (g - hunt[at + records.G_START * n + k]) <= 0.0
         else:
-            near = near and side * hunt[out + n + k] < 0.0
-        awake = hunt[at + records.ASLEEP * n + k] == 0.0 and hunt[at + records.ACTION * n + k] < float(records.ANEW)
-        if near and awake and is_sought(hunt[at + records.DIRECTION * n + k], side, -side) == 1:
+            near = abs(g) <= _NEAR * size and side * hunt[out + n + k] < 0.0
+        near = near and size < math.inf and hunt[at + records.ACTION * n + k] < float(records.ANEW)
+        if near and is_sought(hunt[at + records.DIRECTION * n + k], side, -side) == 1:
+            hunt[at + records.ASLEEP * n + k] = 0.0
             hunt[out + k] = -side * _TINY
 
 
