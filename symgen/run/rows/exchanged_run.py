@@ -225,11 +225,12 @@ def exchange_run(
     if doing != ASK:
         for i in range(visible.y.shape[0]):
             state.y[i] = visible.y[i]
+    now = min(t, next_time(model[0], state))  # where an importer stands at a jump, it comes from before it
     if doing == COMPLETE:
-        code = look_at(system, run, t)
+        code = look_at(system, run, now)
     elif doing == HANDLE:
         visible.numbers[ENDING] = -1
-        code = handle(t, system, run, model, span, chunk, state, visible)
+        code = handle(now, system, run, model, span, chunk, state, visible)
         visible.numbers[CHANGED] = 0
         for i in range(visible.y.shape[0]):
             visible.y[i] = state.y[i]
