@@ -157,7 +157,9 @@ class PrintedRun:
         }
         return self._read(functions, emitted)
 
-    def exchange_entries(self, named: Mapping[str, lang.Function]) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
+    def exchange_entries(
+        self, named: Mapping[str, lang.Function]
+    ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
         """Return ``indicate_run(t, y, values)`` and ``exchange_run(doing, t)``; see `symgen.run.rows.exchanged_run`."""
         emitted, (model, _, span, chunk, state, _, visible, exchange) = self.emitted(named), self._arguments
         indicate, serve = exchanged_run(*self._recipe)

@@ -15,7 +15,6 @@ from symgen.compile.loopcode.loop_instances import called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
 from symgen.run.layout import abi
-from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import CHUNK, SPAN, ModelSystem
 from symgen.run.layout.start_records import record_type
 from symgen.run.loops import search_records as records
@@ -211,7 +210,7 @@ def exchange_run(
     t : float
         Time of the importer [s].
     model, span, chunk, state, visible
-        As for `symgen.run.rows.kept_run.advance_run`; what is visible is the state of the importer, which events change.
+        As for `symgen.run.rows.kept_run.advance_run`; what is visible is the importer's state, which events change.
     exchange : Exchange
         Times, written.
 

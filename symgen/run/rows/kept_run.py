@@ -356,7 +356,7 @@ def kept_run(loop: Any, impacts: bool, pressed: bool, seams: bool) -> KeptLoops:
 
 
 def recipe_of(loop: Any, impacts: bool, pressed: bool, seams: bool) -> tuple[str, dict[str, Any], Any, types.Kind]:
-    """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and their model.
+    """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and the model.
 
     Parameters are those of `kept_run`.
     """
