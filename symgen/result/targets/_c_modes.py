@@ -35,7 +35,7 @@ def values_of_modes(
         "bounded": [row.name for row in mechanism.bounded],
         "words": WORDS,
         "of_log": kept_run.OF_LOG,
-        "functions_of_events": len(run.watched.names),
+        "functions_of_events": len(run.watched.names) + len(run.watched.switches),
         "ending": kept_run.ENDING,
         "changed": kept_run.CHANGED,
         "initial": [

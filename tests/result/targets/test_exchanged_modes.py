@@ -40,6 +40,27 @@ reset = { "rod.omega" = "-0.5*rod.omega" }
 until = 1.0
 """
 
+#: A point on a curve of two pieces, before a wall.
+CURVE = """
+[mechanism]
+name = "curve"
+gravity = [0.0, -9.81]
+[bodies.b]
+type = "point"
+mass = 1.0
+position = [-0.5, 0.0]
+velocity = [1.5, 0.0]
+[joints.curve]
+type = "rows"
+rows = [{ position = "b.y - (0.5*b.x**3 if b.x > 0 else 0)" }]
+[stops.wall]
+gap = "0.6 - b.x"
+restitution = 0.5
+[events.half]
+when = "b.x - 0.3"
+action = "record"
+"""
+
 
 def exchanged(path, until, tolerance=1e-12, outputs=None, **keys):
     """Return what CVode makes of an FMU, with a row before and one behind each event."""
@@ -283,12 +304,17 @@ def test_euler_s_method_finds_modes_behind_its_events(tmp_path):
 
 
 @pytest.mark.slow
-def test_its_sources_compile_without_a_warning(tmp_path):
-    path = fmu_of(symgen.load("toggle-press"), tmp_path / "press.fmu", fmi=3)
+def test_a_row_that_changes_with_the_state_beside_a_stop(tmp_path):
+    """Its comparison is an indicator too. The sources compile without a warning, with room for all functions."""
+    model = loaded(CURVE, tmp_path)
+    path = fmu_of(model, tmp_path / "curve.fmu", fmi=3)
+    rows = exchanged(path, 1.0)
+    assert_same_motion(model, rows, 1.0, 1e-9)
+    assert len(events_of(rows)) > 2  # the wall, the event that is recorded, and the comparison
     with zipfile.ZipFile(path) as archive:
-        archive.extractall(tmp_path / "press")
-    command = ["cc", "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "fmu.c", "-o", "x", "-lm"]
-    ran = subprocess.run(command, cwd=tmp_path / "press" / "sources", capture_output=True, text=True, check=False)
+        archive.extractall(tmp_path / "curve")
+    command = ["cc", "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "fmu.c", "-o", "x", "-lm"]
+    ran = subprocess.run(command, cwd=tmp_path / "curve" / "sources", capture_output=True, text=True, check=False)
     assert (ran.returncode, ran.stderr) == (0, "")
 
 
