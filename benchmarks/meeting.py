@@ -184,6 +184,16 @@ def _live(file: Path, folder: Path) -> str:
     return f"a page {mark}{why}" if found else ""
 
 
+def _exchanged(file: Path, folder: Path) -> str:
+    from fmpy import simulate_fmu
+
+    refusal = invoked("generate", file, "--target", "fmu", "-o", folder / "cart.fmu")
+    if not refusal:
+        rows = simulate_fmu(str(folder / "cart.fmu"), fmi_type="ModelExchange", stop_time=0.1, relative_tolerance=1e-6)
+        assert abs(rows["time"][-1] - 0.1) < 1e-9, "it has been integrated"
+    return refusal
+
+
 def _stepped(file: Path, folder: Path) -> str:
     def go() -> None:
         simulation = symgen.load(file).start()
@@ -244,6 +254,7 @@ GROUPS: Mapping[str, Mapping[str, Place]] = {
         "C": _generated("c", "c"),
         "C, dop853": _generated("c", "c", "--integrator", "dop853"),
         "FMU": _generated("fmu", "cart.fmu"),
+        "FMU, model exchange": _exchanged,
         "JavaScript": _generated("javascript", "js"),
         "live page": _live,
     },

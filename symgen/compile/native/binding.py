@@ -232,7 +232,7 @@ class _Specialised(Folding):
             body=body,
             variables={name: kind for name, kind in self.own.variables.items() if name in names},
             called=tuple(called.values()),
-            source=(_BOUND, self.own.source),
+            source=(_BOUND, self.own.key),  # functions with the same text may take different arrays
         )
         arrays = arrays_in(body)
         for name, (kind, meaning) in self.used.items():

@@ -257,6 +257,11 @@ class CModel:
         return PrintedEvents.of(self.mechanism, self.compiled)
 
     @property
+    def exchanges(self) -> bool:
+        """Whether an importer may integrate: in FMUs whose steps are not those of a named integrator."""
+        return self.target == "fmu" and not self.named
+
+    @property
     def has_driven_rows(self) -> bool:
         """Whether rows of drivers are among the rows; in joint coordinates drivers may need none."""
         return any(row.joint in self.drivers for row in self.compiled.info.rows)
@@ -269,6 +274,8 @@ class CModel:
         printed.add_start(exported_start(self.mechanism, self.compiled, start.datum or (), turns))
         if self.printed_run is not None:
             printed.add_run(self.printed_run)
+            if self.exchanges and self.mechanism.bounded:
+                printed.add_exchange(self.printed_run)
             printed.add_steps(self.compiled, PrintedEvents(), ("find_rates",))
         else:
             further = ("apply_effects",) if self.events.effects else ()

@@ -25,6 +25,7 @@ from symgen.base.version import __version__
 from symgen.derive.emit.module import render
 from symgen.result.targets._base_units import base_unit
 from symgen.result.targets._c_model import CModel, sources
+from symgen.result.targets._fmu_modes import indicator_names, values_of_exchange
 from symgen.result.targets._target import Request, Target
 from symgen.run.planning.package import Package
 
@@ -65,7 +66,7 @@ def _write(request: Request) -> Package:
     # inputs with formulas remain inputs of the FMU: the importing tool connects them
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
-    files = _files(model, request.fmi)
+    files = files_of(model, request.fmi)
     files |= _binaries(model.prefix, files, request.fmi)
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -78,10 +79,11 @@ def _write(request: Request) -> Package:
     return Package(request.path.parent, (request.path,), compiled.derive_seconds, compiled.emit_seconds, model.notes)
 
 
-def _files(model: CModel, fmi: int) -> dict[str, bytes]:
-    """Return the text files of an FMU by their names in it."""
+def files_of(model: CModel, fmi: int) -> dict[str, bytes]:
+    """Return the text files of an FMU of a version of the interface by their names in it."""
     texts = sources(model.values)
     values = model.values | _partition(model)
+    values |= values_of_exchange(model, values["holonomic"])
     values |= {
         "fmi": fmi,
         "guid": f"{{{uuid5(NAMESPACE_OID, ' '.join([*texts.values(), str(fmi), __version__]))}}}",
@@ -101,6 +103,7 @@ def _partition(model: CModel) -> dict[str, Any]:
     compiled, info = model.compiled, model.compiled.info
     rows = compiled.jacobian(model.run.start.w)
     holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
+    rows[list(info.switchable)] = 0.0  # states of an importer are those that are independent in all modes
     return {
         "holonomic": holonomic,
         "spins": [f"{{{first}, {turning}}}" for first, turning in info.spins],
@@ -132,17 +135,19 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
             parameters.append(ModelVariable(name, i, "parameter", "fixed", "exact", unit, value))
     outputs = [ModelVariable(q.name, _COLUMN + i, "output", unit=q.unit) for i, q in enumerate(model.columns)]
     names = {v.name for v in (*parameters, *outputs)}
+    modes = {f"{row.name}.mode" for row in mechanism.bounded}
     for i, output in enumerate(mechanism.outputs):
         name = f"output.{output.name}" if output.name in names else output.name
-        outputs.append(ModelVariable(name, _OUTPUT + i, "output", unit=output.unit))
+        variability = "discrete" if output.name in modes else "continuous"
+        outputs.append(ModelVariable(name, _OUTPUT + i, "output", variability, unit=output.unit))
     count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
-    if values["whole"]:  # co-simulation alone: no states of an importing tool, and no indicators
+    if not values["exchanges"]:  # co-simulation alone: no states of an importing tool, and no indicators
         count = 0
     what = "independent coordinate or velocity, state or integral"
     states = [ModelVariable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
     rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
-    exchanged = fmi == 3 and not values["whole"]
-    marks = [*(f"event.{event.name}" for event in mechanism.events), "event.choice_of_states"] if exchanged else []
+    exchanged = fmi == 3 and values["exchanges"]
+    marks = [*(f"event.{name}" for name in indicator_names(model)), "event.choice_of_states"] if exchanged else []
     indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
     variables = [*parameters, *outputs, *states, *rates, *indicators]
     for i, variable in enumerate(variables, 1):

@@ -258,6 +258,10 @@ class Printed:
         """Add ``start_run()`` and ``advance_run(through, h, until)`` of a run with modes."""
         self.entries.update(run.entries(self.emitted))
 
+    def add_exchange(self, run: PrintedRun) -> None:
+        """Add ``indicate_run(t, y, values)`` and ``exchange_run(doing, t)`` of a run whose steps an importer makes."""
+        self.entries.update(run.exchange_entries(self.emitted))
+
     def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:
         """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
         layout, geometry = layout_of(compiled), compiled.model.geometry

@@ -31,7 +31,9 @@ from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.loops.event_loop import notes_at
 from symgen.run.loops.schemes import readable
 from symgen.run.loops.seams import preparing, seams_of
+from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
+from symgen.run.rows.exchanged_run import Exchange, exchanged_run
 from symgen.run.rows.kept_modes import KeptModes
 from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
@@ -67,8 +69,12 @@ _CONSTANT = {
     "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves", "resets")),
     "visible": frozenset(("ends",)),
 }
+#: Arguments of a run, and arrays that callers pass beside them.
+_ARGUMENTS = "model", "scheme", "span", "chunk", "state", "outputs", "visible", "exchange"
+_PASSED = frozenset(("y", "values"))
 #: Beginnings of the names of arrays in the memory; the state, parameters and scratch of the model have their own.
 _OWN = {"visible.y": "y", "visible.clock": "run_shown", "state.p": "p", "state.w": "w", "state.iw": "iw"}
+_OWN |= {"exchange.times": "run_times"}
 
 
 @functools.cache
@@ -149,16 +155,38 @@ class PrintedRun:
         named : mapping of str to Function
             Emitted functions by their names in the text, those of `functions` among them.
         """
-        emitted, (model, scheme, span, chunk, state, outputs, visible) = self.emitted(named), self._arguments
-        start, advance, steps = self._loops
-        if steps is not None:
-            emitted[id(steps)] = read_loop(steps, steps.signature.arguments, _plain, apart=True)
+        emitted, (model, scheme, span, chunk, state, outputs, visible, _) = self.emitted(named), self._arguments
+        start, advance, _ = self._loops
         limits = np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
+        functions = {
+            "start_run": (start, (model, limits, chunk, state, visible)),
+            "advance_run": (advance, (None, model, scheme, span, chunk, state, outputs, visible)),
+        }
+        return self._read(functions, emitted)
+
+    def exchange_entries(
+        self, named: Mapping[str, lang.Function]
+    ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
+        """Return ``indicate_run(t, y, values)`` and ``exchange_run(doing, t)``; see `symgen.run.rows.exchanged_run`."""
+        emitted, (model, _, span, chunk, state, _, visible, exchange) = self.emitted(named), self._arguments
+        indicate, serve = exchanged_run(*self._recipe)
+        y, values = visible.y.copy(), np.zeros(int(state.hunt[COUNT]))
+        span = span._replace(step=self.spec.step, until=np.inf)
+        functions = {
+            "indicate_run": (indicate, (None, y, model, state, values)),
+            "exchange_run": (serve, (None, None, model, span, chunk, state, visible, exchange)),
+        }
+        return self._read(functions, emitted)
+
+    def _read(
+        self, functions: Mapping[str, tuple[Any, tuple[Any, ...]]], emitted: dict[int, lang.Function]
+    ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
+        """Return functions by name with the meanings of their parameters, for the arguments beside them."""
         entries = dict[str, tuple[lang.Function, dict[str, Meaning]]]()
-        for name, function, arguments in (
-            ("start_run", start, (model, limits, chunk, state, visible)),
-            ("advance_run", advance, (None, model, scheme, span, chunk, state, outputs, visible)),
-        ):
+        steps = self._loops.steps
+        if steps is not None:
+            emitted = emitted | {id(steps): read_loop(steps, steps.signature.arguments, _plain, apart=True)}
+        for name, (function, arguments) in functions.items():
             source = read_loop(function, function.signature.arguments, _plain, apart=True)
             entries[name] = source, meanings_of(function, arguments, emitted, self._room)
         return entries
@@ -171,12 +199,16 @@ class PrintedRun:
     # -- arguments
 
     @property
-    def _loops(self) -> KeptLoops:
+    def _recipe(self) -> tuple[Any, Traits]:
         watched, rows = self.watched, self._rows
         pressed = rows is not None and bool(rows.pressed)
         changes = watched is not None and watched.effects is not None
         traits = Traits(watched is not None, changes, rows is not None, pressed, bool(self.seams))
-        return kept_run(readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits)
+        return readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits
+
+    @property
+    def _loops(self) -> KeptLoops:
+        return kept_run(*self._recipe)
 
     @cached_property
     def _decide(self) -> Any:
@@ -196,7 +228,7 @@ class PrintedRun:
 
     @cached_property
     def _arguments(self) -> tuple[Any, ...]:
-        """Arguments of `advance_run` behind its first one; a step and its end are None, as they are passed."""
+        """Arguments of `advance_run` behind its first one, then `Exchange`; a step and its end are None: passed."""
         compiled, info, watched = self.compiled, self.compiled.info, self.watched
         setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), model_sizes(compiled)
         sizes, span, memory = sizes._replace(width=info.ny), span_of(self.spec, setup), setup.memory
@@ -228,7 +260,7 @@ class PrintedRun:
         visible = Visible(np.zeros(info.ny), clock, np.zeros(4, dtype=np.int64), ends)
         numbers = Span(**{**span._asdict(), "until": None, "step": None, "end": np.inf})
         of_model = model, observers, *self._further(span, len(state.w))
-        return of_model, setup.scheme, numbers, chunk, state, outputs, visible
+        return of_model, setup.scheme, numbers, chunk, state, outputs, visible, Exchange(np.zeros(2))
 
     def _further(self, span: Span, nw: int) -> tuple[Any, ...]:
         """Return what stands behind the functions of a model: rows with bounds, or effects of events."""
@@ -246,21 +278,19 @@ class PrintedRun:
     def _named(self) -> dict[int, tuple[str, NDArray[Any]]]:
         """Name and array by its identity; constant ones have no name."""
         named = dict[int, tuple[str, NDArray[Any]]]()
-        names = "model", "scheme", "span", "chunk", "state", "outputs", "visible"
-        for name, argument in zip(names, self._arguments, strict=True):
+        for name, argument in zip(_ARGUMENTS, self._arguments, strict=True):
             for path, array in _arrays(name, argument):
                 named.setdefault(id(array), ("" if _is_constant(path) else _name_of(path), array))
         return named
 
     @cached_property
     def _by_path(self) -> dict[str, str]:
-        names = "model", "scheme", "span", "chunk", "state", "outputs", "visible"
-        pairs = [p for name, argument in zip(names, self._arguments, strict=True) for p in _arrays(name, argument)]
+        pairs = [p for name, value in zip(_ARGUMENTS, self._arguments, strict=True) for p in _arrays(name, value)]
         return {path: self._named[id(array)][0] for path, array in pairs}
 
     def _room(self, name: str) -> str | None:
         """Return the name of an array in the memory; see `symgen.run.compiling.printed.Naming`."""
-        return self._by_path.get(name) or None
+        return "" if name in _PASSED else self._by_path.get(name) or None
 
 
 def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:

@@ -88,7 +88,7 @@ from symgen.run.loops.table_points import SHORT_OF, aim, arrive, bend, ends_near
 A = Any
 #: Tasks: look for events, take the whole step, take a step that ends in an event, or one that ends before a jump, so
 #: that its stages are on one side of it.
-_LOOKING, _WHOLE_STEP, _TO_EVENT, _BEFORE = range(4)
+_LOOKING, _WHOLE_STEP, TO_EVENT, _BEFORE = range(4)
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 #: Changes of g by a reset below this fraction of its size in the step before are rounding.
 _SAME = 1e-6
@@ -362,7 +362,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         if search == KEEP:
             return int(keep(hunt, first, size - _COUNTERS, w, iw))
         return int(give_back(hunt, first, size - _COUNTERS, w, iw))
-    if search == TAKE and hunt[DOING] != _TO_EVENT:
+    if search == TAKE and hunt[DOING] != TO_EVENT:
         if hunt[DOING] == _BEFORE:
             end_before(hunt, n, h)
         settle(hunt, n, 1)
@@ -396,7 +396,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             if crossed(hunt, n, G_HIGH, LEAVE) >= LEAVE or hunt[NOTED] > NOTES:
                 if search == NOTHING and near == 1:
                     return int(ended(hunt, n, notes, following, width, y))
-                hunt[DOING], hunt[TRY] = _TO_EVENT, high
+                hunt[DOING], hunt[TRY] = TO_EVENT, high
                 return TAKE
             if h != high:
                 hunt[TRY] = high

@@ -311,6 +311,11 @@ class Traits(NamedTuple):
         return meanings | (_SEAMED if self.seams else {})
 
     @property
+    def state(self) -> types.RecordType:
+        """Type of the state of a run."""
+        return EVENT_STATE if self.events else STATE
+
+    @property
     def further(self) -> tuple[types.RecordType, ...]:
         """Types of what stands behind the functions of a model."""
         return (KEPT_MODES,) if self.modes else (OF_EFFECTS,) if self.effects else ()
@@ -344,17 +349,8 @@ def kept_run(loop: Any, traits: Traits) -> KeptLoops:
     """
     key = loop, traits
     if key not in _loops:
-        (module, own, scheme, *functions), parts = frame.RECIPES[loop]
-        meanings = {**parts, **traits.meanings}
-        system = types.RecordType((*frame.kinds_of(functions), *((abi.OBSERVE, abi.DECIDE, abi.RHS) * traits.events)))
-        state = EVENT_STATE if traits.events else STATE
-        steps, name = None, f"{module.rpartition('.')[2]}_{own}"
-        if traits.seams:
-            signature = types.int64(system, scheme, SPAN, state, KEPT_OUTPUT)
-            steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
-            system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
-        name += "".join(f"_{trait}" for trait, has in traits._asdict().items() if has)
-        model = types.RecordType((system, OBSERVERS, *traits.further))
+        name, meanings, steps, model = recipe_of(loop, traits)
+        scheme, state = frame.RECIPES[loop][0][2], traits.state
         kinds = CHUNK, state, KEPT_OUTPUT, VISIBLE
         start = types.int64(model, _A, CHUNK, state, VISIBLE)
         advance = types.int64(types.int64, model, scheme, SPAN, *kinds)
@@ -364,3 +360,20 @@ def kept_run(loop: Any, traits: Traits) -> KeptLoops:
             steps,
         )
     return _loops[key]
+
+
+def recipe_of(loop: Any, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
+    """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and the model.
+
+    Parameters are those of `kept_run`.
+    """
+    (module, own, scheme, *functions), parts = frame.RECIPES[loop]
+    meanings = {**parts, **traits.meanings}
+    system = types.RecordType((*frame.kinds_of(functions), *((abi.OBSERVE, abi.DECIDE, abi.RHS) * traits.events)))
+    steps, name = None, f"{module.rpartition('.')[2]}_{own}"
+    if traits.seams:
+        signature = types.int64(system, scheme, SPAN, traits.state, KEPT_OUTPUT)
+        steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
+        system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+    name += "".join(f"_{trait}" for trait, has in traits._asdict().items() if has)
+    return name, meanings, steps, types.RecordType((system, OBSERVERS, *traits.further))

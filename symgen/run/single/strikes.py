@@ -13,7 +13,7 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
-from symgen.run.effects.accumulation import PAST, accumulation, add_resets
+from symgen.run.effects.accumulation import OF_EVENT, PAST, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
@@ -39,6 +39,8 @@ _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int
 
 #: Impulses below this part of the largest are rounding.
 _NOTHING = 1e-12
+#: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
+_LOW, _LOST = 1e-6, 0.1
 #: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
 #: the last two, the least change of the latter, and the end behind it.
 _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
@@ -255,6 +257,29 @@ def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any)
         return SAME
     put_off(c, w)
     return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
+def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
+    """Bring the gaps of the latest impact to rest where an importer's tolerance loses their flights.
+
+    A low flight takes twice the rate at its end over the acceleration. Where an importer finds another duration, its
+    errors are as large as the flight, and the next ones, which are lower, would be errors alone. `gather` has written
+    the accelerations. Returns as `gather` does.
+    """
+    lost = False
+    for i in range(c.dry, c.count):
+        pull, rate, flight = -c.out[i], -s.before[i], 0.0
+        if s.active[i] != 0 and pull > 0.0 and rate > 0.0:
+            last = OF_EVENT * s.events[i] + s.past.counts[s.events[i]] - 1
+            if s.past.counts[s.events[i]] > 1:
+                flight = s.past.times[last] - s.past.times[last - 1]
+            low = 0.5 * rate * rate <= _LOW * row_scale(c, w, i, abi.LENGTH) * pull
+            lost = lost or (low and flight > 0.0 and abs(flight * pull - 2.0 * rate) > _LOST * 2.0 * rate)
+    if not lost:
+        return SAME
+    put_off(c, w)
+    return OTHERS if come_to_rest(t, c, s, t, Instant(y, p, w)) == SAME else NOT_APPLIED
 
 
 @exact()
