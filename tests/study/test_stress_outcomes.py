@@ -8,8 +8,8 @@ import pytest
 
 from study.report.made import stress_row
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
-from symgen.study.stress.cells import largest_number
 from symgen.study.stress.findings import cause, explained, findings, largest_root
+from symgen.study.stress.searches import largest_near, largest_number, largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
 
 REGULAR = np.ones(11)
@@ -69,6 +69,37 @@ def test_the_largest_step_is_found_within_a_percent_or_so(limit):
     found = largest_number(holds, 1e-3, 1.0)
     assert limit / 1.012 < found <= limit
     assert len(tried) < 30
+    near = [largest_near(holds, 1e-3, 1.0, factor * limit) for factor in (1.0, 0.6, 1.9)]
+    assert limit > 1e-3 or near == [found] * 3, "to the last digit the same"
+
+
+def test_a_search_from_where_the_limit_is_expected_tries_few_steps_that_hold():
+    tried = []
+
+    def holds(step):
+        tried.append(step <= 3e-6)
+        return tried[-1]
+
+    largest_number(holds, 1e-3, 1.0)
+    whole = sum(tried)
+    tried.clear()
+    largest_near(holds, 1e-3, 1.0, 3e-6)
+    assert len(tried) == 2 and sum(tried) == 1 < whole
+
+
+def test_a_search_near_a_step_gives_up_at_the_ends_of_the_scan():
+    assert largest_near(lambda step: True, 1e-3, 1.0, 1e-4) is None
+    assert largest_near(lambda step: False, 1e-3, 1.0, 1e-4) is None
+    assert largest_near(lambda step: True, 1e-3, 1.0, 1e-9) is None, "below the scan"
+
+
+def test_what_is_accurate_is_stable_beyond_a_step_that_is_not():
+    def attempt(step):
+        return step < 2e-5 or 4e-5 < step < 8e-5, step < 8e-5
+
+    stable, accurate = largest_steps(attempt, 1e-3, 1.0, 2e-5)
+    assert stable == accurate and 8e-5 / 1.012 < accurate < 8e-5
+    assert largest_steps(attempt, 1e-3, 1.0, np.inf) == (stable, accurate)
 
 
 def test_no_largest_step():
