@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from study.report.made import stress_row
+from symgen.study.runner import Cell, Status
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
 from symgen.study.stress.findings import cause, explained, findings, largest_root
+from symgen.study.stress.progress import Whole
 from symgen.study.stress.searches import largest_near, largest_number, largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
 
@@ -175,3 +177,21 @@ def test_cells_that_nobody_judged_count_nothing():
 
 def test_an_empty_study_has_no_findings():
     assert findings(Stress(("four-bar",), (), (), (), ())) == ()
+
+
+def test_progress_counts_all_parts_and_what_a_journal_had_is_no_work():
+    seen = []
+    first, second = ([Cell(f"{part}{i}", "", None, cost) for i in range(2)] for part, cost in (("a", 1.0), ("b", 3.0)))
+    whole = Whole.of([*first, *second], lambda what, status: seen.append((what, status)))
+    show = whole.part("first", first)
+    show(Status(1, 2, 0.5, None))
+    show(Status(2, 2, 1.0, 0.0))
+    whole.part("second", second)(Status(0, 2, 0.0, None))
+    assert [(what, status.done, status.total, status.share) for what, status in seen] == [
+        ("first", 1, 4, 0.125),
+        ("first", 2, 4, 0.25),
+        ("second", 2, 4, 0.25),
+    ]
+    assert seen[0][1].seconds_left is None, "nothing was computed yet"
+    spent = seen[1][1].seconds_left / 6.0  # one of seven parts of the work, six remain
+    assert 0.0 < spent < 60.0
