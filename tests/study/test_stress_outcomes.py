@@ -87,6 +87,8 @@ def test_a_search_from_where_the_limit_is_expected_tries_few_steps_that_hold():
     tried.clear()
     largest_near(holds, 1e-3, 1.0, 3e-6)
     assert len(tried) == 2 and sum(tried) == 1 < whole
+    near = largest_near(holds, 1e-3, 1.0, 5e-6, halvings=4)
+    assert near == largest_number(holds, 1e-3, 1.0, halvings=4) and 3e-6 / 1.1 < near <= 3e-6
 
 
 def test_a_search_near_a_step_gives_up_at_the_ends_of_the_scan():

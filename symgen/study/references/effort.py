@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
 #: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many.
 BOUNDED = 10
+#: A search for a limit takes some ten runs, each by explicit steps within this part of the budget of a run alone.
+SEARCHED = 2
 #: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
 FURTHER, LEAST_FURTHER = 100, 100_000
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
@@ -50,12 +52,13 @@ def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
     return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
 
 
-def budget_of(plan: Plan, mechanism: Mechanism) -> int:
-    """Return the evaluation limit of a run."""
+def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False) -> int:
+    """Return the evaluation limit of a run, or of one of the many of a search."""
     if is_implicit(plan):
         return implicit_budget(mechanism)
     most = ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET
-    return explicit_budget(mechanism, most // BOUNDED if mechanism.bounded else most)
+    most //= (BOUNDED if mechanism.bounded else 1) * (SEARCHED if searched else 1)
+    return explicit_budget(mechanism, most)
 
 
 def further_budget(budget: int, used: int) -> int:

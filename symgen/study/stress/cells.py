@@ -39,7 +39,7 @@ from symgen.study.stress import kept
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
 from symgen.study.stress.cell_references import geometry_of, reference_of, times_of, without_reference
-from symgen.study.stress.searches import largest_steps
+from symgen.study.stress.searches import HALVINGS, largest_steps
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -68,7 +68,9 @@ class RunTask:
 
 @dataclass(frozen=True)
 class LimitTask(RunTask):
-    """Find the largest constant step of a method and an integrator for a case."""
+    """Find the largest constant step of a method and an integrator for a case, by so many halvings."""
+
+    halvings: int = HALVINGS
 
 
 def compute_cell(task: CellReference | RunTask) -> Fields:
@@ -91,7 +93,7 @@ def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
     return {**words, **numbers, "evaluations": evaluations}
 
 
-def _run(task: RunTask) -> Fields:
+def _run(task: RunTask, searched: bool = False) -> Fields:
     """Return the fields of a row that depend on the run; without a reference nothing is run."""
     level, method, integrator, motion = task.level, task.method, task.integrator, task.reference
     mechanism = level.mechanism
@@ -112,7 +114,7 @@ def _run(task: RunTask) -> Fields:
         why = without_reference(motion)
         if why is not None:
             return _not_run(judged.UNJUDGED, why)
-        budget = budget_of(plan, mechanism)
+        budget = budget_of(plan, mechanism, searched)
         chosen = f"{plan.choice.method.name}, {plan.integrator.name}" if method == AUTO else ""
         least = predicted(plan, motion["decay"])
         if least > budget:
@@ -214,18 +216,22 @@ def _limit(task: LimitTask) -> Fields:
     """Find the largest step that follows the motion at all, and the largest one that is accurate."""
     if without_reference(task.reference) is not None:
         return {"stable_step": None, "accurate_step": None}
-    ran: dict[float, tuple[bool, bool]] = {}
+    ran, slow = dict[float, tuple[bool, bool]](), 0.0
 
     def attempt(step: float) -> tuple[bool, bool]:
+        nonlocal slow
+        if step <= slow:  # smaller steps take more evaluations than one that takes too many
+            return False, False
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common))
+            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common), searched=True)
+            slow = step if fields["outcome"] == judged.TOO_SLOW else slow
             length = task.reference["length"]
             error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf
             ran[step] = error <= judged.LOST * length, error <= judged.ACCURATE * length
         return ran[step]
 
-    stable, accurate = largest_steps(attempt, task.level.step, task.level.until, _boundary(task))
+    stable, accurate = largest_steps(attempt, task.level.step, task.level.until, _boundary(task), task.halvings)
     return {"stable_step": stable, "accurate_step": accurate}
 
 

@@ -32,6 +32,7 @@ from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.kept import identity_of
 from symgen.study.stress.progress import Progress, Whole
+from symgen.study.stress.searches import HALVINGS, QUICK_HALVINGS
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
@@ -259,7 +260,7 @@ class _Study:
             level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
             for pair in ((name, constant_integrator(name)) for name in self.methods if name != AUTO):
                 if self._is_compiled(level, pair):
-                    yield LimitTask(level, *pair, motion, self.common)
+                    yield LimitTask(level, *pair, motion, self.common, QUICK_HALVINGS if self.quick else HALVINGS)
 
     def _is_compiled(self, level: Level, pair: tuple[str, str]) -> bool:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
@@ -287,7 +288,8 @@ def _cell(task: CellReference | RunTask) -> Cell:
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
     # roughly how long a run takes, in steps
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
-    cost *= SEARCH if isinstance(task, LimitTask) else 1.0
+    if isinstance(task, LimitTask):
+        parts, cost = parts | {"halvings": task.halvings}, SEARCH * cost
     check = _check_limit if isinstance(task, LimitTask) else _check_run
     return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
 
