@@ -12,7 +12,6 @@ import pickle
 from collections.abc import Callable
 from typing import Any
 
-import llvmlite
 import numba
 from numba.core.compiler import CompileResult
 from numba.core.registry import cpu_target
@@ -62,4 +61,4 @@ def machine_code(name: str, signature: Any, identity: str, make: Callable[[], An
 
 @functools.cache
 def _environment() -> str:
-    return "\n".join((numba.__version__, llvmlite.__version__, processor(), reached_digest(*SOURCES)))
+    return "\n".join((numba.__version__, processor(), reached_digest(*SOURCES)))
