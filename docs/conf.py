@@ -36,6 +36,7 @@ NAVIGATION = {
         "docs/gallery/README",
         "examples/README",
         "docs/findings/README",
+        "docs/paper/README",
     ),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),

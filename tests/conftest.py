@@ -8,6 +8,7 @@ from __future__ import annotations
 import gc
 import os
 import shutil
+import sys
 import tempfile
 from pathlib import Path
 
@@ -25,6 +26,10 @@ settings.load_profile("any machine")
 # It would look for numbers and texts to try in every imported module that is no library's, and so in all that symgen
 # emits in a session, again and again as more are imported: half a minute. Draws would depend on what ran before.
 providers._get_local_constants = lambda: providers._local_constants
+
+# Hundreds of tests start processes, each of which would compile the sources of all it imports: half of its time.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
@@ -54,17 +59,18 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)  # before tests are chosen by their markers
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Put the longest tests in front; mark cases slow that a test's `fast` does not name."""
+    """Put the longest tests in front; mark cases slow that `fast` does not name, or `slow_cases` does."""
     items.sort(key=lambda item: item.name not in LONGEST)
     named: dict[str, set[str]] = {}
     for item in items:
-        marker = item.get_closest_marker("fast")
-        if marker is None:
-            continue
         place, _, case = item.nodeid.removesuffix("]").partition("[")
-        if case not in marker.args:
-            item.add_marker("slow")
-        named.setdefault(place, set(marker.args)).discard(case)
+        for name in ("fast", "slow_cases"):
+            marker = item.get_closest_marker(name)
+            if marker is None:
+                continue
+            if (case in marker.args) == (name == "slow_cases"):
+                item.add_marker("slow")
+            named.setdefault(place, set(marker.args)).discard(case)
     for place, unknown in named.items():
         if unknown and not any("::" in word for word in config.args):  # where one case is asked for, others are absent
             raise pytest.UsageError(f"{place}: no case is called {', '.join(sorted(unknown))}")

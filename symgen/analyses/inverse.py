@@ -25,7 +25,7 @@ from symgen.result.over_time import rms
 from symgen.result.reactions import Forces, seats
 from symgen.result.saved import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
-from symgen.run.breaks.seams import seams_of
+from symgen.run.breaks.seams import seams_of_motion
 from symgen.run.planning.inputs import put_inputs
 
 if TYPE_CHECKING:
@@ -249,7 +249,7 @@ def _of_record(
     settings = placed.settings
     if placed.driven is not None:  # inputs that jump elsewhere are what they are during the motion
         numbers = parameter_values(placed.mechanism, settings.parameters)
-        seams = seams_of(placed.driven, numbers, end, float(record.t[0]))
+        seams = seams_of_motion(placed.driven, numbers, end, float(record.t[0]))
         if any(seam.values for seam in seams[1:] if seam.t < record.t[-1]):  # at a kink no number becomes another
             raise InputError("inverse: inputs", "inputs without jumps", ", ".join(placed.words))
         now = seams[0].values if seams else {}

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import in_order, json_form, null_space_split, ranking
 from symgen.analyses.edges import edges
 from symgen.analyses.linearise import eigenvectors, vibration
-from symgen.analyses.reduced import StateTangent, accelerations, tangent
+from symgen.analyses.reduced import StateTangent, descriptor_accelerations, tangent
 from symgen.analyses.steady import at_rest, named_states
 from symgen.analyses.subject import Subject
 from symgen.base.errors import counted
@@ -199,7 +199,7 @@ def _shares(
         y, dq, dv = _of_bodies(x, subject, vectors)
     first = subject.evaluated(y, t=x.t)
     basis, inverse, _ = null_space_split(subject.rows(first), subject.loads)
-    a, lam = accelerations(first, basis, inverse)
+    a, lam = descriptor_accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, x.t)
     dr, mass = np.linalg.pinv(e.by("motion", "v")) @ dq, e.by("balance", "a")
     kinetic, momentum = dict[str, Array](), mass @ dv

@@ -18,7 +18,7 @@ from symgen.describe.bounds.modes import without_bounds
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
-from symgen.run.breaks.seams import seams_of
+from symgen.run.breaks.seams import seams_of_motion
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.planning.dead_centre import DRIVER, jacobian_at
@@ -142,7 +142,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: fl
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     if first < 0.0 and placed.driven is not None:  # the start is at 0, others hold before
         values = parameter_values(placed.mechanism, placed.settings.parameters)
-        seams = seams_of(placed.driven, values, end, first)
+        seams = seams_of_motion(placed.driven, values, end, first)
     for seam in seams:
         if seam.t > first:
             held.append((seam.t, p))

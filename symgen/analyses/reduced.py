@@ -185,7 +185,7 @@ def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
     return quantities | {v.name: ("v", i) for i, v in enumerate(info.velocities)}
 
 
-def accelerations(e: LinearisedState, basis: Array, inverse: Array) -> tuple[Array, Array]:
+def descriptor_accelerations(e: LinearisedState, basis: Array, inverse: Array) -> tuple[Array, Array]:
     """Return v' and the multipliers from the descriptor form evaluated with v' = 0 and no multipliers."""
     mass, force, gap = e.by("balance", "a"), e.value("balance"), e.value("accelerations")
     a = -inverse @ gap
@@ -225,7 +225,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> StateTangent:
     still = subject.evaluated(y, t=now)
     d = subject.rows(still)
     basis, inverse = subject.split(d, subject.loads)
-    a, lam = accelerations(still, basis, inverse)
+    a, lam = descriptor_accelerations(still, basis, inverse)
     e = subject.evaluated(y, a, lam, now)
     places = subject.places
     for group in ("velocities", "positions"):

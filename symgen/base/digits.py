@@ -65,7 +65,7 @@ def column(values: Sequence[float], unit: str = "", count: int = 6, least: float
     return [digits(x, scale, count) for x in values]
 
 
-def table(rows: Sequence[Sequence[float]]) -> list[list[str]]:
+def digits_of_rows(rows: Sequence[Sequence[float]]) -> list[list[str]]:
     """Return the texts of a matrix by rows; a column that is nothing beside the others may be rounding throughout."""
     least = BESIDE * scale_of(x for row in rows for x in row)
     columns = [column(values, least=least) for values in zip(*rows, strict=True)]

@@ -290,7 +290,7 @@ class Amount:
             The unit of a number without one, SI by default.
         """
         unit = unit_of(self.unit, where, quantity=quantity) if self.unit else known(usual)
-        return finite(unit.to_si(self.number), where)
+        return finite_number(unit.to_si(self.number), where)
 
 
 def read_amount(text: str) -> Amount | None:
@@ -310,7 +310,7 @@ def si_hint(value: object) -> str:
     return f"numbers are in SI units here: {unit.to_si(amount.number)!r}"
 
 
-def finite(value: float, where: str) -> float:
+def finite_number(value: float, where: str) -> float:
     """Return a finite number."""
     if not math.isfinite(value):
         raise InputError(where, "a finite number", str(value))

@@ -157,7 +157,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         return complain(_sentence(error), BAD_INPUT)
     except InputError as error:
-        return complain(in_line(error), error.exit_code)
+        return complain(with_line(error), error.exit_code)
     except SymgenError as error:
         return complain(str(error), error.exit_code)
     except (click.Abort, KeyboardInterrupt):
@@ -181,13 +181,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return complain(str(failure), failure.exit_code)
 
 
-def in_line(error: InputError) -> str:
+def with_line(error: InputError) -> str:
     """Return the sentence of an error, with the line of the mechanism file that it is about."""
     if error.file is None:
         return str(error)
-    from symgen.describe.files.problems import in_line
+    from symgen.describe.files.problems import with_line
 
-    return in_line(error)
+    return with_line(error)
 
 
 def complain(sentence: str, code: int) -> int:

@@ -94,13 +94,13 @@ def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
     InputError
         If a unit is none, or none of the quantity, or models have different ones for a name.
     """
-    from symgen.describe.facts.typed_units import Typed, in_si
+    from symgen.describe.facts.typed_units import Typed, typed_in_si
 
     if not isinstance(numbers, Mapping) or not any(isinstance(x, Typed) for x in numbers.values()):
         return numbers
     from symgen.describe.files.load import load
 
-    found = [in_si(load(model), numbers, option) for model in models if not model.lower().endswith(".nc")]
+    found = [typed_in_si(load(model), numbers, option) for model in models if not model.lower().endswith(".nc")]
     for other in found[1:]:
         name = next((name for name, x in other.items() if x != found[0][name]), None)
         if name is not None:
@@ -194,7 +194,7 @@ def column_names(option: str, texts: Sequence[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def plotted(plot: str | None, over: str | None) -> Path | None:
+def plot_file(plot: str | None, over: str | None) -> Path | None:
     """Return the file of ``--plot``; ``--over`` alone is refused."""
     path = output_file("--plot", plot, "plot")
     check_over(over, path)

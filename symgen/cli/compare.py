@@ -17,7 +17,7 @@ from symgen.cli._options import (
     jobs_option,
     json_option,
     number_list,
-    plotted,
+    plot_file,
     quantity_options,
     setting_options,
 )
@@ -117,7 +117,7 @@ def command(
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     errors = number_list("--at", error_at)
     method_list, integrator_list = comma_list("--methods", methods), comma_list("--integrators", integrators)
-    plot_path = plotted(plot, over)
+    plot_path = plot_file(plot, over)
     if quantities and plot_path is None:
         raise InputError("--quantity", "--plot FILE, which draws it", "no --plot")
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import click
 
+from symgen.base.errors import InputError, quoted
 from symgen.base.settings import Settings
 from symgen.cli import FAILURE, OK, complain, write_files
 from symgen.cli._options import examples, setting_options, tell
@@ -28,7 +30,10 @@ from symgen.cli._report import command_again
 @click.option(
     "-o", "--output", metavar="FILE", help="The report: .html, .md, or .pdf by a browser or matplotlib.  [MODEL.html]"
 )
-def command(model: str, over: str, output: str | None, **values: Any) -> int:
+@click.option(
+    "--page", metavar="FILE", help="A page that plays the motion (.html), beside the report, which links to it."
+)
+def command(model: str, over: str, output: str | None, page: str | None, **values: Any) -> int:
     """Write one document of MODEL: drawing, motion, largest loads with their times, curves, frequencies at rest.
 
     It ends with how far the run can be trusted and the command that makes it again.
@@ -43,12 +48,30 @@ def command(model: str, over: str, output: str | None, **values: Any) -> int:
     loaded = load(model)
     path = Path(output or f"{loaded.name}.html")
     check_report("--output", path)
+    player = None if page is None else beside(path, page)
     with Bar(loaded.name, settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
-    document = machine(loaded, result, command_again(), over)
+    document = machine(loaded, result, command_again(), over, player.name if player else "")
     code = complain(f"failed: {result.reason}", FAILURE) if result.status == "failed" else OK
     by = f", {printer()}" if path.suffix.lower() == ".pdf" else ""
-    return write_files(
-        code, {path: lambda file: write(document, file)}, lambda file: click.echo(f"written: {file}{by}")
-    )
+    files: dict[Path | None, Callable[[Path], object]] = {path: lambda file: write(document, file)}
+    if player is not None:
+        files[player] = result.view().save
+    return write_files(code, files, lambda file: click.echo(f"written: {file}{by if file == path else ''}"))
+
+
+def beside(report: Path, page: str) -> Path:
+    """Return the file of ``--page``, which stands in the folder of the report, so that both can be moved together.
+
+    Raises
+    ------
+    InputError
+        If it stands elsewhere, is no page, or is the report itself.
+    """
+    path = Path(page)
+    if path.suffix.lower() != ".html" or path.name == report.name:
+        raise InputError("--page", "another file than the report that ends in .html", quoted(page))
+    if path.parent.resolve() != report.parent.resolve():
+        raise InputError("--page", f"a file in the folder of the report, '{report.parent}'", quoted(page))
+    return path

@@ -16,7 +16,7 @@ from symgen.cli._options import (
     examples,
     json_option,
     output_file,
-    plotted,
+    plot_file,
     quantity_options,
     setting_options,
     tell,
@@ -86,7 +86,7 @@ def command(
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
-    plot_path = plotted(plot, over)
+    plot_path = plot_file(plot, over)
     if units and (save_path is None or save_path.suffix.lower() != ".csv"):
         raise InputError("--units", "--save FILE.csv, whose headings carry them", save or "no --save")
 

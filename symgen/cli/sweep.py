@@ -15,7 +15,7 @@ from symgen.cli._options import (
     jobs_option,
     json_option,
     pairs,
-    plotted,
+    plot_file,
     quantity_options,
     setting_options,
     target_option,
@@ -97,7 +97,7 @@ def command(
         raise InputError("--resume", "the output that was begun", "no --output")
     if jobs is not None and scheduler is not None:
         raise InputError("--jobs", "threads of this machine", "--scheduler as well", "the cluster has its own")
-    path, plot_path = None if output is None else Path(output), plotted(plot, over)
+    path, plot_path = None if output is None else Path(output), plot_file(plot, over)
     drawn = [name for name in quantities if name.partition(".")[0] != "event"]
     if over not in (None, "t", *axes):  # what is drawn over is kept as well
         quantities = (*(quantities or ("q", "v")), str(over))

@@ -315,6 +315,14 @@ class Output(msgspec.Struct, frozen=True):
     unit: str = ""
 
 
+class OperatingLimit(msgspec.Struct, frozen=True):
+    """What an output or a parameter may be at least and at most, in the unit of its values; reports compare."""
+
+    name: str
+    smallest: Expr | None = None
+    largest: Expr | None = None
+
+
 class Hold(msgspec.Struct, frozen=True):
     """A quantity that a start keeps while assembly moves all others.
 
@@ -394,6 +402,9 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     beams: bytes = b""  # the description as JSON if it has beams, to change their number of elements
     switchable: tuple[str, ...] = ()  # joints whose rows may be off in a part of a run
     bounded: tuple[BoundedRow, ...] = ()  # their rows stand behind those of joints; one-sided ones are last
+    limits: tuple[OperatingLimit, ...] = ()  # of outputs and parameters: nothing is computed with them
+    author: str = ""  # as is the title, for people
+    revision: str = ""
 
     def __repr__(self) -> str:
         counted = (

@@ -41,7 +41,7 @@ CASES = {
 }
 
 
-@pytest.mark.fast("adaptive-jump", "adaptive-table of the place", "constant-bounces")
+@pytest.mark.fast("adaptive-jump", "constant-bounces")
 @pytest.mark.parametrize("case", [*CASES])
 @pytest.mark.parametrize("steps", ["adaptive", "constant"])
 def test_the_adjoint_is_what_forward_directions_are(tmp_path, steps, case):

@@ -75,6 +75,7 @@ def test_friction_of_a_pin_by_its_reaction(tmp_path):
     np.testing.assert_allclose(found.efforts["pin"], torque, rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow_cases("-5.0*block.x-1.0")
 @pytest.mark.parametrize(("pull", "least"), [("-5.0*block.x", 1.0), ("5.0*block.x", 0.0)])
 def test_a_closed_stop_bears_what_it_can(tmp_path, pull, least):
     """Before the impact efforts are those of the run; on the stop the least that hold the block there.

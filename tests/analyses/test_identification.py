@@ -41,6 +41,7 @@ def measured(four_bar):
     return {"t": t, "crank.theta": four_bar.simulate(until=2.0, times=t, **FINE)["crank.theta"]}
 
 
+@pytest.mark.slow
 def test_five_parameters_from_an_angle(four_bar, measured):
     fit = four_bar.identify(measured, free=tuple(TRUE), parameters=WRONG, **FINE)
     assert fit.parameters == pytest.approx(TRUE, rel=1e-9)

@@ -109,6 +109,7 @@ def test_reactions_with_another_actuator_balance_the_rods(linkage):
 # -- recorded runs -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_andrews_gives_its_torque_back():
     andrews = symgen.load("andrews")
     run = andrews.simulate(until=0.03, output_step=1e-3)
@@ -169,6 +170,7 @@ def test_inputs_forces_and_joints_of_a_recorded_run(pendulum, tmp_path):
         assert np.abs(again.efforts["push"] - exact).max() < 1e-11
 
 
+@pytest.mark.slow
 def test_a_motion_of_kinematics_comes_back_from_a_file(linkage, tmp_path, capsys):
     times = np.linspace(0.0, 0.5, 6)
     path = linkage.kinematics(times).save(tmp_path / "motion.csv")

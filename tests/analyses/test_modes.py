@@ -81,6 +81,7 @@ def test_inputs_and_outputs_have_their_names():
     assert (space.B.shape, space.C.shape, space.D.shape) == ((2, 1), (3, 2), (3, 1))
 
 
+@pytest.mark.slow
 def test_four_bar_by_sympy_s_linearizer():
     """Three absolute angles and two conditions, linearised at the stable equilibrium by SymPy."""
     angles, t = dynamicsymbols("a b c"), dynamicsymbols._t

@@ -163,6 +163,7 @@ def test_the_flyball_governor_about_its_steady_speed():
     assert_allclose(values, np.sort_complex(np.linalg.eigvals(own)), rtol=1e-10, atol=1e-10 * np.abs(own).max())
 
 
+@pytest.mark.slow
 def test_cyclic_coordinates_can_be_named():
     model = symgen.load("flyball-governor")
     named = model.steady(cyclic=["bearing.angle"])

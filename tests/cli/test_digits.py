@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from symgen.api import load
-from symgen.base.digits import cleaned, column, complex_digits, digits, scale_of, table, without_rounding
+from symgen.base.digits import cleaned, column, complex_digits, digits, digits_of_rows, scale_of, without_rounding
 from symgen.cli import main
 from symgen.result.labelled import Labelled, column_texts
 
@@ -29,8 +29,8 @@ def test_numbers_are_judged_beside_their_column() -> None:
 
 def test_columns_of_a_matrix_that_are_rounding_throughout() -> None:
     """By one part in 1e14 of the whole: small entries of a column with a unit of its own stay."""
-    assert table([[1e-17, 30.0], [2e-16, 1e-15]]) == [["0", "30"], ["0", "0"]]
-    assert table([[1e-9, 1e3], [-2e-11, 1.0]]) == [["1e-09", "1000"], ["-2e-11", "1"]]
+    assert digits_of_rows([[1e-17, 30.0], [2e-16, 1e-15]]) == [["0", "30"], ["0", "0"]]
+    assert digits_of_rows([[1e-9, 1e3], [-2e-11, 1.0]]) == [["1e-09", "1000"], ["-2e-11", "1"]]
 
 
 def test_entries_that_rounding_leaves_of_a_sum() -> None:
@@ -54,6 +54,7 @@ def test_a_linear_system_has_zeros_for_rounding(name: str) -> None:
     assert system.to_dict()["A"] == system.A.tolist()
 
 
+@pytest.mark.slow
 def test_a_quantity_alone_is_judged_beside_its_motion(capsys: pytest.CaptureFixture[str]) -> None:
     """The ram is guided level and does not turn: its columns are rounding throughout."""
     main(["run", "shaper", "--quantity", "ram"])

@@ -83,6 +83,7 @@ def test_a_file_without_rows_is_said_to_have_none(said, tmp_path):
     assert code == 2 and "which cannot be read as one (it has no rows)" in err
 
 
+@pytest.mark.slow
 def test_sweeps_may_ask_for_the_start(said):
     code, out, _ = said("sweep", "rod.toml", "--vary", "bar.omega=lin(1,2,2)", "--times", "0,0.02", "--json")
     assert code == 0 and '"runs"' in out

@@ -58,6 +58,7 @@ def test_a_wide_terminal_has_all_columns(capsys: pytest.CaptureFixture[str]) -> 
     assert "left out" not in text and "123456789" in text and "3.5e-13" in text
 
 
+@pytest.mark.slow
 def test_the_last_state_of_a_large_mechanism_is_whole(narrow: None, capsys: pytest.CaptureFixture[str]) -> None:
     result = load("bricard").simulate(until=0.01, step=1e-3)
     _tables.show_result(result)

@@ -91,7 +91,11 @@ CASES = [
     ("parameters.x", float("inf"), "parameters.x: expected a finite number, got inf"),
     ("parameters.x", 10**400, ": expected a number or an expression of parameters, got an integer beyond 1e18"),
     ("parameters.x", True, "parameters.x: expected a number or an expression of parameters, got true"),
-    ("parameters.x", {"valu": 1.0}, "parameters.x: expected the keys value, unit, note, got the unknown key 'valu'"),
+    (
+        "parameters.x",
+        {"valu": 1.0},
+        "parameters.x: expected the keys value, unit, note, smallest, largest, got the unknown key 'valu'",
+    ),
     ("parameters.x", {"unit": "kg"}, "parameters.x.value: expected a number or an expression of parameters"),
     ("parameters.profile", 1.0, "tables.profile: expected a name used once, got 'profile', which is a parameter"),
     ("tables.f", {"x": [0.0], "y": [1.0]}, "tables.f.x: expected two numbers or more, got 1"),

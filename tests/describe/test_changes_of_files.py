@@ -9,13 +9,13 @@ import pytest
 from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.describe import catalogue
-from symgen.describe.files.changes import Change, changed, wide_units, with_line_ends
+from symgen.describe.files.changes import Change, changed_text, wide_units, with_line_ends
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import outline
-from symgen.describe.files.renaming import removed, renamed
+from symgen.describe.files.renaming import removed, renamed_text
 from symgen.describe.files.snippets import Spot, snippet
 from symgen.describe.files.validate import errors_of, validate
-from symgen.describe.files.words import words
+from symgen.describe.files.words import words_of_sections
 
 
 def text_of(name: str) -> str:
@@ -30,7 +30,7 @@ EMPTY = '# mine\n[mechanism]\nname = "new"\n'
 
 def added(text: str, kind: str, *spots: Spot, angle: float = 0.0) -> tuple[str, str]:
     changes, path = snippet(kind, spots, parse_toml(text, "x"), outline(text), text, angle)
-    return changed(text, changes), path
+    return changed_text(text, changes), path
 
 
 def is_inserted(before: str, after: str) -> bool:
@@ -40,9 +40,9 @@ def is_inserted(before: str, after: str) -> bool:
 
 
 def test_changes_that_overlap_are_refused() -> None:
-    assert changed("abc", [Change(2, 3, "z"), Change(0, 1, "")]) == "bz"
+    assert changed_text("abc", [Change(2, 3, "z"), Change(0, 1, "")]) == "bz"
     with pytest.raises(InputError):
-        changed("abc", [Change(0, 2, ""), Change(1, 3, "")])
+        changed_text("abc", [Change(0, 2, ""), Change(1, 3, "")])
 
 
 def test_characters_beyond_the_first_plane_are_two_for_pages() -> None:
@@ -197,7 +197,7 @@ def lines_that_differ(before: str, after: str) -> list[str]:
 
 
 def test_a_body_is_renamed_wherever_it_is_named_and_nowhere_else() -> None:
-    assert lines_that_differ(NAMED, renamed(NAMED, "bodies.crank", "wheel", "x")) == [
+    assert lines_that_differ(NAMED, renamed_text(NAMED, "bodies.crank", "wheel", "x")) == [
         "[bodies.wheel]",
         'between = ["ground", "wheel"]',
         'between = ["wheel", "rod"]',
@@ -209,7 +209,7 @@ def test_a_body_is_renamed_wherever_it_is_named_and_nowhere_else() -> None:
 
 
 def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
-    assert lines_that_differ(NAMED, renamed(NAMED, "parameters.arm", "r", "x")) == [
+    assert lines_that_differ(NAMED, renamed_text(NAMED, "parameters.arm", "r", "x")) == [
         "r = 1.0            # arm",
         'arms = "2*r"',
         'mass = "r"',
@@ -218,12 +218,12 @@ def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
         'at = ["arm", ["-r", 0.0]]',
         'torque = "-crank.omega*r + rod.omega - arm.angle"',
     ]
-    assert lines_that_differ(NAMED, renamed(NAMED, "bodies.crank.points.arm", "tip", "x")) == [
+    assert lines_that_differ(NAMED, renamed_text(NAMED, "bodies.crank.points.arm", "tip", "x")) == [
         'points = { tip = ["arm", 0.0] }',
         'at = ["tip", ["-arm", 0.0]]',
         'when = "crank.tip.y < -0.5"',
     ]
-    assert lines_that_differ(NAMED, renamed(NAMED, "joints.arm", "shaft", "x")) == [
+    assert lines_that_differ(NAMED, renamed_text(NAMED, "joints.arm", "shaft", "x")) == [
         "[joints.shaft]",
         'torque = "-crank.omega*arm + rod.omega - shaft.angle"',
     ]
@@ -242,7 +242,7 @@ def test_a_parameter_a_point_and_a_joint_of_one_name_are_told_apart() -> None:
 )
 def test_names_that_are_refused(path: str, name: str, sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
-        renamed(NAMED, path, name, "x")
+        renamed_text(NAMED, path, name, "x")
 
 
 def test_a_body_goes_with_its_joints_and_comments_stay_with_their_tables() -> None:
@@ -270,16 +270,16 @@ def test_every_body_and_joint_of_the_catalogue_can_be_renamed(name: str) -> None
     raw = parse_toml(text, name)
     for section in ("bodies", "joints"):
         for old in [*raw.get(section, {})][:3]:
-            after = renamed(text, f"{section}.{old}", "other_name", name)
+            after = renamed_text(text, f"{section}.{old}", "other_name", name)
             assert errors_of(parse_toml(after, name), name) == ()
-            assert renamed(after, f"{section}.other_name", old, name) == text
+            assert renamed_text(after, f"{section}.other_name", old, name) == text
 
 
 # -- words -------------------------------------------------------------------------------------------------------------
 
 
 def test_words_have_sentences() -> None:
-    found = words()
+    found = words_of_sections()
     sections = found["sections"]
     assert sections["bodies"]["keys"]["mass"] == "scalar. [kg], above 0."
     revolute = sections["joints"]["types"]["revolute"]

@@ -8,7 +8,7 @@ import pytest
 
 from symgen.api import load
 from symgen.describe import catalogue
-from symgen.describe.files.changes import Change, changed
+from symgen.describe.files.changes import Change, changed_text
 from symgen.describe.files.handles import Handle, handles, numbers_of_parameters
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import outline
@@ -60,7 +60,9 @@ def found(text: str) -> tuple[dict[str, Handle], Any]:
 
 
 def moved(text: str, handle: Handle, dx: float, dy: float) -> str:
-    return changed(text, [Change(f.start, f.end, repr(f.value + f.right * dx + f.up * dy)) for f in handle.followers])
+    return changed_text(
+        text, [Change(f.start, f.end, repr(f.value + f.right * dx + f.up * dy)) for f in handle.followers]
+    )
 
 
 def places(text: str) -> dict[str, tuple[float, float]]:

@@ -8,7 +8,7 @@ import pytest
 from symgen.base.errors import InputError
 from symgen.describe import load
 from symgen.describe.files.load import LARGEST_FILE
-from symgen.describe.files.problems import in_line, problems
+from symgen.describe.files.problems import problems, with_line
 from symgen.describe.files.validate import errors_of, validate
 
 GOOD = """\
@@ -214,7 +214,7 @@ def test_an_error_has_its_line_where_it_is_printed(wrong):
     with pytest.raises(InputError) as error:
         load(wrong)
     assert str(error.value) == "cart.toml: bodies.load.mass: expected a value above 0, got -1.0"
-    assert in_line(error.value) == "cart.toml:22: bodies.load.mass: expected a value above 0, got -1.0"
+    assert with_line(error.value) == "cart.toml:22: bodies.load.mass: expected a value above 0, got -1.0"
 
 
 @pytest.mark.parametrize("later", [GOOD.replace("[mechanism]", "[mechanism"), b"\xff", "#" * (LARGEST_FILE + 1), None])
@@ -225,14 +225,14 @@ def test_an_error_keeps_its_sentence_where_the_file_was_changed(wrong, later):
         wrong.unlink()
     else:
         wrong.write_bytes(later if isinstance(later, bytes) else later.encode())
-    assert in_line(error.value) == str(error.value)
+    assert with_line(error.value) == str(error.value)
 
 
 def test_errors_of_other_sources_have_no_file(tmp_path):
     with pytest.raises(InputError) as error:
         validate(tomllib.loads(GOOD.replace("mass = 1.0", "mass = -1.0")), "cart.toml")
     assert error.value.file is None
-    assert in_line(error.value) == str(error.value)
+    assert with_line(error.value) == str(error.value)
 
 
 def test_the_key_of_an_error_survives_pickling():

@@ -16,7 +16,7 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.unit_symbols import BASES, PLAIN, PREFIXABLE, PREFIXES, SYMBOLS
 from symgen.base.units import Unit, known, read_amount, read_unit, unit_of
-from symgen.describe.facts.typed_units import Typed, in_si, units_of_number
+from symgen.describe.facts.typed_units import Typed, typed_in_si, units_of_number
 from symgen.describe.files.load import parse_toml, with_parameters
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
@@ -334,9 +334,9 @@ def test_typed_numbers_are_in_the_unit_of_the_file():
     values |= {"rod.omega": typed("30 rpm"), "rod.x": typed("2 cm"), "push": typed("1 N m"), "rod.y": 0.25}
     expected = {"l": 0.5, "half": 5.0, "turn": math.radians(500), **dict.fromkeys(names[3:], 500.0)}
     expected |= {"rod.omega": math.pi, "rod.x": 0.02, "push": 1.0, "rod.y": 0.25}
-    assert in_si(rod(), values, "--set") == expected
+    assert typed_in_si(rod(), values, "--set") == expected
     with pytest.raises(InputError, match=r"^--start rod\.x: expected a unit such as m, mm, cm, km, in, got 'deg'$"):
-        in_si(rod(), {"rod.x": typed("5 deg")}, "--start")
+        typed_in_si(rod(), {"rod.x": typed("5 deg")}, "--start")
     assert units_of_number(rod(), "l") == ("m", "mm")
 
 

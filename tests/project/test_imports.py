@@ -241,4 +241,4 @@ def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
                 waiting.append(path)
     names = {path.relative_to(PACKAGE).as_posix() for path in reached}
     assert any(name.startswith("describe/") for name in names), "imports are followed"
-    assert names <= sources.reached(sources.table(), sources.CODE)
+    assert names <= sources.reached_sources(sources.source_table(), sources.CODE)

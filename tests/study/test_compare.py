@@ -394,6 +394,7 @@ def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp
     assert shares == sorted(shares) and shares[-1] < 1.0
 
 
+@pytest.mark.slow
 def test_beams_are_compared_with_two_formulations_that_agree():
     """Errors of rk4 fall by sixteen with half the step; Radau's run, which shares no scheme with either, is on it."""
     beam = {"start": [0.0, 0.0], "end": [1.0, 0.0], "elements": 3, "clamp": "ground", "damping": 1e-4}

@@ -122,6 +122,7 @@ def test_pairs_are_left_out_when_the_time_of_compilation_is_used_up():
     assert {x[0] for x in enough} == {"driven-four-bar"}, "the base comes first"
 
 
+@pytest.mark.slow
 def test_what_is_left_out_is_listed_and_not_run():
     study = stress(["pendulum"], ["gravity"], ["lagrange", "null-space"], quick=False, compilation=0.3)
     run = {("lagrange", name) for name in ("rk4", "dop853", "picard", "radau5")}

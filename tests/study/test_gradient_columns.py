@@ -42,6 +42,7 @@ def test_errors_of_derivatives_fall_at_the_order_of_the_scheme(study, method):
     assert all(row.gradient_seconds > 0.0 for row in study.rows if row.integrator == "rk4")
 
 
+@pytest.mark.slow
 def test_schemes_without_derivatives_have_rows_without_them(study):
     implicit = [row for row in study.rows if row.integrator == "radau5"]
     assert implicit

@@ -67,6 +67,7 @@ def test_the_pendulum_is_periodic_for_ever():
     assert np.allclose(v, 0.0, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_andrews_meets_the_published_values():
     """Angles of K1, K3, K5, K7 are beta, gamma, delta, epsilon; the test set's are good to about ten digits."""
     published = json.loads((DATA / "andrews_ivp.json").read_text())
@@ -217,6 +218,7 @@ def test_a_massless_coupler_has_references_and_they_are_those_of_a_distance_join
     assert np.abs(found[0] - found[1]).max() < 1e-10
 
 
+@pytest.mark.slow
 def test_a_bob_on_a_massless_rod_in_space_has_the_reference_of_one_at_a_distance():
     found, times = [], np.linspace(0.0, 1.0, 5)
     for rod in (True, False):
@@ -275,6 +277,7 @@ def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-7
 
 
+@pytest.mark.slow
 def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     mechanism, values, q, v = pushed(tmp_path, "100 if 0.7011 < t < 0.7041 else 0")
     times = np.linspace(0.0, 2.0, 11)

@@ -231,12 +231,14 @@ def test_the_length_of_a_point_on_a_link_is_the_diagonal_of_its_motion():
     assert found["accurate_step"] < found["stable_step"] and found["stable_step"] > 0.02
 
 
+@pytest.mark.slow
 def test_an_l_stable_integrator_has_no_such_limit(damped):
     level, known, fastest = damped
     found = compute_cell(LimitTask(level, "ggl", "radau5", known))
     assert found["stable_step"] > 10.0 * 2.785 / fastest
 
 
+@pytest.mark.slow
 def test_baumgarte_s_gains_are_stable_up_to_the_limit_of_rk4():
     study = stress(["four-bar"], ["alpha-beta"], ["baumgarte"], quick=True)
     assert len(study.rows) == 49
@@ -259,6 +261,7 @@ def test_errors_of_long_links_count_in_lengths_of_the_crank():
     assert found["outcome"] == "inaccurate" and found["relative_error"] == found["error"] > 0.1
 
 
+@pytest.mark.slow
 def test_the_error_of_a_penalty_falls_with_its_factor():
     study = stress(["four-bar"], ["penalty-factor"], ["penalty"])
     error = {row.values[0]: row.error for row in study.rows if row.integrator == "dop853"}

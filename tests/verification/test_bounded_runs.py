@@ -33,11 +33,7 @@ def test_random_mechanisms(kind: str, seed: int, runs: tuple[str, ...]) -> None:
     assert "right" in {v.outcome for v in verdicts}
 
 
-@pytest.mark.fast(
-    "chain-three-of-both-lagrange",
-    "chain-slip-at-a-stop-lagrange",
-    "chain-two-stops-lagrange",
-)
+@pytest.mark.fast("chain-slip-at-a-stop-lagrange")
 @pytest.mark.parametrize("run", ["dop853", "lagrange"])
 @pytest.mark.parametrize("name", HARD)
 def test_hard_chains(name: str, run: str) -> None:
@@ -60,13 +56,13 @@ def test_short_sticks_are_found_in_long_steps(kind: str, seed: int) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("run", ["dop853", "lagrange", ROWS])
-@pytest.mark.parametrize("seed", [pytest.param(25, marks=pytest.mark.slow), 28])
-def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest(seed: int, run: str) -> None:
+@pytest.mark.parametrize("seed", [25, 28])
+def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest(seed: int) -> None:
     """A pin rests, and the angle of another, which follows from it, is at a dead centre: its friction was lost."""
-    against, (verdict,) = examined(drawn("spatial-loop", seed), (run,), 1.0)
+    against, verdicts = examined(drawn("spatial-loop", seed), ("dop853", "lagrange", ROWS), 1.0)
     assert isinstance(against, Reference)
-    assert verdict.outcome == "right", verdict
+    assert [verdict for verdict in verdicts if verdict.outcome != "right"] == []
+    assert len(verdicts) == 3
 
 
 @cache
@@ -75,11 +71,12 @@ def simulated(name: str) -> Reference:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("run", ALL)
 @pytest.mark.parametrize("name", HARD)
-def test_hard_chains_in_all_kinds_of_runs(name: str, run: str) -> None:
-    (verdict,) = examined(hard(name), (run,), HARD[name])[1]
-    assert verdict.outcome in ("right", "coarse"), verdict
+def test_hard_chains_in_all_kinds_of_runs(name: str) -> None:
+    """All kinds beside one reference, which takes most of the time."""
+    verdicts = examined(hard(name), ALL, HARD[name])[1]
+    assert [verdict for verdict in verdicts if verdict.outcome not in ("right", "coarse")] == []
+    assert len(verdicts) == len(ALL)
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
 from symgen.analyses.kinds import PLACE, Analysis, AnalysisOutput, AnalysisTable, Option, settings_at
-from symgen.base.digits import table
+from symgen.base.digits import digits_of_rows
 from symgen.base.keywords import PlaceKeywords
 from symgen.base.settings import Settings
 
@@ -80,7 +80,7 @@ def shown(system: LinearSystem) -> Iterator[str | AnalysisTable]:
     )
     for title, rows, columns, values in matrices:
         if values.size:
-            cells = [(name, *row) for name, row in zip(rows, table(values.tolist()), strict=True)]
+            cells = [(name, *row) for name, row in zip(rows, digits_of_rows(values.tolist()), strict=True)]
             yield AnalysisTable((title, *columns), cells, left=(title,))
     if system.left_out:
         yield f"outputs left out, as they depend on more than the states: {', '.join(system.left_out)}"

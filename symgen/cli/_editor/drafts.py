@@ -16,14 +16,14 @@ from symgen.base.settings import Settings, is_set
 from symgen.cli._editor.joints import joint_equations
 from symgen.cli._editor.made import made
 from symgen.describe.facts.lifted import lifted, numbers_of_file
-from symgen.describe.files.changes import changed, wide_units
+from symgen.describe.files.changes import changed_text, wide_units
 from symgen.describe.files.handles import handles, numbers_of_parameters
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
 from symgen.describe.files.origins import Source, origin_of
 from symgen.describe.files.places import Path as Place
 from symgen.describe.files.places import outline
 from symgen.describe.files.problems import Problem, problems
-from symgen.describe.files.renaming import removed, renamed
+from symgen.describe.files.renaming import removed, renamed_text
 from symgen.describe.files.snippets import Spot, snippet
 from symgen.describe.files.validate import validate
 from symgen.describe.formulas.evaluate import parameter_values
@@ -166,12 +166,12 @@ class Drafts:
         self._refuse_large(text)
         raw = parse_toml(text, self.source)
         added, path = snippet(part, spots, raw, outline(text), text, self._angle(text, spots))
-        return {"text": changed(text, added), "path": path}
+        return {"text": changed_text(text, added), "path": path}
 
     def rename(self, text: str, path: str, name: str) -> dict[str, Any]:
         """Return a text with another name of a part, wherever it is named."""
         self._refuse_large(text)
-        return {"text": renamed(text, path, name, self.source)}
+        return {"text": renamed_text(text, path, name, self.source)}
 
     def remove(self, text: str, path: str) -> dict[str, Any]:
         """Return a text without a part, and without what needs it."""

@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any
 
 from symgen.base.escapes import script_json
-from symgen.describe.files.words import words
+from symgen.describe.files.words import words_of_sections
 from symgen.result.player.motion_page import editing_page
 
 SCRIPTS = ("text.js", "colours.js", "brackets.js", "completion.js", "handles.js", "photo.js", "inside.js", "edit.js")
@@ -23,7 +23,7 @@ EMPTY: dict[str, Any] = {
 }
 
 
-def page(name: str, nonce: str) -> tuple[str, str]:
+def editor_page(name: str, nonce: str) -> tuple[str, str]:
     """Return the page of a file, and the policy under which it runs.
 
     Parameters
@@ -37,7 +37,7 @@ def page(name: str, nonce: str) -> tuple[str, str]:
         f"default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; img-src data: blob:; "
         "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     )
-    data = {**EMPTY, "editor": {"file": name, "words": words()}}
+    data = {**EMPTY, "editor": {"file": name, "words": words_of_sections()}}
     parts = {"PANE": _web("pane.html").replace("<!--FILE-->", escape(name)), "STYLE": _web("edit.css")}
     script = "".join(_web(part) for part in SCRIPTS)
     text = editing_page(script_json(data), parts["PANE"], parts["STYLE"], script, nonce)

@@ -21,10 +21,10 @@ import msgspec
 from symgen.base.errors import InputError, SymgenError
 from symgen.cli._editor.document import Document
 from symgen.cli._editor.drafts import Drafts
-from symgen.cli._editor.page import page
+from symgen.cli._editor.page import editor_page
 from symgen.cli._editor.request import Request, read_request
 from symgen.describe.files.load import LARGEST_FILE
-from symgen.describe.files.problems import in_line
+from symgen.describe.files.problems import with_line
 
 HOST = "127.0.0.1"
 #: Bytes of a request at most: a text of the largest size in JSON, where characters may be escaped.
@@ -112,7 +112,7 @@ class _Handler(BaseHTTPRequestHandler):
         if self._word() != "":
             return self._refuse(404)
         nonce = secrets.token_urlsafe(16)
-        text, policy = page(self.server.document.path.name, nonce)
+        text, policy = editor_page(self.server.document.path.name, nonce)
         self._send(200, text, "text/html", {"Content-Security-Policy": policy})
 
     def do_POST(self) -> None:
@@ -140,7 +140,7 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             return job(read_request(body))
         except InputError as error:
-            return {"error": in_line(error) if error.file is None else str(error)}
+            return {"error": with_line(error) if error.file is None else str(error)}
         except SymgenError as error:
             return {"error": str(error)}
         except MemoryError:

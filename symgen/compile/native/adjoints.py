@@ -34,7 +34,7 @@ def _given(text: str) -> Callable[[], str]:
     return lambda: text
 
 
-def module(function: lang.Function, name: str, ends: str, together: bool = True) -> str:
+def adjoint_module(function: lang.Function, name: str, ends: str, together: bool = True) -> str:
     """Return the text of a module that defines the adjoint of a function.
 
     Parameters

@@ -25,7 +25,7 @@ from symgen.compile.native.read_values import Foreign
 Dual = tuple[str, str | None]
 
 
-def module(
+def tangent_module(
     function: lang.Function,
     name: str,
     lanes: int,

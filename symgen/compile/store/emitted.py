@@ -136,7 +136,7 @@ class TangentFunction(EmittedFunction):
         """Return machine code, made from the source; short callees are in it."""
         from symgen.compile.native.llvm import is_copied, reached
         from symgen.compile.native.machine import compiled
-        from symgen.compile.native.tangents import module
+        from symgen.compile.native.tangents import tangent_module
 
         function, called = self.read(arguments), dict[str, Any]()
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
@@ -148,7 +148,7 @@ class TangentFunction(EmittedFunction):
             called[name] = _kinds(f)
             return self.callee(name).symbol(arguments_of(called[name]))
 
-        text = module(function, symbol, self.lanes, self.places, _together(), apart)
+        text = tangent_module(function, symbol, self.lanes, self.places, _together(), apart)
         return CacheEntry(function.returned, tuple(called.items()), compiled(text, symbol))
 
     def callee(self, name: str) -> TangentFunction:
@@ -186,13 +186,13 @@ class AdjointFunction(EmittedFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.compile.native.adjoints import correction, module
+        from symgen.compile.native.adjoints import adjoint_module, correction
         from symgen.compile.native.machine import compiled
 
         function, ends = self.read(arguments[: self.py_func.__code__.co_argcount]), "ydot"
         if self.rounds is not None:
             function, ends = correction(function, self.rounds), "y"
-        return CacheEntry(function.returned, (), compiled(module(function, symbol, ends, _together()), symbol))
+        return CacheEntry(function.returned, (), compiled(adjoint_module(function, symbol, ends, _together()), symbol))
 
 
 def plain(function: _Function) -> _Function:

@@ -41,7 +41,7 @@ _COMMENT = re.compile(rb"#[^\n]*")
 
 def package_digest() -> str:
     """Return the digest of all sources of symgen and of all templates: what results of runs depend on."""
-    return combined_digest(*(part for name, (digest, _) in sorted(table().items()) for part in (name, digest)))
+    return combined_digest(*(part for name, (digest, _) in sorted(source_table().items()) for part in (name, digest)))
 
 
 @functools.cache
@@ -54,8 +54,8 @@ def reached_digest(*roots: str) -> str:
         Files and folders of symgen, such as ``derive`` and ``compile/store/jit.py``; ``templates`` is the folder of
         templates.
     """
-    known = table()
-    return combined_digest(*(part for name in sorted(reached(known, roots)) for part in (name, known[name][0])))
+    known = source_table()
+    return combined_digest(*(part for name in sorted(reached_sources(known, roots)) for part in (name, known[name][0])))
 
 
 def source_stamp(function: Any) -> str:
@@ -79,15 +79,15 @@ def source_stamp(function: Any) -> str:
 
 @functools.cache
 def _stamp_of(files: frozenset[str]) -> str:
-    known = table()
+    known = source_table()
     own = {name for file in files if (name := os.path.relpath(file, _PACKAGE).replace(os.sep, "/")) in known}
     others = [file for file in files if not file.startswith(_PACKAGE + os.sep)]
-    imports = {name for file in others for name in imported(content(file)) if name in known}
+    imports = {name for file in others for name in imported_names(content(file)) if name in known}
     # Contents without names: the same sources in another place give the same machine code.
     return combined_digest(*sorted(map(file_digest, others)), reached_digest(*LOOPS, *sorted(own | imports)))
 
 
-def reached(known: Table, roots: Iterable[str]) -> set[str]:
+def reached_sources(known: Table, roots: Iterable[str]) -> set[str]:
     """Return the names of sources below some roots, and of all that they import."""
     if len(known) == 1:  # an archive
         return set(known)
@@ -101,7 +101,7 @@ def reached(known: Table, roots: Iterable[str]) -> set[str]:
 
 
 @functools.cache
-def table() -> Table:
+def source_table() -> Table:
     """Return the digest and the imports of every source, read at the first request of the process."""
     files = dict(files_of(_PACKAGE))
     if not files:  # symgen is in an archive, which is one source
@@ -112,13 +112,13 @@ def table() -> Table:
         latest = max(latest, state.st_mtime, state.st_ctime)
         states.append(f"{name} {state.st_size} {state.st_mtime_ns} {state.st_ctime_ns} {state.st_ino}")
     if time.time() - latest < _RECENT:
-        return read_table(files)
+        return read_sources(files)
     key = "\n".join((_PACKAGE, sys.version, *states))
-    found: Table = marshal.loads(cached(TABLES, "sources", key, lambda: marshal.dumps(read_table(files))))
+    found: Table = marshal.loads(cached(TABLES, "sources", key, lambda: marshal.dumps(read_sources(files))))
     return found
 
 
-def read_table(files: Mapping[str, str]) -> dict[str, tuple[str, tuple[str, ...]]]:
+def read_sources(files: Mapping[str, str]) -> dict[str, tuple[str, tuple[str, ...]]]:
     """Return the digest and the imports of sources.
 
     Parameters
@@ -129,11 +129,11 @@ def read_table(files: Mapping[str, str]) -> dict[str, tuple[str, tuple[str, ...]
     found = dict[str, tuple[str, tuple[str, ...]]]()
     for name, path in files.items():
         text = content(path)
-        found[name] = combined_digest(text), tuple(sorted({n for n in imported(text) if n in files} - {name}))
+        found[name] = combined_digest(text), tuple(sorted({n for n in imported_names(text) if n in files} - {name}))
     return found
 
 
-def imported(text: bytes) -> Iterator[str]:
+def imported_names(text: bytes) -> Iterator[str]:
     """Yield names that sources have which a text of Python may import, at any place of it, for types as for values."""
     for whole in _IMPORT.finditer(text):
         module = (whole[1] or whole[3]).decode()

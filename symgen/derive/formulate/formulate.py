@@ -32,7 +32,7 @@ from symgen.describe.bounds.by_reaction import held_by_reactions
 from symgen.describe.bounds.modes import first_modes, number_of
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
-from symgen.describe.parts.topology import UNITS, quantities
+from symgen.describe.parts.topology import UNITS, state_quantities
 
 
 def formulate(mechanism: Mechanism) -> Equations:
@@ -73,7 +73,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     mass, rotating = with_rotors(model, mass, forces)
     joint_coordinates = _joint_coordinates(model)
     rates = tuple(model.expression(x.rate) for x in mechanism.states)
-    coordinates, velocities = quantities(mechanism)
+    coordinates, velocities = state_quantities(mechanism)
     read = {of_table(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
         name=mechanism.name,

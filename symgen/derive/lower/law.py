@@ -79,7 +79,7 @@ def lower_law(
         expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
         raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
     if any(row.held is not None for row in equations.rows):
-        refuse_bounds(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
+        refuse_bounded_rows(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
     eliminates = _eliminates(recorded)
@@ -149,7 +149,7 @@ def lower_law(
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
 
 
-def refuse_bounds(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
+def refuse_bounded_rows(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
     """Refuse methods that do not take rows with bounds: those that project onto all rows behind their equations.
 
     Parameters

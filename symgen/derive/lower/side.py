@@ -22,7 +22,7 @@ from symgen.derive.lower.windings import Beside
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.readings import integrals
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
-from symgen.describe.parts.topology import quantities
+from symgen.describe.parts.topology import state_quantities
 
 #: Inputs of formulas that rates along the motion take as constant.
 FORCES = frozenset({"ydot", "multipliers", JAMMING})
@@ -120,7 +120,7 @@ class SideModel(ModelNodes):
         length, speed = (g.input("status", STATUS.index(f"{scale}_scale")) for scale in ("length", "speed"))
         least = {"m": length, "m/s": speed, "rad/s": g.div(speed, length)}
         of: dict[Key, int] = {("t", 0): g.call("abs", g.input("t", 0))}
-        for space, part in zip("qv", quantities(self.mechanism), strict=True):
+        for space, part in zip("qv", state_quantities(self.mechanism), strict=True):
             for i, quantity in enumerate(part):
                 of[space, i] = g.add(g.call("abs", g.input(space, i)), least.get(quantity.unit, g.one))
         of |= {("z", i): g.call("abs", g.input("z", i)) for i in range(1, len(self.mechanism.states) + 1)}
@@ -200,7 +200,7 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
     model = SideModel(mechanism, beside=beside)
     integrands = integrals(mechanism)
     nodes = [model.expression(integral.of) for integral in integrands]
-    coordinates, velocities = quantities(mechanism)
+    coordinates, velocities = state_quantities(mechanism)
     first, work = len(coordinates) + len(velocities), len(coordinates) + len(velocities) + len(mechanism.states)
 
     def unknown(key: Key) -> Key:
@@ -220,7 +220,7 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
 
 def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside, labels: Sequence[str]) -> SideProgram:
     """Return blocks as the program of a separate module; `labels` name the outputs."""
-    coordinates, velocities = quantities(mechanism)
+    coordinates, velocities = state_quantities(mechanism)
     used = {table for block in blocks for table, _ in block.tables}
     return SideProgram(
         mechanism=mechanism.name,

@@ -70,16 +70,22 @@ def digest(mechanism: Mechanism) -> str:
 def identity(mechanism: Mechanism) -> str:
     """Return the digest of all of a mechanism: equations, start, values of parameters and defaults.
 
-    Shapes stay outside, as nothing is computed with them, and so do the sources of inputs, which are part of forces.
+    Shapes, limits, author and revision stay outside, as nothing is computed with them, and so do the sources of
+    inputs, which are part of forces.
     """
     import hashlib
 
-    plain = msgspec.structs.replace(mechanism, shapes=(), input_formulas=(), beams=b"", bounded=())
+    plain = msgspec.structs.replace(
+        mechanism, shapes=(), limits=(), author="", revision="", input_formulas=(), beams=b"", bounded=()
+    )
     # the text of structs, which older folders of sweeps and journals were named by
     text = msgspec.Struct.__repr__(plain).replace(", bounded=()", "").removesuffix(")")
     text += "".join(f", {family.part}={rows!r}" for family, rows in families_of(mechanism).items()) + ")"
     for absent in (
         ", shapes=()",
+        ", limits=()",
+        ", author=''",
+        ", revision=''",
         ", input_formulas=()",
         ", states=()",
         ", rotors=()",

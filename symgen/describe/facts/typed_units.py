@@ -58,7 +58,7 @@ def units_of_number(mechanism: Mechanism, name: str) -> tuple[str, str]:
     return unit, unit
 
 
-def in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:
+def typed_in_si(mechanism: Mechanism, values: Mapping[str, float], where: str) -> dict[str, float]:
     """Return numbers by their names in SI units; those that nobody typed are in them already.
 
     Parameters

@@ -15,6 +15,7 @@ from symgen.describe.files.builder_keys import (
     EventKeys,
     ForceKeys,
     JointKeys,
+    LimitKeys,
     MechanismKeys,
     RunKeys,
     TableKeys,
@@ -35,7 +36,8 @@ class MechanismBuilder:
     name : str
         Lower-case words joined by dashes.
     **keys
-        Further keys of ``[mechanism]``: ``title``, ``source``, ``space``, ``gravity``, ``shape``.
+        Further keys of ``[mechanism]``: ``title``, ``source``, ``author``, ``revision``, ``space``, ``gravity``,
+        ``shape``.
 
     Examples
     --------
@@ -63,9 +65,14 @@ class MechanismBuilder:
         self._raw["run"] = self._raw.get("run", {}) | _plain(keys)
         return self
 
-    def parameter(self, name: str, value: float | str, unit: str = "", note: str = "") -> Self:
-        """Add a number that stays adjustable at run time, or a formula of other parameters that follows them."""
-        keys = {"value": value, "unit": unit, "note": note}
+    def parameter(
+        self, name: str, value: float | str, unit: str = "", note: str = "", **limits: Unpack[LimitKeys]
+    ) -> Self:
+        """Add a number that stays adjustable at run time, or a formula of other parameters that follows them.
+
+        Reports compare it with the limits ``smallest`` and ``largest``.
+        """
+        keys = {"value": value, "unit": unit, "note": note, **limits}
         return self._add("parameters", name, {key: item for key, item in keys.items() if item != ""})
 
     def input(self, name: str, default: float | str, unit: str = "", note: str = "") -> Self:
@@ -106,9 +113,10 @@ class MechanismBuilder:
         """Add a stop between any parts, such as a rope: ``gap``, ``restitution`` as in a file."""
         return self._add("stops", name, keys)
 
-    def output(self, name: str, value: str, unit: str = "") -> Self:
-        """Add a formula that results report, such as ``"integral(motor.power)"``."""
-        return self._add("outputs", name, {"value": value, "unit": unit} if unit else {"value": value})
+    def output(self, name: str, value: str, unit: str = "", **limits: Unpack[LimitKeys]) -> Self:
+        """Add a formula that results report, such as ``"integral(motor.power)"``, with limits as parameters have."""
+        keys = {"value": value, "unit": unit, **limits}
+        return self._add("outputs", name, {key: item for key, item in keys.items() if item != ""})
 
     @property
     def source(self) -> str:

@@ -16,6 +16,8 @@ class MechanismKeys(TypedDict, total=False):
 
     title: str
     source: str
+    author: str
+    revision: str
     space: Literal["planar", "spatial"]
     gravity: Vector
     shape: Mapping[str, Any] | Iterable[Mapping[str, Any]]
@@ -31,6 +33,13 @@ class RunKeys(TypedDict, total=False):
     max_step: float
     predictable_until: float
     verify: bool
+
+
+class LimitKeys(TypedDict, total=False):
+    """Limits of ``[parameters.NAME]`` and ``[outputs.NAME]``."""
+
+    smallest: Scalar
+    largest: Scalar
 
 
 class TableKeys(TypedDict, total=False):

@@ -29,7 +29,7 @@ class Change(NamedTuple):
     text: str
 
 
-def changed(text: str, changes: Iterable[Change]) -> str:
+def changed_text(text: str, changes: Iterable[Change]) -> str:
     """Return a text with changes, which must not overlap.
 
     Raises
@@ -46,7 +46,7 @@ def changed(text: str, changes: Iterable[Change]) -> str:
     return "".join(parts) + text[at:]
 
 
-def is_number(text: str) -> bool:
+def is_decimal_number(text: str) -> bool:
     """Whether a value of a file is written as a decimal number."""
     return _NUMBER.fullmatch(text) is not None
 

@@ -11,7 +11,7 @@ from symgen.base.errors import InputError
 from symgen.base.units import Unit, read_amount, read_unit
 from symgen.base.vocabulary.expressions import Expr, names_in
 from symgen.base.vocabulary.measures import GROUND
-from symgen.describe.files.changes import is_number
+from symgen.describe.files.changes import is_decimal_number
 from symgen.describe.files.places import Path
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
@@ -121,7 +121,7 @@ def numbers_of_parameters(raw: Mapping[str, Any], spans: Spans, text: str) -> di
 def _digits(text: str, span: tuple[int, int]) -> tuple[int, int] | None:
     """Return the characters of the number that a value begins with; None for a formula."""
     written = text[span[0] : span[1]]
-    if is_number(written):
+    if is_decimal_number(written):
         return span
     match = _IN_TEXT.match(written)
     if match is None or read_amount(written.strip("\"'")) is None:

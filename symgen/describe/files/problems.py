@@ -68,7 +68,7 @@ def problems(text: str, source: str) -> tuple[Problem, ...]:
     return tuple(sorted(described, key=lambda problem: problem.line))
 
 
-def in_line(error: InputError) -> str:
+def with_line(error: InputError) -> str:
     """Return the sentence of an error, with its line where it is about the text of a file."""
     sentence = str(error)
     if error.file is None or not sentence.startswith(source := error.file.name):

@@ -8,7 +8,7 @@ from typing import Any
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.bounds.keys import sections_of_files
-from symgen.describe.files.changes import Change, changed
+from symgen.describe.files.changes import Change, changed_text
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.places import Outline, Path, outline
 from symgen.describe.files.snippets import blocks_of
@@ -25,7 +25,7 @@ _OF_BODIES = ("between", "body", "reaction", "carrier", "clamp")
 _OF_JOINTS = ("joint", "joints", "of", "pinion", "rack")
 
 
-def renamed(text: str, path: str, name: str, source: str) -> str:
+def renamed_text(text: str, path: str, name: str, source: str) -> str:
     """Return the text of a file in which something has another name, wherever the file names it.
 
     Parameters
@@ -53,7 +53,7 @@ def renamed(text: str, path: str, name: str, source: str) -> str:
     changes = {(m.start, m.end): name for m in parts.mentions if m.path == where}
     for span, value in _texts(raw, parts, where, name):
         changes[span] = value
-    result = changed(text, [Change(*span, value) for span, value in changes.items()])
+    result = changed_text(text, [Change(*span, value) for span, value in changes.items()])
     _refuse_worse(raw, parse_toml(result, source), source)
     return result
 
@@ -80,7 +80,7 @@ def removed(text: str, path: str, source: str) -> str:
     for entry in gone:  # grows
         gone += [other for other in _users(raw, entry) if other not in gone]
     spans = [span for entry in gone for span in _spans(entry, parts, text)]
-    result = changed(text, [Change(start, end, "") for start, end in _merged(spans)])
+    result = changed_text(text, [Change(start, end, "") for start, end in _merged(spans)])
     left = parse_toml(result, source)
     if left.get("bodies") or not raw.get("bodies"):  # with its last body gone, a file is where a drawing begins
         _refuse_worse(raw, left, source)

@@ -123,8 +123,8 @@ def _body(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
     own = [(c * (a - x) + s * (b - y), c * (b - y) - s * (a - x)) for a, b in corners]
     points = ", ".join(f"{letter} = {_vector(p)}" for letter, p in zip(_LETTERS, own, strict=False))
     name = names.free("bar" if len(corners) == 2 else "plate")
-    lines = (f"mass = 1.0\ninertia = {number(inertia)}\npoints = {{ {points} }}\nposition = {_vector((x, y))}",)
-    blocks = [_Block(f"bodies.{name}", (*lines, f"angle = {number(turn)}") if turn else lines)]
+    lines = (f"mass = 1.0\ninertia = {short_number(inertia)}\npoints = {{ {points} }}\nposition = {_vector((x, y))}",)
+    blocks = [_Block(f"bodies.{name}", (*lines, f"angle = {short_number(turn)}") if turn else lines)]
     for letter, spot in zip(_LETTERS, spots, strict=False):
         if spot.body:
             blocks.append(_pinned(names, spot, Spot(spot.x, spot.y, name, letter)))
@@ -149,7 +149,7 @@ def _slide(names: _Names, spots: Sequence[Spot], angle: float) -> list[_Block]:
     _need_body("slide", spot)
     lines = ['type = "translational"', f'between = ["{GROUND}", "{spot.body}"]']
     lines += [f"at = [{_vector((spot.x, spot.y))}, {spot.written}]", "axis = [1.0, 0.0]"]
-    return [_Block(f"joints.{names.free('slide')}", (*lines, f"angle = {number(angle)}") if angle else (*lines,))]
+    return [_Block(f"joints.{names.free('slide')}", (*lines, f"angle = {short_number(angle)}") if angle else (*lines,))]
 
 
 def _spring(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
@@ -158,7 +158,7 @@ def _spring(names: _Names, spots: Sequence[Spot], _: float) -> list[_Block]:
         raise InputError("spring", "points of two bodies, or of a body and the ground", f"'{a.owner}' twice")
     length = math.dist((a.x, a.y), (b.x, b.y))
     lines = ['type = "spring-damper"', f'between = ["{a.owner}", "{b.owner}"]', f"at = [{a.written}, {b.written}]"]
-    lines += [f"stiffness = {STIFFNESS}", f"damping = {DAMPING}", f"free_length = {number(length)}"]
+    lines += [f"stiffness = {STIFFNESS}", f"damping = {DAMPING}", f"free_length = {short_number(length)}"]
     return [_Block(f"forces.{names.free('spring')}", tuple(lines))]
 
 
@@ -167,7 +167,7 @@ def _motor(names: _Names, spots: Sequence[Spot], angle: float) -> list[_Block]:
     (spot,) = spots
     if not spot.joint or names.raw.get("joints", {}).get(spot.joint, {}).get("type") != "revolute":
         raise InputError("motor", "a pin, which it turns", "another point" if not spot.joint else f"'{spot.joint}'")
-    value = f'value = "{number(angle)} + {SPEED}*t"' if angle else f'value = "{SPEED}*t"'
+    value = f'value = "{short_number(angle)} + {SPEED}*t"' if angle else f'value = "{SPEED}*t"'
     return [_Block(f"joints.{names.free('motor')}", ('type = "driver"', f'joint = "{spot.joint}"', value))]
 
 
@@ -226,7 +226,7 @@ def blocks_of(parts: Outline, text: str) -> list[tuple[int, int]]:
     return result
 
 
-def number(value: float) -> str:
+def short_number(value: float) -> str:
     """Return a number of at most six digits for a file."""
     short = float(f"{value:.6g}")
     return repr(0.0 if abs(short) < 1e-12 else short)
@@ -235,4 +235,4 @@ def number(value: float) -> str:
 def _vector(values: Sequence[float]) -> str:
     """Return a vector for a file; what is rounding beside its largest component is 0."""
     size = max(map(abs, values))
-    return f"[{', '.join(number(x if abs(x) > FINEST * size else 0.0) for x in values)}]"
+    return f"[{', '.join(short_number(x if abs(x) > FINEST * size else 0.0) for x in values)}]"

@@ -22,6 +22,7 @@ from symgen.describe.bounds.smooth import with_smooth
 from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
+from symgen.describe.formulas.parser import FormulaNames
 from symgen.describe.formulas.readings import rows_read
 from symgen.describe.mechanism import (
     AnyBody,
@@ -30,6 +31,7 @@ from symgen.describe.mechanism import (
     Hold,
     Joint,
     Mechanism,
+    OperatingLimit,
     Output,
     Parameter,
     Rotor,
@@ -52,8 +54,9 @@ from symgen.describe.parts.fields import (
 )
 from symgen.describe.parts.holds import body_holds, holds_of, joint_holds
 from symgen.describe.parts.kinds import FORCES, JOINTS
+from symgen.describe.parts.limits import limits_of
 from symgen.describe.parts.numbers import read_defaults, read_points
-from symgen.describe.parts.own_units import check_single
+from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
 from symgen.describe.parts.scope import Context, Scope
 from symgen.describe.parts.sections import (
@@ -119,6 +122,8 @@ class _Validator:
         self._keys = tuple(keys_of_any_joint())
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
+        self._numbers = FormulaNames("a number or an expression of parameters", {})
+        self._limits: list[OperatingLimit] = []  # of parameters and outputs
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -216,6 +221,9 @@ class _Validator:
             shapes=tuple(shapes),
             beams=b"" if beams is None else msgspec.json.encode(beams.counted()),
             events=events,
+            limits=tuple(self._limits),
+            author=line(head.author),
+            revision=line(head.revision),
         )
         with self.errors.apart():
             mechanism = with_smooth(with_bounded_outputs(mechanism), [row for row in bounded if row.smooth])
@@ -334,7 +342,10 @@ class _Validator:
     def parameters(self) -> tuple[Parameter, ...]:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
         sections = {section: dict(self.entries(section)) for section in ("parameters", "inputs")}
-        return Parameters(self.source, self.errors, sections, [name for name, _ in self.entries("tables")]).read()
+        reader = Parameters(self.source, self.errors, sections, [name for name, _ in self.entries("tables")])
+        parameters, self._numbers = reader.read(), reader.names
+        self._limits += reader.limits
+        return parameters
 
     def state(self, name: str, raw: object) -> StateVariable:
         where, scope = self.where(f"states.{name}"), self.scope("states", name)
@@ -356,7 +367,8 @@ class _Validator:
         scope = self.scope("outputs", name)
         value = scope.of_motion(key, section.value)
         unit = unit_of(section.unit, f"{where}.unit")
-        check_single(scope, value, unit)
+        check_own_unit(scope, value, unit)
+        self._limits += limits_of(name, section, unit, self._numbers, where, si=False)
         return Output(name, value, unit.text)
 
     # Joints and forces ---------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ _KEYS = re.compile(r"^(\w+(?:, \w+)*) : (.*)\n((?:    .*\n?|\n(?=    ))+)", re.M
 
 
 @cache
-def words() -> dict[str, Any]:
+def words_of_sections() -> dict[str, Any]:
     """Return the words of each section.
 
     Returns

@@ -44,24 +44,24 @@ def scaled(factor: float, x: Vector) -> Vector:
     return factor * x[0], factor * x[1], factor * x[2]
 
 
-def dot(x: Vector, y: Vector) -> float:
+def scalar_product(x: Vector, y: Vector) -> float:
     """Return the scalar product."""
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
 
 
-def cross(x: Vector, y: Vector) -> Vector:
+def vector_product(x: Vector, y: Vector) -> Vector:
     """Return the vector product."""
     return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
 
 
 def unit(x: Vector) -> Vector:
     """Return the direction of a vector, which must not be zero."""
-    return scaled(1.0 / math.sqrt(dot(x, x)), x)
+    return scaled(1.0 / math.sqrt(scalar_product(x, x)), x)
 
 
 def matrix_vector(matrix: Matrix, x: Vector) -> Vector:
     """Return the product of a matrix and a vector."""
-    return dot(matrix[0], x), dot(matrix[1], x), dot(matrix[2], x)
+    return scalar_product(matrix[0], x), scalar_product(matrix[1], x), scalar_product(matrix[2], x)
 
 
 def transpose(matrix: Matrix) -> Matrix:
@@ -128,4 +128,4 @@ def perpendicular(axis: Vector) -> Vector:
     direction = unit(axis)
     nearest = min(range(3), key=lambda k: abs(direction[k]))
     start = UNIT[nearest]
-    return unit(plus(start, scaled(-dot(start, direction), direction)))
+    return unit(plus(start, scaled(-scalar_product(start, direction), direction)))

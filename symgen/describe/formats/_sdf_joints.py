@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from symgen.base.errors import InputError, quoted
-from symgen.describe.formats._frames import Vector, dot, matrix_vector, unit
+from symgen.describe.formats._frames import Vector, matrix_vector, scalar_product, unit
 from symgen.describe.formats._robot import GROUND, Connection, Follower
 from symgen.describe.formats._xml import inner_number
 
@@ -114,6 +114,6 @@ def _turning(
     """Yield joints that turn a link against a carrier about an axis, with 1, or -1 where their angle counts back."""
     for c in connections:
         ends = _top(c.parent, below), _top(c.child, below)
-        cosine = dot(unit(matrix_vector(c.at.rotation, c.axis)), unit(axis))
+        cosine = scalar_product(unit(matrix_vector(c.at.rotation, c.axis)), unit(axis))
         if c.kind == "revolute" and set(ends) == {carrier, link} and abs(cosine) > _IN_LINE:
             yield c, math.copysign(1.0, cosine) * (1.0 if ends[0] == carrier else -1.0)

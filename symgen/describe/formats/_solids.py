@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from symgen.describe.formats._frames import ORIGIN, Matrix, Vector, dot, plus, scaled
+from symgen.describe.formats._frames import ORIGIN, Matrix, Vector, plus, scalar_product, scaled
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def sum_of_solids(solids: Iterable[SolidMass]) -> SolidMass:
         arm = plus(solid.centre, scaled(-1.0, centre))
         for i in range(3):
             for j in range(3):
-                far = dot(arm, arm) * (i == j) - arm[i] * arm[j]
+                far = scalar_product(arm, arm) * (i == j) - arm[i] * arm[j]
                 inertia[i][j] += solid.inertia[i][j] + solid.mass * far
     (a, b, c), (d, e, f), (g, h, k) = inertia
     return SolidMass(mass, centre, ((a, b, c), (d, e, f), (g, h, k)))

@@ -143,10 +143,10 @@ def inner_number(where: str, element: ET.Element | None, key: str, default: floa
 
 def positive(where: str, element: ET.Element, key: str) -> float:
     """Return the number of an inner element, which must be above 0."""
-    return sizes_of(where, " ".join([inner_text(element, key)] * 3))[0]
+    return three_sizes(where, " ".join([inner_text(element, key)] * 3))[0]
 
 
-def sizes_of(where: str, text: str) -> Vector:
+def three_sizes(where: str, text: str) -> Vector:
     """Return three numbers above 0."""
     sizes = triple(where, text)
     if min(sizes) <= 0.0:

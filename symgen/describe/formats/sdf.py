@@ -39,7 +39,7 @@ from symgen.describe.formats._xml import (
     inner_number,
     inner_text,
     positive,
-    sizes_of,
+    three_sizes,
     triple,
 )
 
@@ -293,9 +293,9 @@ class _Reader(RobotReader):
         for part in collision.iterfind("geometry/*"):
             at = f"{where}, {part.tag}"
             if part.tag == "box":
-                return box(sizes_of(at, inner_text(part, "size")))
+                return box(three_sizes(at, inner_text(part, "size")))
             if part.tag == "ellipsoid":
-                return ellipsoid(sizes_of(at, inner_text(part, "radii")))
+                return ellipsoid(three_sizes(at, inner_text(part, "radii")))
             if part.tag in ("sphere", "cylinder", "capsule"):
                 radius = positive(at, part, "radius")
                 if part.tag == "sphere":

@@ -213,7 +213,7 @@ def parameter_duals(
     return duals
 
 
-def slopes_of(numbers: Sequence[Any], count: int) -> Iterator[list[float]]:
+def dual_slopes(numbers: Sequence[Any], count: int) -> Iterator[list[float]]:
     """Yield the derivatives of numbers by `count` directions, zeros where they depend on nothing."""
     for number in numbers:
         yield list(number.slopes) if isinstance(number, Dual) and number.slopes else [0.0] * count

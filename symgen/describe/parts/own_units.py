@@ -88,7 +88,7 @@ def as_written(mechanism: Mechanism, quantity: Quantity, values: Mapping[str, fl
     return (value, quantity.unit) if parameter is None else parameter.as_written(value)
 
 
-def check_single(scope: Scope, value: Expr, unit: Unit) -> None:
+def check_own_unit(scope: Scope, value: Expr, unit: Unit) -> None:
     """Refuse an output that is one quantity of the motion, with a unit in which its number is another.
 
     Parameters

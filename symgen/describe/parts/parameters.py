@@ -11,15 +11,16 @@ from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import evaluate, evaluation_order
 from symgen.describe.formulas.names import line
 from symgen.describe.formulas.parser import FormulaNames
-from symgen.describe.mechanism import Parameter
+from symgen.describe.mechanism import OperatingLimit, Parameter
 from symgen.describe.parts.collected import Errors
 from symgen.describe.parts.fields import Scalar, read_table, read_value
+from symgen.describe.parts.limits import limits_of
 from symgen.describe.parts.own_units import parameter_value
 from symgen.describe.parts.sections import InputSection, ParameterSection
 
 
 class Parameters:
-    """The parameters and inputs of a description being read.
+    """The parameters and inputs of a description being read; `limits` grows as they are read.
 
     Parameters
     ----------
@@ -39,6 +40,7 @@ class Parameters:
         self.source, self.errors, self.sections = source, errors, sections
         elsewhere = frozenset(("t", *sections["inputs"], *tables))
         plain = {name: name for name in sections["parameters"]}
+        self.limits = list[OperatingLimit]()
         self.names = FormulaNames("a number or an expression of parameters", plain, elsewhere=elsewhere)
 
     def where(self, section: str, name: str) -> str:
@@ -78,6 +80,7 @@ class Parameters:
     def parameter(self, section: str, name: str, raw: object) -> Parameter:
         """Return a parameter or an input; one with a formula of others has no value yet."""
         where, text, note = self.where(section, name), "", ""
+        limited: ParameterSection | None = None
         value: float | str
         if not isinstance(raw, Mapping):
             value = read_value(Scalar, raw, where)
@@ -86,7 +89,9 @@ class Parameters:
             value, text, note = content.default, content.unit, content.note
         else:
             table = read_table(ParameterSection, raw, where)
-            value, text, note = table.value, table.unit, table.note
+            value, text, note, limited = table.value, table.unit, table.note, table
         number, formula, unit = parameter_value(value, text, self.names, where)
         shown = "" if unit.is_si else unit.text
+        if limited is not None:
+            self.limits += limits_of(name, limited, unit, self.names, where, si=True)
         return Parameter(name, number, unit.si, line(note), formula, section == "inputs", shown)

@@ -31,6 +31,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         Lower-case words joined by dashes.
     title, source : str
         One line for people; where the data come from.
+    author, revision : str
+        Who is responsible for the file, and its revision, for reports.
     space : str
         ``"planar"`` or ``"spatial"``.
     gravity : vector
@@ -42,6 +44,8 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     name: Text
     title: Text = ""
     source: Text = ""
+    author: Text = ""
+    revision: Text = ""
     space: Literal["planar", "spatial"] = "planar"
     gravity: Vector | None = None
     shape: ShapeSection | tuple[ShapeSection, ...] | None = None
@@ -85,11 +89,15 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         Unit of a number, such as ``"mm"``; SI by default. In formulas every name stands for its value in SI units.
     note : str
         For people.
+    smallest, largest : scalar
+        Limits with which reports compare the value: numbers in `unit` or with their own, or formulas of parameters.
     """
 
     value: Scalar
     unit: Text = ""
     note: Text = ""
+    smallest: Scalar | None = None
+    largest: Scalar | None = None
 
 
 class InputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -158,10 +166,14 @@ class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
         An expression of t, parameters, body coordinates, points, joint coordinates, forces and accelerations.
     unit : str
         Unit of the number that the formula gives.
+    smallest, largest : scalar
+        Limits with which reports compare it: numbers in `unit` or with their own, or formulas of parameters.
     """
 
     value: OutputFunction
     unit: Text = ""
+    smallest: Scalar | None = None
+    largest: Scalar | None = None
 
 
 class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -228,7 +228,7 @@ def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[st
     return q, v
 
 
-def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
+def state_quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
     """Return names and units of q and v: of the tree where there is one, else of the bodies."""
     if mechanism.topology is not None:
         names = state_names(mechanism, mechanism.topology)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections import OrderedDict
+from collections.abc import Collection, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -160,8 +161,30 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None,
         printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _drivers(mechanism):
         printed.add_lock(compiled, drivers)
-    own = {name: function for name, function in functions.items() if name != FINDER}
-    return f"{LOOP_HELPERS}{javascript(functions, printed.bound())}", len(javascript(own))
+    return _texts.of(printed)
+
+
+class _Texts:
+    """Texts of the functions of the last models, which another page of the same model has as well."""
+
+    MOST = 8
+
+    def __init__(self) -> None:
+        self._kept = OrderedDict[Hashable, tuple[str, int]]()
+
+    def of(self, printed: Printed) -> tuple[str, int]:
+        """Return the text, and the characters of the emitted functions."""
+        key = printed.key
+        if (found := self._kept.pop(key, None)) is None:
+            own = {name: function for name, function in printed.emitted.items() if name != FINDER}
+            found = f"{LOOP_HELPERS}{javascript(printed.emitted, printed.bound())}", len(javascript(own))
+        self._kept[key] = found
+        while len(self._kept) > self.MOST:
+            self._kept.popitem(last=False)
+        return found
+
+
+_texts = _Texts()
 
 
 def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:

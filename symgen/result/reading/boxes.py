@@ -131,7 +131,7 @@ def power(base: Box, exponent: Box) -> Box:
     return Box("power", (base, exponent), width=base.width + 0.75 * exponent.width)
 
 
-def transposed(base: Box) -> Box:
+def transposed_matrix(base: Box) -> Box:
     """Return the transposed of a matrix."""
     return power(base, name("T"))
 

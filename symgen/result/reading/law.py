@@ -22,7 +22,7 @@ from symgen.result.reading.boxes import (
     power,
     row,
     sign,
-    transposed,
+    transposed_matrix,
 )
 
 _QUANTITIES = {"gamma": "gamma", "nu": "nu", "phi": "Phi", "f": "f", "v": "v"}
@@ -228,7 +228,7 @@ def _times(*boxes: Box) -> Box:
 
 _D, _M, _G = name("D"), name("M"), name("G")
 #: The identity of bodies' velocities u = B v + b, pulled back to those of the state.
-_BODIES = row(transposed(name("B")), name("B"))
+_BODIES = row(transposed_matrix(name("B")), name("B"))
 _FORMS: dict[str, Callable[..., Box]] = {
     "neg": lambda x: row(sign("-"), _factor(x)),
     "mul": lambda a, b: _times(a, b),
@@ -236,30 +236,30 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "pow": lambda a, b: power(_factor(a), b),
     "sqrt": lambda a: function_box("sqrt", [a]),
     "min": lambda a, b: function_box("min", [a, b]),
-    "dot": lambda a, b: row(transposed(_factor(a)), _factor(b)),
+    "dot": lambda a, b: row(transposed_matrix(_factor(a)), _factor(b)),
     "product": lambda a, x: _times(a, x),
-    "transposed": lambda a, y: row(transposed(a), _factor(y)),
-    "times_transposed": lambda a, b: row(a, transposed(b)),
+    "transposed": lambda a, y: row(transposed_matrix(a), _factor(y)),
+    "times_transposed": lambda a, b: row(a, transposed_matrix(b)),
     "constraints": lambda: _D,
     "stored_constraints": lambda: _D,
     "mass": lambda x: _times(_M, x),
     "minv": lambda x: _times(_inverse(_M), x),
     "free_acceleration": lambda x: _times(_inverse(_M), x),
     "inverse_mass_root": lambda: power(_M, name("-1/2")),
-    "schur": lambda: row(_D, _inverse(_M), transposed(_D)),
-    "compliant": lambda e: row(_D, _inverse(_M), transposed(_D), sign("+"), e),
-    "pseudoinverse": lambda b: row(_factor(b), transposed(_factor(b))),
-    "augmented": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
-    "augmented_metric": lambda a: row(_M, sign("+"), transposed(_D), a, _D),
+    "schur": lambda: row(_D, _inverse(_M), transposed_matrix(_D)),
+    "compliant": lambda e: row(_D, _inverse(_M), transposed_matrix(_D), sign("+"), e),
+    "pseudoinverse": lambda b: row(_factor(b), transposed_matrix(_factor(b))),
+    "augmented": lambda a: row(_M, sign("+"), transposed_matrix(_D), a, _D),
+    "augmented_metric": lambda a: row(_M, sign("+"), transposed_matrix(_D), a, _D),
     "penalties": lambda a: a,
     "row_stiffness": lambda k: name("K"),
-    "rank": lambda: row(_D, _G, transposed(_D)),
-    "weighted_mass": lambda r: row(_D, _inverse(_M), transposed(_D)),
-    "weighted_identity": lambda r: row(_D, transposed(_D)),
-    "weighted_body": lambda r: row(_D, _inverse(bracket(_BODIES)), transposed(_D)),
+    "rank": lambda: row(_D, _G, transposed_matrix(_D)),
+    "weighted_mass": lambda r: row(_D, _inverse(_M), transposed_matrix(_D)),
+    "weighted_identity": lambda r: row(_D, transposed_matrix(_D)),
+    "weighted_body": lambda r: row(_D, _inverse(bracket(_BODIES)), transposed_matrix(_D)),
     "body_entries": lambda: _BODIES,
     "body_inverse": lambda x: _times(_inverse(bracket(_BODIES)), x),
-    "weighted_dependent": lambda r: row(_D, name("P"), _G, transposed(_D)),
+    "weighted_dependent": lambda r: row(_D, name("P"), _G, transposed_matrix(_D)),
     "geometry": lambda r: row(name("Phi"), sign(","), name("nu"), sign(","), _D),
     "gauged": lambda x: _times(_G, x),
     "partition_quality": lambda a, b: fraction(function_box("det", [b]), function_box("det", [a])),
@@ -268,7 +268,7 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "driving": lambda a: row(name("b"), _factor(a), sign("+"), name("c")),
     "at_velocity": lambda x, v: row(_factor(x), sign("|"), v),
     "mass_rate": lambda x, v: row(dotted(_M), _factor(x)),
-    "constraint_rate_transposed": lambda y, v: row(transposed(dotted(_D)), _factor(y)),
+    "constraint_rate_transposed": lambda y, v: row(transposed_matrix(dotted(_D)), _factor(y)),
     "flag": lambda: name("flag"),
     "holonomic_or": lambda x: name("Phi"),
 }

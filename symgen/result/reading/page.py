@@ -19,7 +19,7 @@ from symgen.describe.drawing import sketch
 from symgen.describe.parts.own_units import as_written
 from symgen.result.player.live import rates_part
 from symgen.result.player.motion_page import rates_script
-from symgen.result.reading.boxes import dotted, name, row, sign, transposed
+from symgen.result.reading.boxes import dotted, name, row, sign, transposed_matrix
 from symgen.result.reading.html import (
     attribute,
     equation,
@@ -373,6 +373,15 @@ _POWER = "energies, and the power of forces without potential; b v' + c is that 
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
 _FREE_MOTION = row(name("M"), dotted(name("v")), sign("="), name("f"))
 _MOTION = row(
-    *(name("M"), dotted(name("v")), sign("+"), transposed(name("D")), name("lambda"), sign("="), name("f"), sign(",")),
+    *(
+        name("M"),
+        dotted(name("v")),
+        sign("+"),
+        transposed_matrix(name("D")),
+        name("lambda"),
+        sign("="),
+        name("f"),
+        sign(","),
+    ),
     *(name("D"), dotted(name("v")), sign("="), name("gamma")),
 )

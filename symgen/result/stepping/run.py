@@ -20,7 +20,7 @@ from symgen.result.stepping.advance import Clock, Controller
 from symgen.result.stepping.readings import StepReadings
 from symgen.result.stepping.saved_state import Saved
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.seams import Foreseen, foreseen_in_run, merged, seams_of
+from symgen.run.breaks.seams import Foreseen, foreseen_in_run, merged, seams_of_motion
 from symgen.run.layout import abi
 from symgen.run.single.changes import begin_with_step
 from symgen.run.single.events import EventRecord
@@ -364,7 +364,7 @@ class SteppedRun(StepReadings):
         """Return the run's specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
         if driven is not None and driven.jumps:
-            self._jumps = seams_of(driven, values, spec.until)
+            self._jumps = seams_of_motion(driven, values, spec.until)
         return replace(spec, seams=merged(self._jumps, self._foreseen.seams(values, self._horizon)))
 
     def _breaks(self) -> Foreseen:

@@ -35,7 +35,7 @@ LEAST_ORDER = 3
 _BESIDE, _NEXT_TO = 1e-12, 4.0 * 2.0**-52
 
 
-def seams_of(
+def seams_of_motion(
     driven: DrivenMechanism, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
 ) -> tuple[Seam, ...]:
     """Return the seams of a motion from `first` to `until`, empty without jumps.
@@ -99,7 +99,7 @@ def merged(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]
     return tuple(sorted(result, key=lambda seam: seam.t))
 
 
-def beside(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
+def seams_beside(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
     """Return seams on both sides of some times, in place of seams at these without changes of numbers."""
     apart, result = _BESIDE * until, list[Seam]()
     for seam in seams:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native.language import Function
@@ -52,8 +53,9 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
     return functions
 
 
+@lru_cache(maxsize=128)
 def checked_function(function: Any, kind: Any) -> Function:
-    """Return an emitted function in the checked language, of the type that loops call."""
+    """Return an emitted function in the checked language, of the type that loops call; it is read once a process."""
     if not hasattr(function, "read"):
         raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
     result: Function = function.read(kind.signature.arguments)

@@ -18,7 +18,7 @@ from symgen.derive.lower.looped.tables import IndexTables
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.topology import quantities
+from symgen.describe.parts.topology import state_quantities
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 
 
@@ -109,7 +109,7 @@ def hoisting(
 def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables) -> ModelInfo:
     """Return the runtime's facts of a mechanism in the looped shape."""
     mechanism, repeats = without_repeats(mechanism)
-    coordinates, velocities = quantities(mechanism)
+    coordinates, velocities = state_quantities(mechanism)
     bounded = tuple(row for row, _ in shape.idle)
     operations: dict[str, int] = {}
     for group in shape.groups:

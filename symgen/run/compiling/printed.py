@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -112,6 +112,11 @@ def _meaning(
     return ConstantTable(parameter.name.rpartition(".")[2], parameter.type, table)
 
 
+def _identity(meaning: Meaning) -> Hashable:
+    """Return what two meanings that are one have in common."""
+    return meaning.key if isinstance(meaning, lang.Function) else meaning
+
+
 @dataclass(frozen=True)
 class PrintedEvents:
     """The events of a mechanism, for printed steps.
@@ -187,6 +192,16 @@ class Printed:
 
     emitted: dict[str, lang.Function]
     entries: dict[str, tuple[lang.Function, dict[str, Meaning]]] = field(default_factory=dict)
+
+    @property
+    def key(self) -> Hashable:
+        """Identity of all functions and meanings, from which any text of them follows."""
+        emitted = tuple((name, function.key) for name, function in self.emitted.items())
+        entries = (
+            (name, function.key, tuple((parameter, _identity(x)) for parameter, x in meanings.items()))
+            for name, (function, meanings) in self.entries.items()
+        )
+        return emitted, tuple(entries)
 
     def bound(self) -> BoundFunctions:
         """Return the functions bound to the model."""

@@ -33,7 +33,7 @@ from symgen.run.loops.searching import deciding
 from symgen.run.rows.kept_run import KeptLoops, KeptModes, KeptOutput, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
-from symgen.run.single.new_state import new_state, sizes_of, span_of
+from symgen.run.single.new_state import model_sizes, new_state, span_of
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
@@ -189,7 +189,7 @@ class PrintedRun:
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `advance_run` behind its first one; a step and its end are None, as they are passed."""
         compiled, info, watched = self.compiled, self.compiled.info, self.watched
-        setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), sizes_of(compiled)
+        setup, sizes = self.integrator.setup(compiled, self.spec, compiled.scratch()), model_sizes(compiled)
         sizes, span = sizes._replace(width=info.ny), span_of(self.spec, setup)
         state: Any = new_state(compiled, sizes, setup.memory, setup.room, self.datum)
         state = event_state(watched, sizes, state)

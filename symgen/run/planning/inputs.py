@@ -10,7 +10,7 @@ from symgen.base.errors import InputError
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism, bounded
 from symgen.describe.parts.inputs import DrivenMechanism, driven
-from symgen.run.breaks.seams import seams_of
+from symgen.run.breaks.seams import seams_of_motion
 from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def put_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) ->
     parameters = {**settings.parameters, **sources.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
     values = parameter_values(sources.mechanism, parameters)
-    seams = seams_of(sources, values, until, behind=behind)
+    seams = seams_of_motion(sources, values, until, behind=behind)
     parameters |= seams[0].values if seams else {}
     # defaults of inputs may follow other parameters, so numbers are read from the values
     words = {name: x if isinstance(x, str) else values[name] for name, x in sources.descriptions.items()}

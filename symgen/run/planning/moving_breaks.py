@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.run.breaks.seams import beside, foreseen, times_between
+from symgen.run.breaks.seams import foreseen, seams_beside, times_between
 
 if TYPE_CHECKING:
     from symgen.describe.parts.inputs import Jump
@@ -55,7 +55,7 @@ def with_moving_kinks(run: Prepared, start: StartDirections) -> Prepared:
     if not run.spec.adaptive:  # whose steps end on both sides of each anyway
         return run
     times = times_between(kinks, mechanism, values, until)[0]
-    return run.with_spec(seams=beside(run.spec.seams, times, until))
+    return run.with_spec(seams=seams_beside(run.spec.seams, times, until))
 
 
 def _moving(jumps: Sequence[Jump], start: StartDirections) -> tuple[Jump, ...]:

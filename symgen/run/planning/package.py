@@ -20,7 +20,7 @@ from symgen.base.files import Content, check_name, templates_folder, why, write_
 from symgen.base.ir.program import COUNTERS, SETTLED, STATUS, SUFFIXES
 from symgen.base.settings import Settings
 from symgen.derive.emit.module import render
-from symgen.derive.lower.law import refuse_bounds
+from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.lower.looped.law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.describe.bounds.by_reaction import held_by_reactions
@@ -172,7 +172,7 @@ def _suits(choice: MethodChoice, mechanism: Mechanism, shape: str, target: str) 
     if mechanism.bounded:
         try:
             pressed = next((row.family.one for row in held_by_reactions(mechanism)), "")
-            refuse_bounds(choice.method, choice.options, choice.implicit, pressed)
+            refuse_bounded_rows(choice.method, choice.options, choice.implicit, pressed)
         except InputError:
             return False
     if shape == "looped":

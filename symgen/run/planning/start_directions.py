@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.rotations import composed_rotation
-from symgen.describe.formulas.duals import Dual, Duals, dual, parameter_duals, slopes_of
+from symgen.describe.formulas.duals import Dual, Duals, dual, dual_slopes, parameter_duals
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
 from symgen.run.layout import abi
@@ -89,7 +89,7 @@ class StartDirections:
         rows = np.zeros((law_size, self.count))
         own = self.duals.values
         rows[: len(compiled.info.parameters)] = list(
-            slopes_of([own.get(q.name) for q in compiled.info.parameters], self.count)
+            dual_slopes([own.get(q.name) for q in compiled.info.parameters], self.count)
         ) or np.zeros((0, self.count))
         places = {name: law.parameter_offset + i for i, (name, _) in enumerate(law.parameters)}
         for k, d in enumerate(self.directions):
@@ -191,7 +191,7 @@ class StartDirections:
         for name, value in held.items():
             if value is not None:
                 slopes = self.duals.value(value, f"start '{name}'")
-                directions[table[name]] = np.array(next(slopes_of([slopes], self.count)))
+                directions[table[name]] = np.array(next(dual_slopes([slopes], self.count)))
         for k, d in enumerate(self.directions):
             if d.kind == "start" and d.key in table:
                 directions[table[d.key]] = np.eye(self.count)[k]
@@ -224,7 +224,7 @@ class StartDirections:
         """
         info, motion, p = self.info, self._turning, self.parameters(self.compiled)
         q, _ = described_start(self.run.plan.mechanism, self.duals)
-        described = np.array(list(slopes_of(q, self.count))).reshape(info.nq, self.count)
+        described = np.array(list(dual_slopes(q, self.count))).reshape(info.nq, self.count)
         along = np.linalg.pinv(motion) @ described
         y = np.zeros((info.ny, self.count))
         y[: info.nq] = motion @ along
@@ -271,7 +271,7 @@ class StartDirections:
         info, start, n = self.info, self.start, self.count
         v = start.y[info.nq : info.work]
         places = {q.name: j for j, q in enumerate(info.velocities)}
-        fixed = {j: np.array(next(slopes_of([x], n))) for j, x in enumerate(described) if x is not None}
+        fixed = {j: np.array(next(dual_slopes([x], n))) for j, x in enumerate(described) if x is not None}
         kept = np.array([0.0 if x is None else dual(x).value for x in described])
         held = self._targets(places)
         fixed |= held
@@ -335,7 +335,7 @@ class StartDirections:
         """Return the directions of the file's own states."""
         held = {hold.name: hold.value for hold in self.run.plan.holds}
         numbers = [self.duals.value(held.get(x.name) or x.start, x.name) for x in self.run.plan.mechanism.states]
-        rows = np.array(list(slopes_of(numbers, self.count))).reshape(len(numbers), self.count)
+        rows = np.array(list(dual_slopes(numbers, self.count))).reshape(len(numbers), self.count)
         for k, d in enumerate(self.directions):
             for i, x in enumerate(self.run.plan.mechanism.states):
                 if d.kind == "start" and d.key == x.name:

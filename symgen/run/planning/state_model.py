@@ -16,7 +16,7 @@ from symgen.describe.bounds.modes import one_sided, refuse_bounds, without_bound
 from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.topology import quantities
+from symgen.describe.parts.topology import state_quantities
 from symgen.run.compiling.choices import choose_coordinates, on_tree
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
@@ -65,7 +65,7 @@ class StateModel:
         refuse_bounds(where, self._described)
         self.kind = choose_coordinates(self._described, coordinates, "straight").name
         self.mechanism = on_tree(self._described) if self.kind == "joint" else self._described
-        self.coordinates, self.velocities = quantities(self.mechanism)
+        self.coordinates, self.velocities = state_quantities(self.mechanism)
         distinct = without_repeats(self.mechanism)[0]
         self.rows = tuple(f"{joint.name}.{row.label}" for joint in distinct.joints for row in joint.rows)
         self._own = tuple(state.name for state in self.mechanism.states)

@@ -150,7 +150,7 @@ def moved_free(k: int, box: Any) -> bool:
 
 
 @exact()
-def size_of(k: int, i: int, box: Any) -> float:
+def magnitude_of(k: int, i: int, box: Any) -> float:
     """Return the sum of the magnitudes whose difference is acceleration number i."""
     size = abs(box.offset[i])
     for j in range(k):
@@ -171,7 +171,7 @@ def moved_beside(k: int, box: Any) -> bool:
     set_left(k, box)
     for d in range(rank, count):
         at = order[d]
-        if abs(box.left[at]) > INCONSISTENT * size_of(k, at, box):
+        if abs(box.left[at]) > INCONSISTENT * magnitude_of(k, at, box):
             way = math.copysign(1.0, box.left[at])
             for i in range(rank):
                 right[i] = -way * box.matrix[order[i] * k + at]
@@ -201,7 +201,7 @@ def wrong_bound(k: int, box: Any) -> int:
     set_left(k, box)
     worst, most = -1, 0.0
     for i in range(k):
-        size = size_of(k, i, box)
+        size = magnitude_of(k, i, box)
         wrong = -box.left[i] * float(box.place[i])
         if (
             box.bounds[i] > box.lower[i]

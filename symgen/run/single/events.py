@@ -21,7 +21,7 @@ from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.start_records import Instant
 from symgen.run.loops import event_loop
 from symgen.run.loops import search_records as searching
-from symgen.run.single.new_state import sizes_of
+from symgen.run.single.new_state import model_sizes
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -225,7 +225,7 @@ class Events:
         """Past resets, for the search of accumulations."""
         compiled, watched = self.compiled, self.watched
         functions = len(watched.names) + len(watched.switches)
-        width, nw = sizes_of(compiled).width, len(compiled.scratch())
+        width, nw = model_sizes(compiled).width, len(compiled.scratch())
         return new_past(len(watched.names), functions, width, nw, self.until)
 
     def end_of_resets(self, numbers: Sequence[int], state: event_loop.EventState) -> float | None:

@@ -36,7 +36,7 @@ def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: floa
     return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_attempts, pause, spec.largest_turn)))
 
 
-def sizes_of(compiled: CompiledModel) -> Sizes:
+def model_sizes(compiled: CompiledModel) -> Sizes:
     """Return the sizes of a model for loops."""
     info, sections = compiled.info, compiled.info.sections
     names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
@@ -119,7 +119,7 @@ def lengths_match(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDA
     arrays : mapping of str to array
         Saved arrays by name. Data of events, and room for factors, may have any length.
     """
-    own = new_state(compiled, sizes_of(compiled), memory, 0)._asdict()
+    own = new_state(compiled, model_sizes(compiled), memory, 0)._asdict()
     kept = {SAVED_AS.get(name, name): array for name, array in own.items() if name != "room"}
     return all(name in arrays and arrays[name].shape == array.shape for name, array in kept.items())
 

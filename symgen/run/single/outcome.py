@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import counted
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
-from symgen.run.single.new_state import sizes_of
+from symgen.run.single.new_state import model_sizes
 from symgen.run.single.simulation import Simulation
 from symgen.run.starts.assembler import row_chooser
 from symgen.run.starts.assembly import Start
@@ -90,7 +90,7 @@ class Motion:
 
         info, k = self.compiled.info, len(self.times)
         observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, 0)))
-        return sizes_of(self.compiled), Outputs(self.times, self.states, self.status_columns), observed
+        return model_sizes(self.compiled), Outputs(self.times, self.states, self.status_columns), observed
 
     @property
     def last_step(self) -> float:

@@ -22,9 +22,9 @@ from symgen.run.single.new_state import (
     SAVED_AS,
     Snapshot,
     memory_fields,
+    model_sizes,
     new_outputs,
     new_state,
-    sizes_of,
     span_of,
     with_memory,
 )
@@ -91,7 +91,7 @@ class Simulation:
     def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
         self.compiled, self.integrator, self.start, self.spec = compiled, integrator, start, spec
         self.setup = integrator.setup(compiled, spec, start.w)
-        self.sizes = sizes_of(compiled)
+        self.sizes = model_sizes(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
         self.direct = True
         self.halt: InputError | None = None

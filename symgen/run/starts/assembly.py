@@ -21,7 +21,7 @@ from symgen.run.starts import decisions
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.held import Held
 from symgen.run.starts.joint_starts import joint_values
-from symgen.run.starts.start_words import Change, changes_of, notes_of, refusal, warnings_of, without_derivative
+from symgen.run.starts.start_words import Change, changes_of, notes_of, start_refusal, warnings_of, without_derivative
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -223,7 +223,7 @@ def closed_state(
     info, y = compiled.info, described_state(compiled.info, q)
     w, summary = close(y, velocities, p)
     if summary[e.START] != e.ASSEMBLED:
-        error = without_derivative(compiled, q, p) or refusal(summary, info, held)
+        error = without_derivative(compiled, q, p) or start_refusal(summary, info, held)
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
         raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
     return y, w, summary

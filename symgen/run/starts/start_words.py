@@ -122,7 +122,7 @@ def _from_to(change: Change) -> str:
     return f"{before} to {after} {change.unit}".removesuffix(" 1")  # Euler parameters are numbers
 
 
-def refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> AssemblyError | InputError:
+def start_refusal(summary: Array, info: ModelInfo, held: Held | None = None) -> AssemblyError | InputError:
     """Return the error of a run without a start.
 
     Parameters

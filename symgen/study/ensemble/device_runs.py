@@ -19,7 +19,7 @@ from symgen.base.ir.program import TARGETS
 from symgen.compile.loopcode.padding import padded
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.single.new_state import metric_of, share_of, sizes_of
+from symgen.run.single.new_state import metric_of, model_sizes, share_of
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -160,7 +160,7 @@ class DeviceRuns:
         datum: tuple[float, ...],
     ) -> None:
         self.compiled, self.need, self.scheme, self.span = compiled, need, scheme, span
-        self.sizes = sizes_of(compiled)
+        self.sizes = model_sizes(compiled)
         self.constants = limits, share_of(self.sizes, datum), metric_of(compiled.info, self.sizes), picks, times
         self.times, self.quantities = len(times), len(picks) // 2
 

@@ -14,7 +14,7 @@ from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.formulas.evaluate import derived, parameter_values
 from symgen.run.breaks.motions import jump_of, names_of_motions
-from symgen.run.breaks.seams import merged, seams_of
+from symgen.run.breaks.seams import merged, seams_of_motion
 from symgen.run.loops.run_spec import Seam
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ class Driving:
             self._jumps[read] = jump_of(self.inputs.mechanism, values, self.until)
         if (jump := self._jumps.get(read)) is not None:
             raise jump
-        seams = () if driven is None else seams_of(driven, values, self.until)
+        seams = () if driven is None else seams_of_motion(driven, values, self.until)
         return merged(seams, self.foreseen.seams(values, self.until)) if self.foreseen else seams
 
 

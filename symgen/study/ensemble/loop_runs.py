@@ -24,7 +24,7 @@ from symgen.run.loops.searching import decide
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
 from symgen.run.rows.rows import observe_nothing, over_rows
 from symgen.run.single.events import event_state, forget_steps
-from symgen.run.single.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.run.single.new_state import model_sizes, new_outputs, new_state, span_of
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.tree_start import TURNED_OVER, Carried
 
@@ -159,7 +159,7 @@ class LoopRuns:
         info, model, law = compiled.info, compiled.model, compiled.law_module
         rates, sizes, span, series = (
             rate_functions(law),
-            sizes_of(compiled),
+            model_sizes(compiled),
             span_of(recipe.spec, setup),
             self._series(),
         )

@@ -17,7 +17,7 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.single.events import gathered, undefined
 from symgen.run.single.outcome import Ended, RankEvent
 from symgen.run.single.run import end_reason
-from symgen.run.starts.start_words import refusal
+from symgen.run.starts.start_words import start_refusal
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.infos import LawInfo
@@ -71,7 +71,7 @@ def judge_all(
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
         if summary_column(row, "start") != e.ASSEMBLED:
-            status[i], reason[i] = FAILED, str(refusal(row, info))
+            status[i], reason[i] = FAILED, str(start_refusal(row, info))
             continue
         if (why := _of_events(row, events)) is not None:
             status[i], reason[i] = FAILED, why

@@ -117,6 +117,8 @@ class Document:
         The command that makes it again; empty where there is none.
     sections : tuple of Section
         Its content.
+    page : str
+        Address of a page that plays the motion, relative to the document; empty where there is none.
     """
 
     title: str
@@ -124,6 +126,7 @@ class Document:
     facts: tuple[tuple[str, str], ...]
     command: str
     sections: tuple[Section, ...] = field(default=())
+    page: str = ""
 
     def pictures(self) -> list[Picture]:
         """Return all pictures in the order in which they stand."""

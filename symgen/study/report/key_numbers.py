@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.dead_centre_room import room_to_dead_centre
 from symgen.analyses.transmission import PIN, transmission_angles
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
@@ -45,9 +46,10 @@ def key_numbers(mechanism: Mechanism, result: Result) -> tuple[KeyNumber, ...]:
     """Return at most seven numbers of a run that has outputs.
 
     The largest effort of each drive, its largest power and its work; the largest forces of pins; the largest travel
-    of a joint, or the ranges of outputs; the least transmission angle of a mechanism in the plane.
+    of a joint, or the ranges of outputs; the least transmission angle of a mechanism in the plane; the room between
+    the travel of its driver and a dead centre.
     """
-    rest = [*_travels(mechanism, result), *_transmission(mechanism, result)][:2]
+    rest = [*_travels(mechanism, result), *_transmission(mechanism, result), *_room(mechanism, result)]
     first = [*_drives(mechanism, result)][: MOST_NUMBERS - MOST_PINS - len(rest)]
     return (*first, *_pins(mechanism, result)[: MOST_NUMBERS - len(first) - len(rest)], *rest)
 
@@ -140,6 +142,14 @@ def _transmission(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     if found:
         size, k, name = min(found)
         yield KeyNumber("transmission angle", engineering(size, "rad"), f"least, at {name}, {_at(result, k)}")
+
+
+def _room(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
+    """Yield the way from the travel of the driver to the nearer dead centre, where there is one."""
+    rooms = [room for room in room_to_dead_centre(mechanism, result.t, result.parameters) if room.way == room.way]
+    for room in sorted(rooms, key=lambda room: room.way)[:1]:
+        where = f"{'below' if room.backward else 'above'} the travel of {room.driver}"
+        yield KeyNumber("room to the dead centre", engineering(room.way, room.unit), where)
 
 
 def _between_links(joint: Joint) -> bool:

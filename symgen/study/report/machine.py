@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import date
 from functools import partial
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import numpy as np
 
 from symgen.analyses.kinds import AnalysisTable
 from symgen.analyses.kinds.modes import shown as shown_modes
+from symgen.analyses.limits import reached_limits
 from symgen.base.errors import SymgenError, counted, fitting
 from symgen.describe.drawing.drawing import Drawing
 from symgen.result.labelled import Labelled, columns_at
 from symgen.result.plots import drawing
 from symgen.result.summary import lines
 from symgen.study.machine_class import machine_class, version_list
-from symgen.study.report.document import Document, DocumentTable, Picture, Section
+from symgen.study.report.document import Document, DocumentTable, Picture, Section, TableCell
 from symgen.study.report.key_numbers import key_numbers
 from symgen.study.report.picture import MOST_BODIES, of_figure
 from symgen.study.report.words import engineering, rounded
@@ -35,7 +38,7 @@ LOADS = {"N m": "Torques and moments", "N": "Forces", "W": "Powers"}
 _RATE = ".rate"
 
 
-def machine(model: Model, result: Result, command: str = "", over: str = "t") -> Document:
+def machine(model: Model, result: Result, command: str = "", over: str = "t", page: str = "") -> Document:
     """Return the report of a machine.
 
     Parameters
@@ -48,6 +51,8 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
         The command that makes the report again.
     over : str
         Column along the horizontal axis of curves, such as ``crank.theta``.
+    page : str, optional
+        Name of the file beside the report that plays the motion.
 
     Raises
     ------
@@ -56,6 +61,7 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
     """
     along = result.along(over)
     facts = [
+        *_origin(model),
         *lines(result),
         *((f"parameter {name}", _amount(model, name, value)) for name, value in result.parameters.items()),
         ("versions", version_list()),
@@ -64,12 +70,21 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t") ->
     sections = [
         *_first_screen(model, result),
         *_motion(model, result),
+        *_events(result),
+        *_limits(model, result),
         Section("Largest loads", _trust(result), tables=(*_loads(result, along),)),
         Section("Curves", pictures=(*_curves(result, along),)),
         _at_rest(model, result),
     ]
     title = model.mechanism.title or model.name
-    return Document(title, (_lead(result),), tuple(facts), command, tuple(sections))
+    return Document(title, (_lead(result),), tuple(facts), command, tuple(sections), quote(page))
+
+
+def _origin(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield who answers for the file, its revision, and the day of the report."""
+    own = {"author": model.mechanism.author, "revision": model.mechanism.revision}
+    yield from ((label, text) for label, text in own.items() if text)
+    yield "date", date.today().isoformat()
 
 
 def _amount(model: Model, name: str, value: float) -> str:
@@ -128,6 +143,44 @@ def _motion(model: Model, result: Result) -> Iterator[Section]:
         still = Drawing.of(model.mechanism, q[k], values, ghosts=[q[0].tolist()], labels=False)
         pictures.append(_sketch(f"at-{k}", f"t = {result.t[k]:.4g} s", still))
     yield Section("Motion", pictures=tuple(pictures))
+
+
+def _limits(model: Model, result: Result) -> Iterator[Section]:
+    """Yield the section of the file's limits, if it has any."""
+    found = reached_limits(model.mechanism, result) if len(result.t) else ()
+    if not found:
+        return
+    headings = ("quantity", "limit", "reached", "at t [s]", "")
+    rows = tuple(
+        (
+            each.name,
+            f"{'at most' if each.side == 'largest' else 'at least'} {engineering(each.limit, each.unit)}",
+            engineering(each.reached, each.unit),
+            "" if each.t is None else f"{each.t:.4g}",
+            TableCell("kept", "good") if each.kept else TableCell("exceeded", "bad"),
+        )
+        for each in found
+    )
+    broken = list(dict.fromkeys(each.name for each in found if not each.kept))
+    text = f"Exceeded: {', '.join(broken)}." if broken else f"The run keeps {counted(len(found), 'limit')} of the file."
+    yield Section("Limits", (text,), tables=(DocumentTable("", headings, rows),))
+
+
+def _events(result: Result) -> Iterator[Section]:
+    """Yield the section of what happened when, if anything did: each name with its times."""
+    times = dict[str, list[float]]()
+    for event in result.events:
+        times.setdefault(event.name, []).append(event.t)
+    if not times:
+        return
+    rows = tuple(
+        (name, str(len(each)), f"{each[0]:.4g}", f"{each[-1]:.4g}" if len(each) > 1 else "")
+        for name, each in times.items()
+    )
+    table = DocumentTable(
+        "", ("event", "times", "first at t [s]", "last at t [s]"), rows[: fitting(len(rows), MOST_ROWS)]
+    )
+    yield Section("Events", tables=(table,))
 
 
 def _sketch(name: str, caption: str, still: Drawing) -> Picture:

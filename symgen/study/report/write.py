@@ -145,6 +145,7 @@ def markdown(document: Document, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {markdown_text(document.title)}", ""]
     lines += [x for text in document.lead for x in (markdown_text(text), "")]
+    lines += [f"[Play the motion]({document.page})", ""] if document.page else []
     for section in document.sections:
         lines += _section(section, 2, folder)
     lines += ["## Settings and versions", ""]

@@ -11,33 +11,25 @@ from symgen.derive.methods import METHODS
 
 from .twofold import apart
 
-#: Seconds, nearly all of them Numba's.
-FIRST = ("pendulum", ("lagrange",))
 #: Small models with methods of every kind of law and correction.
 SMALL = (
-    FIRST,
+    ("pendulum", ("lagrange",)),
     ("pendulum", ("augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl")),
     ("four-bar", ("direct-correction", "index1-augmented-lagrangian")),
     ("rough", ("lagrange",)),
 )
 
 
-#: The same, larger ones, and every other method once: minutes.
+#: Every other method once, in one process, as most of their functions are those of another method; and larger models.
 CASES = (
     *SMALL,
-    *(("slider-crank", (name,)) for name in METHODS if not any(name in methods for _, methods in SMALL)),
+    ("slider-crank", tuple(name for name in METHODS if not any(name in methods for _, methods in SMALL))),
     ("everything", ("lagrange",)),
     ("rolling-disc", ("direct-correction",)),
 )
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("model", "methods"),
-    [
-        pytest.param(*case, id=f"{case[0]}-{case[1][0]}", marks=() if case is FIRST else pytest.mark.slow)
-        for case in CASES
-    ],
-)
+@pytest.mark.parametrize(("model", "methods"), [pytest.param(*case, id=f"{case[0]}-{case[1][0]}") for case in CASES])
 def test_functions_are_numbas(model, methods):
     assert apart(model, *methods) == ""

@@ -113,10 +113,10 @@ def test_what_returns_nothing_is_called_by_looped_code_alone():
 #: A kind of law, correction and integrator each; kinds of joints and forces.
 CASES = {
     "elimination": ("pendulum", "lagrange", "rk4"),
-    "projection": ("four-bar", "direct-correction", "rk4", "bricard", "mass-orthogonal-projection", "rk4"),
-    "augmented": ("four-bar", "index1-augmented-lagrangian", "rk4", "slider-crank", "augmented-lagrangian", "abm4"),
+    "projection": ("four-bar", "direct-correction", "rk4"),
+    "augmented": ("slider-crank", "augmented-lagrangian", "abm4"),
     "stages": ("four-bar", "ggl", "radau5"),
-    "elements": tuple("everything lagrange rk4 rough lagrange rk4 spatial-slider-crank lagrange rk4".split()),
+    "elements": ("everything", "lagrange", "rk4"),
 }
 
 

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 import symgen
 from symgen.compile.native.machine import optimised
 from symgen.compile.native.read_values import Foreign
-from symgen.compile.native.tangents import module
+from symgen.compile.native.tangents import tangent_module
 from symgen.compile.store.emitted import EmittedFunction, TangentFunction
 from symgen.compile.store.modules import load_module
 from symgen.run.compiling.pipeline import choose_method, compile_model
@@ -196,11 +196,11 @@ def test_functions_of_a_module_agree_on_registers_for_directions(tmp_path):
     expected = derivative(function, values, {i: rate[:, 1] for i, rate in rates.items()})
     for i in rates:
         np.testing.assert_allclose(shown[i][:, 1], expected[i], rtol=1e-12, atol=1e-12)
-    text = module(function.read(arguments_of(function)), "f", 8, {"y": 6, "out": 6})
+    text = tangent_module(function.read(arguments_of(function)), "f", 8, {"y": 6, "out": 6})
     assert len(set(re.findall(r'"min-legal-vector-width"="\d+"', str(optimised(text))))) == 1
 
 
 def test_an_array_without_directions_is_refused(tmp_path):
     function = load_module(written(tmp_path, POWER, LOOP)).f
     with pytest.raises(Foreign, match="the array 'out' without directions"):
-        module(function.read(arguments_of(function)), "f", LANES, {"y": 6})
+        tangent_module(function.read(arguments_of(function)), "f", LANES, {"y": 6})

@@ -53,7 +53,7 @@ def unchanged(copied):
 
 def forget():
     """Forget what has been read: as in another process."""
-    for kept in (sources.table, sources.reached_digest, sources._stamp_of):
+    for kept in (sources.source_table, sources.reached_digest, sources._stamp_of):
         kept.cache_clear()
 
 
@@ -140,7 +140,7 @@ def test_a_new_module_is_another_code(package):
 def test_imports_are_those_that_python_sees():
     """At any place of a module, in parentheses and under other names."""
     files = dict(sources.files_of(str(PACKAGE)))
-    for name, (_, found) in sources.read_table(files).items():
+    for name, (_, found) in sources.read_sources(files).items():
         if name.endswith(".py"):
             assert set(found) == imported(Path(files[name]), set(files)) - {name}, name
 
@@ -169,7 +169,7 @@ def test_a_compiled_function_depends_on_constants_of_other_rooms():
         if hasattr(function, "py_func")
     }
     assert "run/effects/stepping.py" in names
-    reached = sources.reached(sources.table(), {*sources.LOOPS, *names})
+    reached = sources.reached_sources(sources.source_table(), {*sources.LOOPS, *names})
     assert {"base/ir/program.py", "run/layout/abi.py", "run/effects/stepping.py"} <= reached
 
 
@@ -204,7 +204,7 @@ def tables(tmp_path):
 def test_the_package_is_read_once_for_all_processes(settled, tmp_path, monkeypatch):
     before = identities()
     assert len(tables(tmp_path)) == 1
-    monkeypatch.setattr(sources, "read_table", lambda files: pytest.fail("read again"))
+    monkeypatch.setattr(sources, "read_sources", lambda files: pytest.fail("read again"))
     assert identities() == before
 
 

@@ -165,6 +165,7 @@ def test_a_coupling_is_a_gear():
     np.testing.assert_allclose(end_of(coupling, "a.theta", "b.theta", "a.omega"), gear, rtol=0.0, atol=1e-13)
 
 
+@pytest.mark.slow_cases("{'integrator': 'radau5'}")
 @pytest.mark.parametrize(
     "settings", [{}, {"coordinates": "joint"}, {"shape": "looped"}, {"integrator": "radau5"}], ids=str
 )

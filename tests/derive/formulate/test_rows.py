@@ -193,6 +193,7 @@ def test_a_tip_on_a_moving_parabola(settings, rod_by_lagrange):
     np.testing.assert_allclose(result.q.values[-1], wanted, rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_a_knife_edge_on_an_arm():
     mechanism = (
         MechanismBuilder("sledge-with-arm")

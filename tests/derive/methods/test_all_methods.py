@@ -79,6 +79,13 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     assert errors[1] / errors[2] == pytest.approx(10.0, rel=0.3)
 
 
+@pytest.mark.slow_cases(
+    "lagrange-trapezoidal",
+    "index3-augmented-lagrangian-trapezoidal",
+    "lagrange-newmark",
+    "symmetric-projection-gauss",
+    "lagrange-abm4",
+)
 @pytest.mark.parametrize(
     ("method", "integrator"),
     [

@@ -14,7 +14,7 @@ A = ((1 / 3,), (-1.0, 2.0), (0.0, 3 / 4, 1 / 4))
 C = (0.0, 1 / 3, 1.0, 1.0)
 
 
-@pytest.mark.fast("driven-four-bar", "slider-crank")
+@pytest.mark.fast("slider-crank")
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])
 def test_a_step_is_the_textbooks(name):
     """Stage by stage with dense matrices from an independent derivation; drivers have a nu."""

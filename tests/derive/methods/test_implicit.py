@@ -250,6 +250,7 @@ def test_scipy_agrees_on_the_stiff_case():
     assert stiff.points().distance(found.q, stiff.reference()[0]) <= 1e-9
 
 
+@pytest.mark.slow
 def test_tables_have_slopes_in_implicit_schemes():
     keys = {"method": "direct-correction", "until": 0.2, "output_step": 0.05}
     model = load(Path(__file__).parents[3] / "examples" / "gear-pair.toml")

@@ -76,6 +76,7 @@ def test_steps_are_chosen_by_the_error():
     assert 3.2 < runs[1].steps / runs[0].steps < 4.8
 
 
+@pytest.mark.slow
 def test_a_nonholonomic_motion_keeps_its_rows():
     """A disc rolls: its rows are on velocities only, and its motion is that of another method."""
     times, exact = reference("rolling-disc", 1.0)

@@ -65,6 +65,7 @@ def test_it_is_valid_and_small(four_bar):
     assert sum(v.derivative is not None for v in description.modelVariables) == 2
 
 
+@pytest.mark.slow_cases("2-1e-09-7.5e-06")
 @pytest.mark.parametrize(("tolerance", "error"), [(1e-9, 7.5e-6), (1e-11, 7.5e-8)])
 def test_model_exchange_neither_drifts_nor_restarts(four_bar, tolerance, error):
     # CVode on the equation reduced by hand to one coordinate is 5e-6 off at 1e-9 and 5e-8 at 1e-11

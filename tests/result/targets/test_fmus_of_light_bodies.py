@@ -27,7 +27,6 @@ def made(request, kind, tmp_path_factory):
 
 
 @pytest.mark.fast(
-    "(2, 'absolute')-light body-model exchange",
     "(3, 'absolute')-light body-model exchange",
     "(3, 'joint')-massless body-model exchange",
     "(3, 'joint')-light body-co-simulation",

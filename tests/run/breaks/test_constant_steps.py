@@ -231,7 +231,6 @@ def error_of(kind: str, step: float, **settings: Any) -> float:
     "state-trapezoidal",
     "integral-heun",
     "row-half-explicit",
-    "friction-gauss",
 )
 @pytest.mark.parametrize(
     ("kind", "scheme"),

@@ -212,6 +212,7 @@ def test_events_that_come_and_go_within_a_step_are_seen(tmp_path: Path, integrat
     assert stopped.t[-1] == pytest.approx(3.33695, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_rows_of_sweeps_see_them_too(tmp_path: Path) -> None:
     model = pushed_point(tmp_path, "0.1", 10.0)
     often = "sin(2*pi*f*t) > 0.9999"

@@ -18,7 +18,6 @@ def observed(model):
 @pytest.mark.fast(
     "rk4-direct-correction-four-bar",
     "dopri5-lagrange-four-bar",
-    "dopri5-baumgarte-driven-four-bar",
     "dop853-direct-correction-driven-four-bar",
 )
 @pytest.mark.parametrize("model", orders.MODELS)

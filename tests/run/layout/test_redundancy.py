@@ -176,7 +176,7 @@ def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> 
     np.testing.assert_allclose(again["rod.theta"][-1], once["rod.theta"][-1], rtol=0.0, atol=1e-8)
 
 
-@pytest.mark.fast("direct-correction rk4 0.001", "lagrange dop853 1e-10 joint")
+@pytest.mark.fast("lagrange dop853 1e-10 joint")
 @pytest.mark.parametrize(
     "settings",
     (

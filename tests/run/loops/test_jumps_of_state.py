@@ -37,6 +37,7 @@ def line(tmp_path_factory: pytest.TempPathFactory) -> symgen.Model:
     return symgen.load(file)
 
 
+@pytest.mark.slow_cases("abm")
 @pytest.mark.parametrize("integrator", ["abm", "dop853", "dopri5", "picard", "radau5", "sdirk"])
 def test_forces_that_jump_behind_a_line(line: symgen.Model, integrator: str) -> None:
     """Outputs of steps that were refused afterwards stayed, and no stage of `sdirk` lies in its first quarter.

@@ -249,6 +249,7 @@ place = 0.5
 """
 
 
+@pytest.mark.slow
 def test_rows_done_one_by_one_take_the_steps_of_integrals_nobody_asks_for(tmp_path: Path) -> None:
     """Single runs add up what all outputs ask for, and their steps follow it; rows that are them left it out."""
     file = tmp_path / "dip.toml"

@@ -72,6 +72,7 @@ def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_c
     assert told(2.0, 1.0, frame_parts.NOTHING) == frame_parts.NOTHING
 
 
+@pytest.mark.slow
 def test_a_step_away_from_zero_is_one_in_which_the_search_finds_nothing():
     """Whatever values and rates both ends have: where one pass is enough, the search gives the same sides and ends."""
     rng, quiet, heads = np.random.default_rng(3), 0, search_records.N_HEAD

@@ -86,6 +86,7 @@ def test_jumps_of_the_state_are_refused(tmp_path, formula, settings):
         mass.gradient("p.x", by=("m",), until=END, **settings)
 
 
+@pytest.mark.slow
 def test_a_jump_as_an_event(tmp_path):
     # what the sentence on jumps proposes: x = k (t - begin)^2 / (2 m) behind the event
     text = (

@@ -64,7 +64,6 @@ def names_of(mechanism):
     "four-bar-free0-most0-absolute",
     "four-bar-free0-most0-joint",
     "andrews-free1-most1-absolute",
-    "n-four-bar:10-free2-most2-absolute",
 )
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(

@@ -175,6 +175,7 @@ def test_a_run_that_goes_on_is_checked_from_where_it_begins(monkeypatch, coordin
     assert (second.status, second.reason) == ("ok", None) and 0.0 < second.error_estimate < 1e-6
 
 
+@pytest.mark.slow
 def test_a_chaotic_motion_beyond_its_horizon_is_unverified(monkeypatch):
     monkeypatch.setattr(judge, "MOST_OPERATIONS", math.inf)
     found = symgen.simulate("chain:2", until=60.0)

@@ -31,6 +31,7 @@ def test_lengths_of_a_mechanism_that_moves_by_its_dimensions():
         symgen.simulate("bricard", sensitivities="joints.P0.at[0][0]", until=0.1, integrator="dop853")
 
 
+@pytest.mark.slow
 def test_a_passage_of_a_singular_position():
     settings = {"until": 1.0, "method": "direct-correction", "integrator": "dop853"}
     run = symgen.simulate("n-four-bar:2", sensitivities="bodies.coupler1.mass", **settings)

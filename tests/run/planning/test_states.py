@@ -180,6 +180,7 @@ def test_steps_saved_runs_and_runs_that_go_on():
     assert other == pytest.approx(end, abs=1e-7)
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_sweeps_are_single_runs(coordinates):
     settings = {"integrator": "rk4", "step": 1e-3, "until": 0.3, "coordinates": coordinates}
@@ -209,6 +210,7 @@ def test_inputs_and_events_read_states():
     np.testing.assert_allclose([result.v["wheel.omega"][-1], result.outputs["i"][-1]], at, atol=1e-10)
 
 
+@pytest.mark.slow_cases("nc-joint")
 @pytest.mark.parametrize(("ending", "coordinates"), [("nc", "joint"), ("csv", "absolute")])
 def test_saved_runs_go_on(tmp_path, ending, coordinates):
     settings = {**TIGHT, "coordinates": coordinates}
@@ -333,7 +335,6 @@ def test_orders_with_a_state(method, integrator, order):
 
 @pytest.mark.fast(
     "lagrange-newmark-2-absolute",
-    "generalized-alpha-generalized-alpha-2-joint",
     "index3-augmented-lagrangian-trapezoidal-2-joint",
     "rattle-rattle-2-joint",
     "discrete-gradient-discrete-gradient-2-joint",

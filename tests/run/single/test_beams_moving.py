@@ -48,6 +48,7 @@ def furthest(run, columns, expected):
     )
 
 
+@pytest.mark.slow
 def test_pendulum_of_a_beam_with_constant_and_adaptive_steps():
     model = pendulum(16)
     tip = "rod.end.x", "rod.end.y"
@@ -96,6 +97,7 @@ def spaghetti(elements):
     return symgen.Model(builder.build())
 
 
+@pytest.mark.slow
 def test_free_beam_flies_as_its_centre_of_mass_does():
     model = spaghetti(64)
     run = model.simulate(

@@ -103,7 +103,7 @@ def locked(slope: float) -> tuple[float, float]:
     return float(np.sqrt(2.0 * 10.0 / (slope * (1.0 / 2.0 + 1.0 / 3.0)))), 2.0 * 10.0 / 5.0
 
 
-@pytest.mark.fast("dop853-joint", "picard-absolute")
+@pytest.mark.fast("picard-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", [TIGHT, {"integrator": "picard"}], ids=["dop853", "picard"])
 def test_a_ramp_of_the_pressure_locks_a_clutch(steps: dict[str, Any], coordinates: str) -> None:
@@ -212,6 +212,7 @@ def test_a_negative_pressure_presses_nothing() -> None:
     assert result["pin.force"][-1] == 0.0
 
 
+@pytest.mark.slow
 def test_a_bound_over_the_rate_and_another_exponent() -> None:
     """A bound of 3 - rate up to 2 rad/s: the wheel comes to rest after 2 ln 2 from 1.5 rad/s; and exp(-rate)."""
     spun = BRAKE.replace("inertia = 2.0\n", "inertia = 2.0\nangular_velocity = 1.5\n", 1)
@@ -249,6 +250,7 @@ friction = { coefficient = "0.25 + 0.1*rate", static_coefficient = "0.8 - 0.1*t"
 """
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_coefficients_are_formulas_too(coordinates: str) -> None:
     """A block on a slope of 3 in 4 under 16 N stops by v' = -(8 + 0.8 v), and is held until 0.8 - 0.1 t is 12/16."""

@@ -255,6 +255,7 @@ def test_dry_pins_of_a_four_bar(coordinates: str) -> None:
     assert np.abs(outcome.states[-1][9:18]).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_the_threshold_of_a_four_bar_at_rest() -> None:
     """Force along the crank -24.125 N m, rates 1, -1.188, 0.434, 0.246: 8.412707676783 N m in each pin hold it."""
     for torque, moves in ((8.5, False), (8.41270768, False), (8.41270767, True), (8.4, True)):
@@ -325,6 +326,7 @@ OTHERS: dict[str, tuple[str, dict[str, float], float]] = {
 }
 
 
+@pytest.mark.slow_cases("generalized-alpha", "implicit-constraint", "null-space")
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_finds_the_rest_angle_or_says_why_not(method: str) -> None:
     integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
@@ -418,7 +420,7 @@ def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
     assert rows.tolist() == alone
 
 
-@pytest.mark.fast("dop853")
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["dop853", "picard"])
 def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None:
     """Four dry pins that break loose, turn round and rest: each row has the bits of one."""

@@ -89,6 +89,7 @@ def test_a_floor_that_shakes(lower: str, inputs: dict[str, str], coordinates: st
     np.testing.assert_allclose([result["b.y"][-1], result["b.vy"][-1]], [y, v], rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_what_rests_on_a_floor_that_shakes() -> None:
     """It moves with the floor, whose acceleration of 8 m/s^2 is too small to throw it; one of 16 m/s^2 throws it."""
     model = slide('stop = { lower = "amplitude*sin(20*t)" }', height=0.0, speed=0.4)

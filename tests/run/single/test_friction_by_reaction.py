@@ -248,6 +248,7 @@ class FourPins:
         return times, float(y[0])
 
 
+@pytest.mark.slow
 def test_four_pins_rub_by_their_reactions() -> None:
     """The first transitions by the reference itself; it takes 12 s to the rest."""
     times, _ = FourPins().run(1.95)

@@ -67,7 +67,6 @@ def test_two_runs_are_the_run_in_one_piece(method, integrator):
 
 
 @pytest.mark.fast(
-    "bricard-direct-correction-0.02-0.001-looped",
     "spherical-double-pendulum-lagrange-0.1-0.01-straight",
     "parallelogram-coordinate-partitioning-1.0-0.001-straight",
 )

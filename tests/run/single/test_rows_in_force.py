@@ -84,7 +84,6 @@ def released(run: Prepared, until: float, times=NOTHING):
 
 # well before 0.71 s: there the loops left in n-four-bar:3 pass a singular position, which amplifies rounding
 @pytest.mark.fast(
-    "lagrange-dop853-1e-12-n-four-bar:3-0.65",
     "baumgarte-dop853-1e-12-four-bar-0.8",
     "direct-correction-picard-1e-12-n-four-bar:3-0.65",
     "udwadia-kalaba-dop853-1e-12-four-bar-0.8",

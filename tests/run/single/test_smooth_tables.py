@@ -68,6 +68,7 @@ def forced(interpolation, periodic):
     )
 
 
+@pytest.mark.slow_cases("cubic-True", "cubic-False")
 @pytest.mark.parametrize(("interpolation", "periodic"), [("cubic", False), ("cubic", True), ("pchip", False)])
 def test_power_of_table_forces_is_the_change_of_energy(interpolation, periodic):
     """The block leaves the table on the right; the same motion from both shapes and another scheme."""

@@ -382,6 +382,7 @@ def test_rows_of_a_sweep_have_the_impacts_of_single_runs(
             np.testing.assert_allclose(rows[name][i], run[name], rtol=1e-10, atol=1e-10)
 
 
+@pytest.mark.slow_cases("steps1")
 @pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
 def test_an_impact_at_the_start(steps: dict[str, Any]) -> None:
     """A ball that is thrown from the floor into it: the run and its balance of energies begin behind the impact."""

@@ -38,6 +38,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.slow_cases("bricard-direct-correction-rk4")
 @pytest.mark.parametrize(("name", "method", "integrator"), PIECES)
 def test_two_runs_are_the_run_in_one_piece(name, method, integrator):
     """Every table and everything that is kept, with constant steps."""

@@ -103,6 +103,7 @@ def test_an_output_at_a_reset_holds_the_state_behind_it(scheme):
     assert_rows(found, model, **settings)
 
 
+@pytest.mark.slow
 def test_an_input_that_cannot_be_is_not_blamed_on_an_event():
     """The ball has bounced when the input jumps to where a formula of it is no number."""
     raw_ball = copy.deepcopy(BALL)

@@ -309,6 +309,7 @@ def cart():
     )
 
 
+@pytest.mark.slow
 def test_runs_with_events_and_jumps_go_on_and_are_told_apart(cart, tmp_path):
     folder, vary = tmp_path / "runs", {"late": "lin(0.1, 0.4, 7)"}
     asked = {

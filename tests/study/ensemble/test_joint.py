@@ -71,7 +71,7 @@ def test_whatever_else_is_kept_is_that_of_single_runs():
     assert_rows(found, model, **asked)
 
 
-@pytest.mark.fast("direct-correction-rk4", "baumgarte-dop853", "baumgarte-rk4")
+@pytest.mark.fast("baumgarte-rk4")
 @pytest.mark.parametrize(
     "steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-3}], ids=["dop853", "rk4"]
 )
@@ -103,6 +103,7 @@ def test_events_are_found_in_both_and_auto_takes_what_is_smaller():
     np.testing.assert_array_equal(joints["event.crank.theta < 0.first"], joints["end"])
 
 
+@pytest.mark.slow
 def test_light_bodies_get_the_other_solver_in_joint_coordinates_too():
     """Where loops are not closed by determinants: a partition of coordinates inverts M."""
     asked = {"until": 0.05, "times": (0.05,), "coordinates": "joint", "method": "coordinate-partitioning"}

@@ -95,6 +95,7 @@ def test_a_slider_whose_factorisation_is_that_of_constants():
     np.testing.assert_allclose(found["b.x"][:, -1], 1.0 - np.cos(1.0 / np.sqrt(masses)), rtol=0.0, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_runs_that_do_not_go_well_are_left_to_single_runs():
     """Through singular positions, and beyond the limits: the rows are those of single runs."""
     chosen = {"integrator": "rk4", "step": 1e-3, "until": 1.5}

@@ -31,6 +31,7 @@ def test_rows_against_differences_of_rows(coordinates):
         np.testing.assert_allclose(derivatives[name][2, 1, :, 1], single, rtol=1e-11, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_files_have_one_dimension_more(tmp_path):
     xarray = pytest.importorskip("xarray")
     sweep = symgen.sweep("four-bar", {"crank_mass": [1.0, 2.0]}, quantities=["crank.theta"], **SETTINGS)

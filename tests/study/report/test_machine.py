@@ -2,6 +2,7 @@
 
 import re
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -107,5 +108,26 @@ def test_the_command_writes_its_file(cli, tmp_path, monkeypatch):
     assert code == 0 and err == "" and out.strip() == "written: driven-four-bar.html"
     page = (tmp_path / "driven-four-bar.html").read_text(encoding="utf-8")
     assert re.search(r"symgen report driven-four-bar --until 0.2 --over crank.theta", page)
+    assert "Play the motion" not in page
     code, _, err = cli("report", "driven-four-bar", "-o", "a.doc")
     assert code == 2 and "--output: expected a file ending in .html, .md, .pdf, got 'a.doc'" in err
+
+
+def test_a_report_links_to_the_page_beside_it(cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = cli("report", "pendulum", "--until", "0.1", "-o", "a.md", "--page", "a motion.html")
+    assert code == 0 and out.split("\n")[:2] == ["written: a.md", "written: a motion.html"]
+    assert "[Play the motion](a%20motion.html)" in (tmp_path / "a.md").read_text(encoding="utf-8")
+    assert "<canvas" in (tmp_path / "a motion.html").read_text(encoding="utf-8")
+    for page in ("a.html", "a.png", "other/b.html"):
+        code, out, err = cli("report", "pendulum", "-o", "a.html", "--page", page)
+        assert code == 2 and out == "" and err.startswith("symgen: --page: expected ") and page in err
+
+
+def test_author_revision_and_day_are_in_the_appendix(driven):
+    model, result = driven
+    mechanism = msgspec.structs.replace(model.mechanism, author="A. Builder", revision="C")
+    facts = dict(machine(symgen.Model(mechanism), result).facts)
+    assert (facts["author"], facts["revision"]) == ("A. Builder", "C")
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d", facts["date"])
+    assert {"author", "revision"}.isdisjoint(dict(machine(model, result).facts))

@@ -1,0 +1,265 @@
+r"""The paper: its numbers and tables from records and measured pages, its pictures, and the PDF.
+
+    python -m benchmarks.paper FOLDER    writes paper.tex, numbers.tex, three pictures and, with pdflatex, paper.pdf
+
+The text is ``docs/paper/paper.tex``, in which every measured number is ``\n{KEY}`` and every table of numbers
+``\numbers{KEY}``. What it says in words about their order is in `claims`, and a test asks for it.
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+import statistics as middle
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from benchmarks import equal_error, literature, statistics
+from benchmarks.page_tables import ROOT, PageTable, cells_of, place
+from benchmarks.records import Line
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+SOURCE = ROOT / "docs" / "paper" / "paper.tex"
+#: Words of a key -> the method in `benchmarks.statistics` and `benchmarks.equal_error`.
+METHODS = {
+    "baumgarte": "baumgarte",
+    "motion": "baumgarte:rule=motion",
+    "velocity": "velocity-projection",
+    "post": "post-stabilization",
+    "direct": "direct-correction",
+    "mass": "direct-correction:weight=mass",
+    "partitioning": "coordinate-partitioning",
+    "augmented": "augmented-lagrangian",
+    "index-one": "index1-augmented-lagrangian",
+}
+#: The same as people read them.
+NAMES = {
+    "baumgarte": "Baumgarte, 5\\,s$^{-1}$",
+    "motion": "Baumgarte, gain of the motion",
+    "velocity": "velocity projection",
+    "post": "post-stabilisation",
+    "direct": "direct correction",
+    "mass": "direct correction, metric of $M$",
+    "partitioning": "coordinate partitioning",
+    "augmented": "augmented Lagrangian",
+    "index-one": "index-1 augmented Lagrangian",
+}
+#: Lines of the table of closed joints, of the page's methods.
+CLOSING = ("lagrange", "baumgarte", "velocity-projection", "direct-correction", "mass-orthogonal-projection",
+           "post-stabilization", "null-space", "coordinate-partitioning", "ggl")  # fmt: skip
+HIGH = ("dop853", "picard")
+
+
+def page_rows(table: PageTable) -> list[list[str]]:
+    """Return the rows of a table as its page has them."""
+    text = (ROOT / table.page).read_text(encoding="utf-8")
+    first, end = place(table, text)
+    return [cells_of(line) for line in text.splitlines()[first + 2 : end]]
+
+
+def tex(cell: str) -> str:
+    """Return a cell as LaTeX: names in type, powers of ten as such."""
+    if cell.startswith("`"):
+        return rf"\texttt{{{cell.strip('`')}}}"
+    if "e" in cell and cell.replace("e", "").replace("-", "").replace(".", "").isdigit():
+        mantissa, power = cell.split("e")
+        return rf"${mantissa}\cdot10^{{{int(power)}}}$"
+    return cell.replace("-", "$-$") if cell[:1] == "-" else cell
+
+
+def rows_of(rows: Sequence[Sequence[str]]) -> str:
+    """Return the lines of a tabular."""
+    return "\n".join(" & ".join(map(tex, row)) + r" \\" for row in rows)
+
+
+def samples() -> list[list[Line]]:
+    """Return the lines of both seeds."""
+    lines = statistics.RECORD.lines()
+    return [[line for line in lines if line["seed"] == seed] for seed in statistics.SEEDS]
+
+
+def measures(integrator: str, key: str) -> list[dict[str, str]]:
+    """Return what `benchmarks.statistics` prints of a method, for both seeds."""
+    pairs = (statistics.pairs_of(own, integrator, METHODS[key]) for own in samples())
+    return [dict(zip(statistics.HEADINGS[1:], statistics.line(each), strict=True)) for each in pairs]
+
+
+def improvements(integrator: str, key: str) -> list[float]:
+    """Return the errors of `lagrange` over those of a method, of both seeds."""
+    pairs = [pair for own in samples() for pair in statistics.pairs_of(own, integrator, METHODS[key])]
+    return [base.error / own.error for base, own in pairs if own.error > 0.0]
+
+
+def random_rows() -> list[list[str]]:
+    """Return the table of random mechanisms, both seeds together."""
+    rows = []
+    for key, name in NAMES.items():
+        low, half, high = np.percentile(improvements("rk4", key), (10, 50, 90))
+        cells = [statistics.digits(str(x)) for x in (low, half, high)]
+        both = measures("rk4", key)
+        shares = [f"{one['better'][:-2]}/{one['worse'][:-2]}" for one in both]
+        means = [mean(integrator, key) for integrator in ("rk4", *HIGH)]
+        times = statistics.digits(f"{middle.mean(float(one['time']) for one in both)}")
+        rows.append([name, *cells, *shares, *means, times])
+    return rows
+
+
+def mean(integrator: str, key: str) -> str:
+    """Return the geometric mean over both seeds."""
+    return statistics.digits(f"{math.exp(float(np.mean(np.log(improvements(integrator, key))))):.3g}")
+
+
+def ratios(key: str, *integrators: str) -> list[float]:
+    """Return the run times of a method at equal error over those of `lagrange`."""
+    return [x for integrator in integrators for x in equal_error.ratios(METHODS[key], integrator)]
+
+
+def numbers() -> dict[str, str]:
+    """Return the numbers of the text by their keys."""
+    regular = [[line for line in own if line.get("runs") is not None] for own in samples()]
+    followed = [[line for line in own if statistics.predictable(line)] for own in samples()]
+    both = [line for own in followed for line in own]
+    found = {
+        "drawn": str(statistics.COUNT * len(statistics.SEEDS)),
+        "regular": str(sum(map(len, regular))),
+        "followed": str(len(both)),
+        "dependent": str(sum(line["dependent"] > 0 for line in both)),
+        "freedoms": f"{np.percentile([line['freedoms'] for line in both], 90):.0f}",
+    }
+    for key in ("baumgarte", "motion"):
+        found[f"harm.{key}"] = " and ".join(one["worse"][:-2] for one in measures("rk4", key))
+    for key in NAMES:
+        found |= {f"mean.{key}.{integrator}": mean(integrator, key) for integrator in ("rk4", *HIGH)}
+    for key in ("baumgarte", "velocity", "direct", "mass"):
+        for name, integrators in (("rk4", ("rk4",)), ("high", HIGH)):
+            own = ratios(key, *integrators)
+            found |= {f"{key}.{name}.low": f"{min(own):.2f}", f"{key}.{name}.high": f"{max(own):.2f}"}
+            found[f"{key}.{name}.middle"] = f"{middle.median(own):.2f}"
+    dear = [x for key in ("partitioning", "augmented", "index-one") for x in ratios(key, "rk4", *HIGH)]
+    found |= {"dear.middle": f"{middle.median(dear):.1f}", "dear.high": f"{max(dear):.0f}"}
+    law = page_rows(literature.law())
+    gains, rates = [[float(row[k]) for row in law] for k in (2, 1)]
+    found |= {"gain.low": f"{min(gains):g}", "gain.high": f"{max(gains):g}", "rates": f"{max(rates) / min(rates):.0f}"}
+    rk4 = next(row for row in page_rows(literature.gains()) if row[0] == "`rk4`")
+    none, one = (float(cell.partition(" ")[0]) for cell in (rk4[3], rk4[-1]))
+    found["worse"] = f"{one / none:.0f}"[:1] + "0" * (len(f"{one / none:.0f}") - 1)
+    closing = {row[0].strip("`"): float(row[4]) for row in page_rows(literature.closing())}
+    found |= {f"closing.{name}": f"{100.0 * (closing[name] - 1.0):.0f}" for name in CLOSING[1:6]}
+    return found
+
+
+def tables() -> dict[str, str]:
+    """Return the rows of the tables by their keys."""
+    closing = {row[0].strip("`"): row for row in page_rows(literature.closing())}
+    gains = [[row[0], row[1], *(cell.partition(" ")[0] for cell in row[3:])] for row in page_rows(literature.gains())]
+    return {
+        "law": rows_of(page_rows(literature.law())),
+        "gains": rows_of(gains),
+        "closing": rows_of([closing[name] for name in CLOSING]),
+        "random": rows_of(random_rows()),
+    }
+
+
+def claims() -> Iterator[tuple[str, bool]]:
+    """Yield what the text says of the order of numbers, and whether they have it."""
+    law = page_rows(literature.law())
+    yield "the best gain is near the rate", all(0.4 < float(row[2]) < 2.5 for row in law)
+    orders = [float(row[-1].partition("(")[2].strip(")")) for row in page_rows(literature.gains())[1:]]
+    yield "gains of the step leave order two", all(order < 2.6 for order in orders)
+    yield "closing joints pays with rk4", max(ratios("velocity", "rk4") + ratios("direct", "rk4")) < 1.0
+    yield "it does not with high orders", middle.median(ratios("velocity", *HIGH)) > 1.0
+    yield "projection costs less than iteration", max(ratios("velocity", *HIGH)) < 1.5
+    best = [float(mean("rk4", key)) for key in ("velocity", "direct", "mass")]
+    yield "velocities have most of it", best[0] > 0.5 * best[1] and best == sorted(best)
+    worse = [float(one["worse"][:-2]) for key in ("motion", "baumgarte") for one in measures("rk4", key)]
+    yield "the gain of the motion harms less often", max(worse[:2]) < min(worse[2:])
+    yield "not with dop853", float(mean("dop853", "motion")) < float(mean("dop853", "baumgarte"))
+
+
+def macros() -> str:
+    """Return the file of numbers and tables."""
+    lines = [rf"\expandafter\def\csname n:{key}\endcsname{{{value}}}" for key, value in numbers().items()]
+    lines += [rf"\expandafter\def\csname t:{key}\endcsname{{{rows}}}" for key, rows in tables().items()]
+    return "\n".join(lines) + "\n"
+
+
+def pictures(folder: Path) -> None:
+    """Draw the three pictures."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    style: Any = {"font.size": 8, "axes.spines.top": False, "axes.spines.right": False, "pdf.fonttype": 42}
+    with mpl.rc_context(style):
+        for name, draw in (("law", _law), ("random", _random), ("equal", _equal)):
+            figure = Figure(figsize=(3.3, 2.4), layout="constrained")
+            draw(figure.add_subplot())
+            figure.savefig(folder / f"{name}.pdf", metadata={"CreationDate": None})
+
+
+def _law(axes: Axes) -> None:
+    rows = page_rows(literature.law())
+    rates = np.array([float(row[1]) for row in rows])
+    axes.loglog(rates, rates * [float(row[2]) for row in rows], "o", color="#0072b2", label="best gain")
+    line = np.array([rates.min() / 2.0, rates.max() * 2.0])
+    axes.loglog(line, line, color="#999999", linewidth=1.0, label="gain = rate")
+    axes.axhline(5.0, color="#d55e00", linewidth=1.0, linestyle="--", label="5 1/s")
+    axes.set(xlabel="rate of the motion [1/s]", ylabel="gain of least violation [1/s]")
+    axes.legend(frameon=False)
+
+
+def _random(axes: Axes) -> None:
+    colours = ("#d55e00", "#e69f00", "#56b4e9", "#0072b2", "#009e73")
+    for key, colour in zip(("baumgarte", "motion", "velocity", "direct", "mass"), colours, strict=True):
+        values = np.sort(improvements("rk4", key))
+        name = NAMES[key].replace("\\,", " ").replace("s$^{-1}$", "1/s")
+        axes.semilogx(values, np.linspace(0.0, 1.0, len(values)), color=colour, linewidth=1.2, label=name)
+    axes.axvline(1.0, color="#999999", linewidth=0.8)
+    axes.set(xlim=(0.05, 1e3), xlabel="error without over error with the method", ylabel="share of mechanisms")
+    axes.legend(frameon=False, fontsize=6)
+
+
+def _equal(axes: Axes) -> None:
+    keys = ("baumgarte", "velocity", "direct", "mass", "partitioning", "index-one", "augmented")
+    markers = {"rk4": ("o", "#0072b2"), "dop853": ("s", "#d55e00"), "picard": ("^", "#009e73")}
+    for shift, (integrator, (marker, colour)) in zip((-0.22, 0.0, 0.22), markers.items(), strict=True):
+        for k, key in enumerate(keys):
+            own = ratios(key, integrator)
+            axes.semilogx(own, np.full(len(own), k + shift), marker, color=colour, markersize=2.5, alpha=0.8,
+                          label=integrator if k == 0 else None)  # fmt: skip
+    axes.axvline(1.0, color="#999999", linewidth=0.8)
+    names = [NAMES[key].replace("\\,", " ").replace("s$^{-1}$", "1/s") for key in keys]
+    axes.set(xlabel="run time over that of lagrange", yticks=range(len(keys)), yticklabels=names)
+    axes.tick_params(axis="y", labelsize=6)
+    axes.legend(frameon=False, fontsize=6)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Write the paper into a folder; 1 if LaTeX finds errors."""
+    folder = Path(arguments[0] if arguments else "out/paper")
+    folder.mkdir(parents=True, exist_ok=True)
+    shutil.copy(SOURCE, folder)
+    (folder / "numbers.tex").write_text(macros(), encoding="utf-8")
+    pictures(folder)
+    engine = shutil.which("pdflatex")
+    if engine is None:
+        sys.stdout.write(f"{folder}: the PDF needs pdflatex\n")
+        return 0
+    words = [engine, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", SOURCE.name]
+    for _ in range(2):
+        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+        if done.returncode:
+            sys.stderr.write(done.stdout[-2000:])
+            return 1
+    sys.stdout.write(f"{folder / 'paper.pdf'}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,36 @@
+"""The paper: every number is read from a record or a measured page, and what it says of their order is so."""
+
+import re
+import shutil
+
+import pytest
+
+from benchmarks import paper
+
+TEXT = paper.SOURCE.read_text(encoding="utf-8")
+#: Text without its head and its references.
+BODY = TEXT.partition(r"\begin{document}")[2].partition(r"\begin{thebibliography}")[0]
+
+
+def test_all_numbers_are_known_and_used():
+    assert {*re.findall(r"\\n\{([^}]+)\}", BODY)} <= paper.numbers().keys()
+    assert {*re.findall(r"\\numbers\{([^}]+)\}", BODY)} == paper.tables().keys()
+
+
+def test_no_measured_number_is_typed():
+    typed = re.sub(r"\\(?:includegraphics|setlength|begin|vspace)[^\n]*", "", BODY)
+    # the step of the random mechanisms, gains of a heading, limits of ratios in the text
+    assert {*re.findall(r"\d+\.\d+", typed)} == {"0.03", "0.001", "0.01", "0.1", "0.5", "0.9", "1.3"}
+
+
+@pytest.mark.parametrize(("sentence", "holds"), [*paper.claims()])
+def test_sentences_that_compare(sentence, holds):
+    assert holds, sentence
+
+
+@pytest.mark.slow
+def test_it_is_set(tmp_path):
+    assert shutil.which("pdflatex")
+    assert paper.main([str(tmp_path)]) == 0
+    log = (tmp_path / "paper.log").read_text(encoding="latin-1")
+    assert "(6 pages" in log and "undefined" not in log and "Overfull" not in log
