@@ -142,7 +142,7 @@ def times() -> PageTable:
 
     def cells(method: str) -> Iterator[str]:
         ratios = (c.get(method) for c in columns)
-        yield from ("" if x is None else f"{x:.3g}" if x < 1000.0 else f"{x:.0f}" for x in ratios)
+        yield from ("" if x is None else f"{x:.3g}" if x < 999.5 else f"{x:.0f}" for x in ratios)
 
     rows = tuple(((f"`{method}`",), partial(list_of, cells, method)) for method in order)
     headings = (f"within {ERROR:g} m".replace("e-0", "e-"), *(f"`{name}`" for name in recorded()))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 #: residuals of implicit stages, which come with Newton's matrices.
 BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
 #: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many.
-BOUNDED = 10
+BOUNDED = 20
 #: A search for a limit takes some ten runs, each by explicit steps within this part of the budget of a run alone.
 SEARCHED = 2
 #: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
