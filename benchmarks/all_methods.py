@@ -23,6 +23,7 @@ from symgen.derive.methods import METHODS
 from symgen.result.result import FAILED, OK, UNVERIFIED
 from symgen.run.integrators import INTEGRATORS as KINDS
 from symgen.study.comparison.compare import compare
+from symgen.study.journal import Journal
 from symgen.study.report.comparison_findings import WRONG
 
 MECHANISMS = ("four-bar", "spatial-slider-crank", "bricard", "front-suspension", "n-four-bar:2")
@@ -63,9 +64,10 @@ def suitable(method: str) -> tuple[str, ...]:
 def examine(job: Job, methods: Sequence[str] = METHODS.names) -> dict[str, Any]:
     """Return the runs of methods on a mechanism."""
     runs: dict[str, list[Run]] = {method: [] for method in methods}
+    journal = Journal()  # has the reference, which takes longer than the runs of a method
     for integrators in dict.fromkeys(map(suitable, methods)):
         chosen = [method for method in methods if suitable(method) == integrators]
-        for row in compare(job.mechanism, chosen, integrators).to_json()["rows"]:
+        for row in compare(job.mechanism, chosen, integrators, journal=journal).to_json()["rows"]:
             setting = row["step"] or row["rtol"]
             runs[row["method"]].append(Run(row["integrator"], setting, row["status"], row["error"], row["run_seconds"]))
     return {"runs": runs}
@@ -140,7 +142,7 @@ def times() -> PageTable:
 
     def cells(method: str) -> Iterator[str]:
         ratios = (c.get(method) for c in columns)
-        yield from ("" if x is None else f"{x:.3g}" if x < 1000.0 else f"{x:.0f}" for x in ratios)
+        yield from ("" if x is None else f"{x:.3g}" if x < 999.5 else f"{x:.0f}" for x in ratios)
 
     rows = tuple(((f"`{method}`",), partial(list_of, cells, method)) for method in order)
     headings = (f"within {ERROR:g} m".replace("e-0", "e-"), *(f"`{name}`" for name in recorded()))

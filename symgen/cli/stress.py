@@ -67,7 +67,7 @@ def command(
         lines = stack.enter_context(Lines())
 
         def progress(what: str, status: Status) -> None:
-            lines.say(f"{what}: {status.done} of {status.total}", status.share)
+            lines.say(f"{what}: {status.done} of {status.total} cells", status.share)
 
         requested = dict.fromkeys((*models, *(names() if catalogue else ())))
         seconds = math.inf if compilation is None else compilation

@@ -11,8 +11,9 @@ import os
 import signal
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
@@ -24,6 +25,9 @@ from symgen.study.journal import Journal, Outcome
 
 #: Numerical libraries start threads by these variables; a process of a study is one thread.
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+#: Cells that a process has at a time: it need not wait for the next one.
+AHEAD = 2
 
 
 @dataclass(frozen=True)
@@ -178,17 +182,56 @@ def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], pro
     """Yield cells as processes finish them; the processes end with this generator."""
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    pool = ProcessPoolExecutor(min(processes, len(cells)), context, _begin, (theirs, loaded_files()))
+    shares, count = Shares(cells), min(processes, len(cells))
+    # a pool of one process each: cells that share code go to the process that has it
+    pools = [ProcessPoolExecutor(1, context, _begin, (theirs, loaded_files())) for _ in range(count)]
+    running = dict[Future[Outcome | None], tuple[int, Cell]]()
+
+    def send(which: int) -> None:
+        if (cell := shares.next_of(which)) is not None:
+            running[pools[which].submit(_computed_there, compute, cell.task)] = which, cell
+
     try:
         with _one_thread_each():
-            futures = {pool.submit(_computed_there, compute, cell.task): cell for cell in cells}
-        for future in as_completed(futures):
-            yield futures[future], future.result()
+            for which in list(range(count)) * AHEAD:
+                send(which)
+        while running:
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                which, cell = running.pop(future)
+                send(which)
+                yield cell, future.result()
     except BrokenProcessPool:
         raise SimulationError("a process of the study died; a journal holds what was done before") from None
     finally:
         ours.close()
-        pool.shutdown(cancel_futures=True)
+        for pool in pools:
+            pool.shutdown(cancel_futures=True)
+
+
+class Shares:
+    """Cells that processes take: group by group, and from the group of another process where no other group is left.
+
+    Parameters
+    ----------
+    cells : sequence of Cell
+        Cells, those of a group one after another.
+    """
+
+    def __init__(self, cells: Sequence[Cell]) -> None:
+        groups = dict[str, deque[Cell]]()
+        for cell in cells:
+            groups.setdefault(cell.group, deque()).append(cell)
+        self._untouched, self._own = deque(groups.values()), dict[int, deque[Cell]]()
+
+    def next_of(self, process: int) -> Cell | None:
+        """Return the next cell of a process, None if no cell is left."""
+        own = self._own.get(process)
+        if not own and self._untouched:
+            own = self._own[process] = self._untouched.popleft()
+        if own:
+            return own.popleft()
+        longest = max(self._own.values(), key=len, default=None)
+        return longest.pop() if longest else None
 
 
 @in_sentences

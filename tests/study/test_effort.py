@@ -44,6 +44,10 @@ def test_budgets_go_by_what_a_run_evaluates():
     assert effort.budget_of(explicit, mechanism) == effort.ADAPTIVE_BUDGET
     assert effort.budget_of(constant, mechanism) == effort.BUDGET
     assert effort.budget_of(implicit, mechanism) == effort.IMPLICIT_BUDGET
+    searched = [effort.budget_of(plan, mechanism, searched=True) for plan in (constant, implicit)]
+    assert searched == [effort.BUDGET // effort.SEARCHED, effort.IMPLICIT_BUDGET]
+    dry, bounded = plan_of("dry-four-bar", "lagrange", "rk4")
+    assert effort.budget_of(dry, bounded) == effort.BUDGET // effort.BOUNDED
 
 
 def test_a_run_off_its_constraints_does_not_go_on_for_ever():

@@ -14,7 +14,7 @@ import pytest
 from symgen.base.errors import InputError, SimulationError
 from symgen.study.comparison.comparison_rows import check_entry, to_entry
 from symgen.study.journal import HEADER, Journal, cell_key
-from symgen.study.runner import Cell, run_cells
+from symgen.study.runner import Cell, Shares, run_cells
 from symgen.study.stress.study import check_motion
 from tests.study import killed_study
 from tests.study.report.made import row, trace
@@ -204,6 +204,14 @@ def test_a_process_that_dies_ends_the_study_and_keeps_what_is_done(tmp_path):
         outcomes, interrupted = run_cells(cells[:4], killed_study.compute, journal)
     assert not interrupted and sorted(o["square"] for o in outcomes.values()) == [0, 1, 4, 9]
     assert Counter(traced(tmp_path)).most_common(1)[0][1] <= 2
+
+
+def test_a_process_keeps_to_a_group_and_then_helps_with_the_longest():
+    a, b, c = ([Cell(f"{name}{i}", name, None) for i in range(count)] for name, count in (("a", 2), ("b", 5), ("c", 1)))
+    shares = Shares([*a, *b, *c])
+    taken = [shares.next_of(process).key for process in (0, 1, 0, 1, 0, 0, 0)]
+    assert taken == ["a0", "b0", "a1", "b1", "c0", "b4", "b3"]
+    assert shares.next_of(1).key == "b2" and shares.next_of(0) is None is shares.next_of(1)
 
 
 @pytest.mark.parametrize("processes", [1, 2])

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from study.report.made import stress_row
+from symgen.study.runner import Cell, Status
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
-from symgen.study.stress.cells import largest_number
 from symgen.study.stress.findings import cause, explained, findings, largest_root
+from symgen.study.stress.progress import Whole
+from symgen.study.stress.searches import largest_near, largest_number, largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
 
 REGULAR = np.ones(11)
@@ -69,6 +71,39 @@ def test_the_largest_step_is_found_within_a_percent_or_so(limit):
     found = largest_number(holds, 1e-3, 1.0)
     assert limit / 1.012 < found <= limit
     assert len(tried) < 30
+    near = [largest_near(holds, 1e-3, 1.0, factor * limit) for factor in (1.0, 0.6, 1.9)]
+    assert limit > 1e-3 or near == [found] * 3, "to the last digit the same"
+
+
+def test_a_search_from_where_the_limit_is_expected_tries_few_steps_that_hold():
+    tried = []
+
+    def holds(step):
+        tried.append(step <= 3e-6)
+        return tried[-1]
+
+    largest_number(holds, 1e-3, 1.0)
+    whole = sum(tried)
+    tried.clear()
+    largest_near(holds, 1e-3, 1.0, 3e-6)
+    assert len(tried) == 2 and sum(tried) == 1 < whole
+    near = largest_near(holds, 1e-3, 1.0, 5e-6, halvings=4)
+    assert near == largest_number(holds, 1e-3, 1.0, halvings=4) and 3e-6 / 1.1 < near <= 3e-6
+
+
+def test_a_search_near_a_step_gives_up_at_the_ends_of_the_scan():
+    assert largest_near(lambda step: True, 1e-3, 1.0, 1e-4) is None
+    assert largest_near(lambda step: False, 1e-3, 1.0, 1e-4) is None
+    assert largest_near(lambda step: True, 1e-3, 1.0, 1e-9) is None, "below the scan"
+
+
+def test_what_is_accurate_is_stable_beyond_a_step_that_is_not():
+    def attempt(step):
+        return step < 2e-5 or 4e-5 < step < 8e-5, step < 8e-5
+
+    stable, accurate = largest_steps(attempt, 1e-3, 1.0, 2e-5)
+    assert stable == accurate and 8e-5 / 1.012 < accurate < 8e-5
+    assert largest_steps(attempt, 1e-3, 1.0, np.inf) == (stable, accurate)
 
 
 def test_no_largest_step():
@@ -144,3 +179,21 @@ def test_cells_that_nobody_judged_count_nothing():
 
 def test_an_empty_study_has_no_findings():
     assert findings(Stress(("four-bar",), (), (), (), ())) == ()
+
+
+def test_progress_counts_all_parts_and_what_a_journal_had_is_no_work():
+    seen = []
+    first, second = ([Cell(f"{part}{i}", "", None, cost) for i in range(2)] for part, cost in (("a", 1.0), ("b", 3.0)))
+    whole = Whole.of([*first, *second], lambda what, status: seen.append((what, status)))
+    show = whole.part("first", first)
+    show(Status(1, 2, 0.5, None))
+    show(Status(2, 2, 1.0, 0.0))
+    whole.part("second", second)(Status(0, 2, 0.0, None))
+    assert [(what, status.done, status.total, status.share) for what, status in seen] == [
+        ("first", 1, 4, 0.125),
+        ("first", 2, 4, 0.25),
+        ("second", 2, 4, 0.25),
+    ]
+    assert seen[0][1].seconds_left is None, "nothing was computed yet"
+    spent = seen[1][1].seconds_left / 6.0  # one of seven parts of the work, six remain
+    assert 0.0 < spent < 60.0

@@ -32,7 +32,7 @@ from symgen.run.planning.automatic import (
 from symgen.run.planning.continuation import continued
 from symgen.run.planning.inputs import put_inputs
 from symgen.run.planning.plan import Plan, Purpose, resolved
-from symgen.run.planning.starts import begun, open_start
+from symgen.run.planning.starts import Code, begun, compiled_for, open_start
 from symgen.run.planning.tree import TreeRun, on_tree_of, tree_taken_up
 from symgen.run.single.run import integrate
 from symgen.run.single.simulation import Simulation
@@ -162,13 +162,15 @@ class Preparation:
     near: Array | None = None
     assembled: Assembled | None = None
 
-    def run(self, shared: dict[Any, Assembled] | None = None) -> Prepared:
+    def run(self, shared: dict[Any, Assembled] | None = None, code: Code = compiled_for) -> Prepared:
         """Compile the code and close the start.
 
         Parameters
         ----------
         shared : dict, optional
             Code and starts of runs with the same mechanism and parameters, by `Plan.key`; this run's are added.
+        code : callable
+            Returns the code of a mechanism for a method; one that keeps it serves many values of parameters.
 
         Raises
         ------
@@ -176,7 +178,7 @@ class Preparation:
             If the start is refused, or the mechanism cannot be closed.
         """
         assembled = self.assembled if shared is None else shared.get(self.plan.key, self.assembled)
-        assembled = assembled or code_and_start(self.plan, self.near)
+        assembled = assembled or code_and_start(self.plan, self.near, code)
         if shared is not None:
             shared[self.plan.key] = assembled
         return begin(self.plan, assembled)
@@ -289,7 +291,7 @@ def _gained(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[s
     return replace(settings, options=options | gains), (note,)
 
 
-def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
+def code_and_start(plan: Plan, near: Array | None = None, code: Code = compiled_for) -> Assembled:
     """Compile the code of a plan and close its start.
 
     Parameters
@@ -298,6 +300,8 @@ def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
         The run.
     near : array, optional
         Coordinates that the mechanism is closed from; the described ones by default.
+    code : callable
+        Returns the code of a mechanism for a method.
 
     Raises
     ------
@@ -311,7 +315,7 @@ def code_and_start(plan: Plan, near: Array | None = None) -> Assembled:
             bodies = continued(plan, plan.last)
         else:
             try:
-                bodies = begun(plan, near)
+                bodies = begun(plan, near, code)
             except AssemblyError:
                 if joint or plan.purpose is not Purpose.DESCRIBED:
                     raise

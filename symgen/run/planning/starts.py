@@ -291,7 +291,13 @@ def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
     return with_integrals(mechanism, compile_model(mechanism, choice))
 
 
-def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[CompiledModel, Start]:
+#: Mechanism, method -> its compiled model, as `compiled_for` returns it.
+Code = Callable[["Mechanism", "MethodChoice"], "CompiledModel"]
+
+
+def begun(
+    plan: Plan, near: NDArray[np.float64] | None = None, code: Code = compiled_for
+) -> tuple[CompiledModel, Start]:
     """Compile a plan for the coordinates of bodies and close the mechanism.
 
     Where light bodies spoil the elimination of v' and the plan leaves the choice, the same law is solved with
@@ -303,14 +309,16 @@ def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[Compiled
         The run.
     near : array, optional
         Coordinates that the mechanism is closed from.
+    code : callable
+        Returns the code of a mechanism for a method.
     """
     settings = plan.parameters, plan.method_parameters, plan.settings.strict
 
     def close(compiled: CompiledModel, ask_light: bool) -> Start:
         return start_of(plan.mechanism, compiled, *settings, plan.holds, ask_light, near)
 
-    usual = compiled_for(plan.mechanism, plan.choice)
-    compiled, start = closed_by(plan, usual, close)
+    usual = code(plan.mechanism, plan.choice)
+    compiled, start = closed_by(plan, usual, close, code)
     if compiled is usual:
         return compiled, start
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
@@ -318,7 +326,10 @@ def begun(plan: Plan, near: NDArray[np.float64] | None = None) -> tuple[Compiled
 
 
 def closed_by(
-    plan: Plan, compiled: CompiledModel, close: Callable[[CompiledModel, bool], Start]
+    plan: Plan,
+    compiled: CompiledModel,
+    close: Callable[[CompiledModel, bool], Start],
+    code: Code = compiled_for,
 ) -> tuple[CompiledModel, Start]:
     """Return a start with its code: the same law solved with M + W D^T D where light bodies require it.
 
@@ -330,11 +341,13 @@ def closed_by(
         Its code.
     close : callable
         (code, whether light bodies are looked for) -> start.
+    code : callable
+        Returns the code of a mechanism for a method.
     """
     start = close(compiled, plan.solver_is_free)
     if not start.light:
         return compiled, start
-    compiled = compiled_for(plan.mechanism, plan.choice.with_options(solver="augmented"))
+    compiled = code(plan.mechanism, plan.choice.with_options(solver="augmented"))
     return compiled, close(compiled, False)
 
 

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 #: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
 #: residuals of implicit stages, which come with Newton's matrices.
 BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
+#: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many.
+BOUNDED = 20
+#: A search for a limit takes some ten runs, each by explicit steps within this part of the budget of a run alone.
+SEARCHED = 2
 #: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
 FURTHER, LEAST_FURTHER = 100, 100_000
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
@@ -48,11 +52,13 @@ def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
     return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
 
 
-def budget_of(plan: Plan, mechanism: Mechanism) -> int:
-    """Return the evaluation limit of a run."""
+def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False) -> int:
+    """Return the evaluation limit of a run, or of one of the many of a search."""
     if is_implicit(plan):
         return implicit_budget(mechanism)
-    return explicit_budget(mechanism, ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET)
+    most = ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET
+    most //= (BOUNDED if mechanism.bounded else 1) * (SEARCHED if searched else 1)
+    return explicit_budget(mechanism, most)
 
 
 def further_budget(budget: int, used: int) -> int:

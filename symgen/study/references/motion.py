@@ -28,6 +28,7 @@ from symgen.result.points import Points
 from symgen.study.references.differences import difference_steps
 from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.least_squares import compiled, minimum_norm
+from symgen.study.references.numba_code import machine_code
 from symgen.study.references.reference import Reference
 from symgen.study.references.solvers import OverBudgetError, Scheme, by_steps, in_parts, is_stiff, longest_of
 from symgen.study.references.sympy_formulas import ReferenceFormulas
@@ -124,8 +125,7 @@ class CompiledEquations(IndependentEquations):
     @cached_property
     def _address(self) -> Any:
         """The equations as an argument of compiled functions: of a function itself Numba looks it up at every call."""
-        function: Any = self._function
-        return types.CompileResultWAP(function.get_compile_result(EQUATIONS.signature))
+        return types.CompileResultWAP(self._result)
 
     @cached_property
     def _index(self) -> Any:
@@ -178,11 +178,15 @@ class CompiledEquations(IndependentEquations):
         for table in self.mechanism.tables:
             space |= {name: numba.njit(error_model="numpy")(f) for name, f in curves(table).items()}
         own = {name: name for name in space}
+        space["__name__"] = __name__  # where a process that loads the code looks for names
         lines += [f"{symbol} = {sp.pycode(e, user_functions=own)}" for symbol, e in shared]
         lines += [f"out[{i}] = {sp.pycode(e, user_functions=own)}" for i, e in enumerate(results)]
-        exec("\n    ".join([*lines, "return 0"]), space)  # SymPy's own printing of a checked mechanism
-        signature = types.int64(_F8, _A, _A, _A, _A)
-        function: Callable[..., Any] = numba.njit(signature, error_model="numpy", nogil=True)(space["equations"])
+        text, signature = "\n    ".join([*lines, "return 0"]), EQUATIONS.signature
+        exec(text, space)  # SymPy's own printing of a checked mechanism
+        make = numba.njit(signature, error_model="numpy", nogil=True)
+        identity = "\n".join((text, *map(repr, self.mechanism.tables)))
+        self._result = machine_code("equations", signature, identity, lambda: make(space["equations"]))
+        function: Callable[..., Any] = self._result.entry_point
         return function
 
 
@@ -375,8 +379,7 @@ def _for_all(function: Any, signature: Any) -> Any:
     It is the machine code itself: the choice among signatures, of which there is one, takes longer than a rate.
     """
     make = numba.njit(signature, nogil=True, error_model="numpy", fastmath={"contract"})
-    (compiled_once,) = make(function.py_func).overloads.values()
-    return compiled_once.entry_point
+    return machine_code(function.__name__, signature, "", lambda: make(function.py_func)).entry_point
 
 
 # -- a motion ----------------------------------------------------------------------------------------------------------

@@ -27,6 +27,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.events import RESET
 from symgen.result.points import Points
 from symgen.result.reactions import Forces, seats
+from symgen.run.compiling.choices import straight_seconds
 from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
@@ -63,6 +64,9 @@ STIFF_ROUTES: tuple[Route, ...] = (
 ROUGH_ROUTES = tuple(route._replace(rtol=rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
 #: Evaluation limit of a route, for small mechanisms.
 BUDGET, STIFF_BUDGET = 20_000_000, 300_000
+#: Evaluations of looped code after which a route begins again with straight code, where that compiles within some
+#: seconds: it is several times as fast, and its rounding is smaller.
+LOOPED_BUDGET, LONGEST_COMPILATION = 100_000, 10.0
 #: Evaluation limit of explicit steps due to decay, for small mechanisms; the stiff routes are used beyond.
 STIFF_FROM = 6_000_000
 
@@ -149,14 +153,18 @@ def two_routes(
 def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...], budget: int) -> Reference:
     motions, routes = [], _fitting(mechanism, routes)
     straight = any(route.integrator == "radau5" for route in routes) or bool(straight_alone(mechanism))
+    looped_budget = LOOPED_BUDGET if straight_seconds(mechanism) < LONGEST_COMPILATION else budget
     for method, integrator, options, rtol, coordinates in routes:
-        shape = "straight" if straight or coordinates == "joint" else "looped"
-        settings = replace(common, method=method, integrator=integrator, options=options, shape=shape)
+        settings = replace(common, method=method, integrator=integrator, options=options)
         settings = replace(settings, rtol=rtol, atol=1e-2 * rtol, coordinates=coordinates)
-        run = prepare(mechanism, settings).with_spec(max_evaluations=budget)
-        outcome = run.integrate()
-        if outcome.interrupted:
-            raise KeyboardInterrupt
+        shapes = {"straight": budget} if straight or coordinates == "joint" else {"looped": looped_budget}
+        for shape, most in (shapes | {"straight": budget}).items():
+            run = prepare(mechanism, replace(settings, shape=shape)).with_spec(max_evaluations=most)
+            outcome = run.integrate()
+            if outcome.interrupted:
+                raise KeyboardInterrupt
+            if outcome.code != abi.STOPPED or most == budget:
+                break
         if outcome.code != abi.DONE:
             reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")

@@ -6,7 +6,7 @@ Each is one task for a process (`symgen.study.runner`), and its outcome is plain
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -35,16 +35,14 @@ from symgen.run.single.outcome import Outcome
 from symgen.study.limits import UNWATCHED, WATCHES, unlimited
 from symgen.study.references.effort import budget_of, further_budget, predicted
 from symgen.study.stress import cell_outcome as judged
+from symgen.study.stress import kept
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
 from symgen.study.stress.cell_references import geometry_of, reference_of, times_of, without_reference
+from symgen.study.stress.searches import HALVINGS, largest_steps
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
-
-
-#: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
-SCAN, HALVINGS, SMALLEST = 4.0, 7, 4096.0
 
 
 @dataclass(frozen=True)
@@ -70,13 +68,17 @@ class RunTask:
 
 @dataclass(frozen=True)
 class LimitTask(RunTask):
-    """Find the largest constant step of a method and an integrator for a case."""
+    """Find the largest constant step of a method and an integrator for a case, by so many halvings."""
+
+    halvings: int = HALVINGS
 
 
 def compute_cell(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
+    level = replace(task.level, mechanism=kept.only_one(task.level.mechanism))
     if isinstance(task, CellReference):
-        return reference_of(task.level)
+        return reference_of(level)
+    task = replace(task, level=level)
     fields: Fields = json_value(_limit(task) if isinstance(task, LimitTask) else _run(task))
     return fields
 
@@ -91,7 +93,7 @@ def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
     return {**words, **numbers, "evaluations": evaluations}
 
 
-def _run(task: RunTask) -> Fields:
+def _run(task: RunTask, searched: bool = False) -> Fields:
     """Return the fields of a row that depend on the run; without a reference nothing is run."""
     level, method, integrator, motion = task.level, task.method, task.integrator, task.reference
     mechanism = level.mechanism
@@ -112,13 +114,14 @@ def _run(task: RunTask) -> Fields:
         why = without_reference(motion)
         if why is not None:
             return _not_run(judged.UNJUDGED, why)
-        budget = budget_of(plan, mechanism)
+        budget = budget_of(plan, mechanism, searched)
         chosen = f"{plan.choice.method.name}, {plan.integrator.name}" if method == AUTO else ""
         least = predicted(plan, motion["decay"])
         if least > budget:
             what = "at least " if plan.spec.adaptive else ""
             return _not_run(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
-        run = ready.run().with_spec(max_evaluations=budget)
+        shared = kept.starts_of(mechanism, settings.parameters, level.options)
+        run = ready.run(None if method == AUTO else shared, kept.code_of).with_spec(max_evaluations=budget)
     except (InputError, AssemblyError) as error:
         return _not_run(judged.REFUSED, str(error))
     outcome, verification = run.integrate(), None
@@ -213,22 +216,22 @@ def _limit(task: LimitTask) -> Fields:
     """Find the largest step that follows the motion at all, and the largest one that is accurate."""
     if without_reference(task.reference) is not None:
         return {"stable_step": None, "accurate_step": None}
-    ran: dict[float, tuple[bool, bool]] = {}
+    ran, slow = dict[float, tuple[bool, bool]](), 0.0
 
     def attempt(step: float) -> tuple[bool, bool]:
+        nonlocal slow
+        if step <= slow:  # smaller steps take more evaluations than one that takes too many
+            return False, False
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common))
+            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common), searched=True)
+            slow = step if fields["outcome"] == judged.TOO_SLOW else slow
             length = task.reference["length"]
             error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf
             ran[step] = error <= judged.LOST * length, error <= judged.ACCURATE * length
         return ran[step]
 
-    first = task.level.step
-    stable = largest_number(lambda h: attempt(h)[0], first, task.level.until)
-    accurate = largest_number(lambda h: attempt(h)[1], first, task.level.until)
-    if stable is not None and accurate is not None:
-        stable = max(stable, accurate)  # what is accurate follows the motion, also beyond a step that does not
+    stable, accurate = largest_steps(attempt, task.level.step, task.level.until, _boundary(task), task.halvings)
     return {"stable_step": stable, "accurate_step": accurate}
 
 
@@ -236,41 +239,7 @@ def _constant(task: LimitTask) -> dict[str, str]:
     return {"integrator.adaptive": "false"} if INTEGRATORS.get(task.integrator).adaptive else {}
 
 
-def largest_number(holds: Callable[[float], bool], first: float, top: float) -> float | None:
-    """Return the largest number below which a condition holds, by a scan upwards and bisection of its logarithm.
-
-    Parameters
-    ----------
-    holds : callable
-        The condition; it need not be monotone: the result is its first failure on the way up.
-    first : float
-        First number; smaller ones are tried where the condition does not hold.
-    top : float
-        Largest number tried.
-
-    Returns
-    -------
-    float or None
-        Exact within 1.1 percent; `top` where it holds everywhere; None where it does not even hold at
-        ``first / SMALLEST``.
-    """
-    low, floor = first, first / SMALLEST
-    while not holds(low):
-        low /= SCAN
-        if low < floor * (1.0 - 1e-9):
-            return None
-    high = low
-    while True:
-        high = min(high * SCAN, top)
-        if not holds(high):
-            break
-        if high >= top:
-            return top
-        low = high
-    for _ in range(HALVINGS):
-        middle = math.sqrt(low * high)
-        if holds(middle):
-            low = middle
-        else:
-            high = middle
-    return low
+def _boundary(task: LimitTask) -> float:
+    """Return the step at which a scheme is at the end of its region of stability where the motion starts [s]."""
+    integrator, decay = INTEGRATORS.get(task.integrator), float(task.reference["decay"])
+    return integrator.real_boundary / decay if decay > 0.0 else math.inf

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +15,6 @@ from symgen.base import arguments
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings, default
 from symgen.derive.methods import METHODS
-from symgen.describe.facts.digest import identity
 from symgen.describe.mechanism import bounded
 from symgen.describe.parts.events import RESET
 from symgen.result.result import FAILED, OK, UNVERIFIED
@@ -25,23 +24,26 @@ from symgen.run.planning.plan import refuse_ends, refuse_weightless
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity
 from symgen.study.references.effort import BUDGET, left_out
 from symgen.study.references.routes import underived
-from symgen.study.runner import Cell, Status, run_cells
+from symgen.study.runner import Cell, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cell_outcome import OUTCOMES
 from symgen.study.stress.cell_references import without_reference
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
 from symgen.study.stress.families import FAMILIES, levels_of
+from symgen.study.stress.kept import identity_of
+from symgen.study.stress.progress import Progress, Whole
+from symgen.study.stress.searches import HALVINGS, QUICK_HALVINGS
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
 FURTHER = ("dop853", "picard", "radau5")
 #: Default base model.
 DEFAULT_MODEL = "four-bar"
+#: Work of a reference in steps of a run, its compilation included; runs that a search for the largest step takes.
+REFERENCE, SEARCH = 2e4, 15.0
 #: Families with a search for the largest step of each method, in the case nearest to a value.
 LIMITED = ("duration", "stiffness", "damping")
 
-#: Called with the current activity and the progress.
-Progress = Callable[[str, Status], None]
 Motions = Sequence[tuple[CellReference, Outcome]]
 Task = TypeVar("Task", bound=CellReference | RunTask)
 
@@ -205,12 +207,16 @@ class _Study:
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
         """Compute references, then runs, then largest steps."""
-        motions, interrupted = self._computed("references", [CellReference(level) for level in self.levels])
+        references = [CellReference(level) for level in self.levels]
+        unknown = [(task, dict[str, Any]()) for task in references]
+        tasks: tuple[CellReference | RunTask, ...] = *references, *self._runs(unknown), *self._searches(unknown)
+        whole = Whole.of((_cell(task) for task in tasks), self.progress)
+        motions, interrupted = self._computed("references", references, whole)
         runs, searches = list[tuple[RunTask, Outcome]](), list[tuple[RunTask, Outcome]]()
         if not interrupted:
-            runs, interrupted = self._computed("runs", list(self._runs(motions)))
+            runs, interrupted = self._computed("runs", list(self._runs(motions)), whole)
         if not interrupted:
-            searches, interrupted = self._computed("largest steps", list(self._searches(motions)))
+            searches, interrupted = self._computed("largest steps", list(self._searches(motions)), whole)
         unusable = [(task.level, why) for task, motion in motions if (why := without_reference(motion)) is not None]
         return Stress(
             models=tuple(base.name for base in self.bases),
@@ -225,12 +231,10 @@ class _Study:
             underived=tuple((base.name, what) for base in self.bases if (what := underived(base.mechanism))),
         )
 
-    def _computed(self, what: str, tasks: Sequence[Task]) -> tuple[list[tuple[Task, Outcome]], bool]:
+    def _computed(self, what: str, tasks: Sequence[Task], whole: Whole) -> tuple[list[tuple[Task, Outcome]], bool]:
         """Return the finished tasks with their outcomes, and whether the study was interrupted."""
         cells = [_cell(task) for task in tasks]
-        done, interrupted = run_cells(
-            cells, compute_cell, self.journal, self.jobs, lambda status: self.progress(what, status)
-        )
+        done, interrupted = run_cells(cells, compute_cell, self.journal, self.jobs, whole.part(what, cells))
         return [(cell.task, done[cell.key]) for cell in cells if cell.key in done], interrupted
 
     def _runs(self, motions: Motions) -> Iterator[RunTask]:
@@ -256,7 +260,7 @@ class _Study:
             level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
             for pair in ((name, constant_integrator(name)) for name in self.methods if name != AUTO):
                 if self._is_compiled(level, pair):
-                    yield LimitTask(level, *pair, motion, self.common)
+                    yield LimitTask(level, *pair, motion, self.common, QUICK_HALVINGS if self.quick else HALVINGS)
 
     def _is_compiled(self, level: Level, pair: tuple[str, str]) -> bool:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
@@ -268,7 +272,7 @@ def _cell(task: CellReference | RunTask) -> Cell:
     parts: dict[str, Any] = {
         "kind": type(task).__name__,
         "code": code_identity(),
-        "mechanism": identity(level.mechanism),
+        "mechanism": identity_of(level.mechanism),
         "parameters": dict(level.parameters),
         "until": level.until,
         "outputs": level.outputs,
@@ -278,12 +282,14 @@ def _cell(task: CellReference | RunTask) -> Cell:
     }
     steps = min(level.until / level.step, float(BUDGET))
     if isinstance(task, CellReference):
-        return Cell(cell_key(**parts), name, task, 1e3 + steps, check_motion)
+        return Cell(cell_key(**parts), name, task, REFERENCE + steps, check_motion)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
     parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.common.coordinates}
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
     # roughly how long a run takes, in steps
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
+    if isinstance(task, LimitTask):
+        parts, cost = parts | {"halvings": task.halvings}, SEARCH * cost
     check = _check_limit if isinstance(task, LimitTask) else _check_run
     return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
 

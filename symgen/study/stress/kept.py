@@ -1,0 +1,64 @@
+"""What the cells of a process share: one object of each mechanism, its code, and its closed starts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from symgen.describe.facts.digest import identity
+from symgen.describe.remembered import remembered
+from symgen.run.planning.starts import compiled_for
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.planning.prepare import Assembled
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+
+#: Mechanisms, and methods of each, that are kept at a time: cells come mechanism by mechanism and method by method.
+MECHANISMS, METHODS = 16, 8
+#: Values of parameters of which closed starts are kept.
+STARTS = 32
+
+#: Digest of all of a mechanism.
+identity_of = remembered(identity)
+#: Mechanisms by their identity, the latest last; what is remembered of a mechanism is remembered of its object.
+_mechanisms = dict[str, "Mechanism"]()
+#: Compiled models by mechanism, method, shape, the latest last.
+_codes = dict[tuple[str, str, str], "CompiledModel"]()
+
+
+def only_one(mechanism: Mechanism) -> Mechanism:
+    """Return the one object for equal mechanisms: each task comes to a process with a mechanism of its own."""
+    return _kept(_mechanisms, identity_of(mechanism), mechanism, MECHANISMS)
+
+
+def code_of(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
+    """Return the compiled model of a run as `compiled_for` does, the same object for all values of parameters."""
+    key = identity_of(mechanism), choice.stem, choice.shape
+    return _kept(_codes, key, _codes.get(key) or compiled_for(mechanism, choice), METHODS)
+
+
+def starts_of(
+    mechanism: Mechanism, parameters: Mapping[str, float], options: Mapping[str, Any]
+) -> dict[Any, Assembled]:
+    """Return the closed starts of a mechanism with these parameters, by `Plan.key`; new ones are added to it."""
+    return _starts(identity_of(mechanism), tuple(sorted(parameters.items())), tuple(sorted(options)))
+
+
+@lru_cache(maxsize=STARTS)
+def _starts(which: str, parameters: tuple[tuple[str, float], ...], options: tuple[str, ...]) -> dict[Any, Assembled]:
+    return {}
+
+
+def _kept(store: dict[Key, Value], key: Key, value: Value, most: int) -> Value:
+    """Return the value of a key, `value` where there is none; of more keys than `most` the oldest leave."""
+    value = store.pop(key, value)
+    store[key] = value
+    for oldest in list(store)[:-most]:
+        del store[oldest]
+    return value
