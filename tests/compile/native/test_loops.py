@@ -116,7 +116,6 @@ def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_refused(tmp_path, m
 #: minute each: these few have every construct of all loops. Exact solutions prove that all loops do what they should.
 CASES = {
     ("explicit", "adaptive"): ("four-bar", "direct-correction", "dop853"),
-    ("picard", "adaptive"): ("four-bar", "direct-correction", "picard"),
     ("adams", "adaptive"): ("four-bar", "lagrange", "abm"),
     ("implicit", "adaptive"): ("four-bar", "ggl", "radau5"),
     ("screw", "constant"): ("heavy-top", "lagrange", "rkmk4-screws"),
