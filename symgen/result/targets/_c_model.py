@@ -258,7 +258,7 @@ class CModel:
 
     @property
     def exchanges(self) -> bool:
-        """Whether an importer may integrate: in FMUs whose steps are not those of a named integrator."""
+        """Whether an importer may integrate: in FMUs without a named integrator."""
         return self.target == "fmu" and not self.named
 
     @property
