@@ -153,7 +153,7 @@ def two_routes(
 def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...], budget: int) -> Reference:
     motions, routes = [], _fitting(mechanism, routes)
     straight = any(route.integrator == "radau5" for route in routes) or bool(straight_alone(mechanism))
-    looped_budget = LOOPED_BUDGET if straight_seconds(mechanism) < LONGEST_COMPILATION else budget
+    looped_budget = min(budget, LOOPED_BUDGET) if straight_seconds(mechanism) < LONGEST_COMPILATION else budget
     for method, integrator, options, rtol, coordinates in routes:
         settings = replace(common, method=method, integrator=integrator, options=options)
         settings = replace(settings, rtol=rtol, atol=1e-2 * rtol, coordinates=coordinates)

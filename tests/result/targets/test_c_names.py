@@ -13,6 +13,7 @@ from symgen.describe import catalogue
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._c_names import prefix_of
+from symgen.result.targets._fmu_modes import values_of_exchange
 from symgen.result.targets.fmu import _partition
 
 #: Of the emitted functions and their variables, of the templates, of keywords, of the library.
@@ -62,6 +63,7 @@ def model(tmp_path_factory):
 def test_code_of_every_name_compiles(fmi, model, tmp_path):
     """Derived once: only the names that the mechanism gives differ."""
     common, partition = model.values, _partition(model)
+    partition |= values_of_exchange(model, partition["holonomic"])
     at = {"at_column": 1, "at_output": 2, "at_state": 3, "at_rate": 4, "at_event": 5, "at_time": 6}
     for name in NAMES:
         prefix = prefix_of(name, model.text)
