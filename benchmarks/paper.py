@@ -57,6 +57,11 @@ CLOSING = ("lagrange", "baumgarte", "velocity-projection", "direct-correction", 
 HIGH = ("dop853", "picard")
 
 
+def plain(key: str) -> str:
+    """Return the name of a method for a picture."""
+    return NAMES[key].replace("\\,", " ").replace("s$^{-1}$", "1/s")
+
+
 def page_rows(table: PageTable) -> list[list[str]]:
     """Return the rows of a table as its page has them."""
     text = (ROOT / table.page).read_text(encoding="utf-8")
@@ -86,7 +91,7 @@ def samples() -> list[list[Line]]:
 
 
 def measures(integrator: str, key: str) -> list[dict[str, str]]:
-    """Return what `benchmarks.statistics` prints of a method, for both seeds."""
+    """Return the quantiles, shares and medians of a method, for both seeds."""
     pairs = (statistics.pairs_of(own, integrator, METHODS[key]) for own in samples())
     return [dict(zip(statistics.HEADINGS[1:], statistics.line(each), strict=True)) for each in pairs]
 
@@ -218,8 +223,7 @@ def _random(axes: Axes) -> None:
     colours = ("#d55e00", "#e69f00", "#56b4e9", "#0072b2", "#009e73")
     for key, colour in zip(("baumgarte", "motion", "velocity", "direct", "mass"), colours, strict=True):
         values = np.sort(improvements("rk4", key))
-        name = NAMES[key].replace("\\,", " ").replace("s$^{-1}$", "1/s")
-        axes.semilogx(values, np.linspace(0.0, 1.0, len(values)), color=colour, linewidth=1.2, label=name)
+        axes.semilogx(values, np.linspace(0.0, 1.0, len(values)), color=colour, linewidth=1.2, label=plain(key))
     axes.axvline(1.0, color="#999999", linewidth=0.8)
     axes.set(xlim=(0.05, 1e3), xlabel="error without over error with the method", ylabel="share of mechanisms")
     axes.legend(frameon=False, fontsize=6)
@@ -234,7 +238,7 @@ def _equal(axes: Axes) -> None:
             axes.semilogx(own, np.full(len(own), k + shift), marker, color=colour, markersize=2.5, alpha=0.8,
                           label=integrator if k == 0 else None)  # fmt: skip
     axes.axvline(1.0, color="#999999", linewidth=0.8)
-    names = [NAMES[key].replace("\\,", " ").replace("s$^{-1}$", "1/s") for key in keys]
+    names = [*map(plain, keys)]
     axes.set(xlabel="run time over that of lagrange", yticks=range(len(keys)), yticklabels=names)
     axes.tick_params(axis="y", labelsize=6)
     axes.legend(frameon=False, fontsize=6)

@@ -21,8 +21,8 @@ from symgen.run.planning.dead_centre import DRIVER
 
 #: Positions on the way, which are at most this many apart from the dead centre that is found.
 _POSITIONS = 200
-#: Share of a whole turn that counts as one.
-_WHOLE = 1.0 - 1e-9
+#: What is left of a turn, as part of the travel, where the driver turns round and round.
+_ROUNDING = 1e-9
 
 
 class DeadCentreRoom(NamedTuple):
@@ -72,7 +72,7 @@ def room_to_dead_centre(
     travel = np.array([in_time.at(row.value, float(t)) for t in times])
     low, high = float(travel.min()), float(travel.max())
     looked = high - low if row.unit != "rad" else 2.0 * math.pi - (high - low)
-    if high <= low or looked <= (1.0 - _WHOLE) * 2.0 * math.pi:
+    if high <= low or looked <= _ROUNDING * (high - low):
         return ()
     first = float(travel[0])
     try:

@@ -38,7 +38,7 @@ class ReachedLimit(NamedTuple):
     t: float | None
 
     @property
-    def kept(self) -> bool:
+    def is_met(self) -> bool:
         """Whether the value is within the limit; NaN is not."""
         return self.reached <= self.limit if self.side == "largest" else self.reached >= self.limit
 

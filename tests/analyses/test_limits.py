@@ -10,6 +10,7 @@ import symgen
 from symgen.analyses.dead_centre_room import room_to_dead_centre
 from symgen.analyses.limits import ReachedLimit, reached_limits
 from symgen.base.errors import InputError
+from symgen.base.vocabulary.expressions import Number
 from symgen.describe.facts.digest import identity
 from symgen.describe.files.validate import validate
 from symgen.study.report.machine import machine
@@ -19,12 +20,13 @@ ROCKER = """
 [mechanism]
 name = "rocker"
 [parameters]
+crank_length = 1.0
 width = { value = 30, unit = "mm", largest = 40 }
 swing = { value = 0.1, smallest = 0.05, largest = "0.002*width/1e-3" }
 [bodies.crank]
 mass = 1.0
 inertia = 0.1
-points = { a = [0.0, 0.0], b = [1.0, 0.0] }
+points = { a = [0.0, 0.0], b = ["crank_length", 0.0] }
 angle = 1.66
 [bodies.rod]
 mass = 1.0
@@ -74,14 +76,14 @@ def swung():
 def test_limits_are_compared_in_the_unit_of_values(swung):
     model, result = swung
     width, least, most, low, high = reached_limits(model.mechanism, result)
-    assert width == ReachedLimit("width", "m", "largest", 0.04, 0.03, None) and width.kept
-    assert (least.limit, least.kept) == (0.05, True)
-    assert most.limit == pytest.approx(0.06) and not most.kept
+    assert width == ReachedLimit("width", "m", "largest", 0.04, 0.03, None) and width.is_met
+    assert (least.limit, least.is_met) == (0.05, True)
+    assert most.limit == pytest.approx(0.06) and not most.is_met
     reach = result["reach"]
-    assert (low.limit, low.reached, low.kept) == (1.8, reach.min(), False)
-    assert (high.limit, high.reached, high.kept) == (2.7, reach.max(), True)
+    assert (low.limit, low.reached, low.is_met) == (1.8, reach.min(), False)
+    assert (high.limit, high.reached, high.is_met) == (2.7, reach.max(), True)
     assert low.t == result.t[np.argmin(reach)]
-    assert not ReachedLimit("a", "m", "smallest", 0.0, math.nan, 0.0).kept
+    assert not ReachedLimit("a", "m", "smallest", 0.0, math.nan, 0.0).is_met
 
 
 def test_nothing_is_computed_with_limits(swung):
@@ -127,3 +129,21 @@ def test_what_is_no_limit(section, key, value, words):
     with pytest.raises(InputError) as error:
         validate(raw, "rocker.toml")
     assert words in str(error.value)
+
+
+def test_a_formula_of_numbers_is_in_the_unit_of_its_parameter():
+    raw = tomllib.loads(ROCKER)
+    raw["parameters"]["width"] |= {"smallest": "2*10", "largest": "3 cm"}
+    (width, *_) = validate(raw, "rocker.toml").limits
+    assert (width.smallest, width.largest) == (Number(0.02), Number(0.03))
+
+
+@pytest.mark.slow
+def test_the_room_changes_smoothly_with_a_length(swung):
+    """Over 300 lengths of the crank, beside the closed form: crank and coupler are in line."""
+    model, result = swung
+    travel = 2.0 + 0.1 * np.sin(6.0 * result.t)
+    for crank in np.linspace(0.9, 1.2, 300).tolist():
+        below, _ = room_to_dead_centre(model.mechanism, result.t, {**result.parameters, "crank_length": crank})
+        angle = math.acos(((crank + 2.0) ** 2 - 2.5**2 - 1.5**2) / (2.0 * 2.5 * 1.5))
+        assert below.way == pytest.approx(travel.min() - angle, abs=1e-6), crank

@@ -10,6 +10,7 @@ from symgen.base.vocabulary.expressions import Expr, Number
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.mechanism import OperatingLimit
 from symgen.describe.parts.fields import Scalar
+from symgen.describe.parts.own_units import parameter_value
 
 
 class LimitedSection(Protocol):
@@ -57,8 +58,11 @@ def limits_of(
 
 
 def _end(value: float | str, unit: Unit, allowed: FormulaNames, where: str, si: bool) -> Expr:
+    if si:
+        number, formula, _ = parameter_value(value, unit.text, allowed, where)
+        return Number(number) if formula is None else formula
     if not isinstance(value, str):
-        return Number(unit.to_si(float(value)) if si else float(value))
+        return Number(float(value))
     amount = read_amount(value)
     if amount is None or not amount.unit or amount.unit in allowed.plain:
         return parse(value, allowed, where)
@@ -67,5 +71,4 @@ def _end(value: float | str, unit: Unit, allowed: FormulaNames, where: str, si: 
         raise InputError(
             where, f"a number, or one in SI units such as {own.si}, as the entry has no unit", quoted(value)
         )
-    number = own.to_si(amount.number)
-    return Number(number if si else unit.of_si(number))
+    return Number(unit.of_si(own.to_si(amount.number)))

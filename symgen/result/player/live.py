@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Collection, Hashable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.base.latest import latest
 from symgen.compile.native.formula_lines import JAVASCRIPT, NotInLines
 from symgen.compile.native.javascript import HELPERS, LOOP_HELPERS, javascript
 from symgen.compile.native.read import Foreign
@@ -41,6 +41,10 @@ if TYPE_CHECKING:
 #: Largest number of characters of emitted code in a page, in the plane and in space, and the same in operations.
 MOST = {False: 76_000, True: 270_000}
 A_OPERATION = 24
+
+#: Texts of functions by what they follow from, and how many stay: another page of the same model has the same text.
+_texts = dict[Hashable, tuple[str, int]]()
+MOST_TEXTS = 8
 
 #: Note of a page without live simulation.
 NONE = "the page has no live part"
@@ -161,30 +165,13 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None,
         printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _drivers(mechanism):
         printed.add_lock(compiled, drivers)
-    return _texts.of(printed)
+    return latest(_texts, printed.key, lambda: _text(printed), MOST_TEXTS)
 
 
-class _Texts:
-    """Texts of the functions of the last models, which another page of the same model has as well."""
-
-    MOST = 8
-
-    def __init__(self) -> None:
-        self._kept = OrderedDict[Hashable, tuple[str, int]]()
-
-    def of(self, printed: Printed) -> tuple[str, int]:
-        """Return the text, and the characters of the emitted functions."""
-        key = printed.key
-        if (found := self._kept.pop(key, None)) is None:
-            own = {name: function for name, function in printed.emitted.items() if name != FINDER}
-            found = f"{LOOP_HELPERS}{javascript(printed.emitted, printed.bound())}", len(javascript(own))
-        self._kept[key] = found
-        while len(self._kept) > self.MOST:
-            self._kept.popitem(last=False)
-        return found
-
-
-_texts = _Texts()
+def _text(printed: Printed) -> tuple[str, int]:
+    """Return the text of all functions, and the characters of the emitted ones."""
+    own = {name: function for name, function in printed.emitted.items() if name != FINDER}
+    return f"{LOOP_HELPERS}{javascript(printed.emitted, printed.bound())}", len(javascript(own))
 
 
 def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:

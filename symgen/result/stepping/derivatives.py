@@ -298,8 +298,7 @@ class StepDirections:
 
 def _counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:
     """Return clock and control of a state, which are read faster this way."""
-    clock, control = (memoryview(before[name]) for name in ("clock", "control"))  # type: ignore[arg-type]  # arrays are
-    return clock, control
+    return before["clock"].data, before["control"].data
 
 
 def _check(prepared: Prepared, loop: Simulation) -> None:

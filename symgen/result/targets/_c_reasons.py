@@ -36,7 +36,7 @@ def reasons_of(run: PrintedRun) -> list[Reason]:
 
 
 def values_of_ends(run: PrintedRun) -> dict[str, Any]:
-    """Return what templates print of the ends of a run."""
+    """Return the values of templates for the ends of a run."""
     watched = run.watched
     names = () if watched is None else watched.names
     return {

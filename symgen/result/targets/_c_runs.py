@@ -32,13 +32,17 @@ def check_integrator(name: str | None) -> None:
     InputError
         If it is another one, or none.
     """
-    if name is not None and type(INTEGRATORS.get(name, "integrator")) is not Tableau:
-        known = [each for each in INTEGRATORS.names if type(INTEGRATORS.get(each, "integrator")) is Tableau]
-        raise InputError(f"integrator '{name}'", f"an explicit Runge-Kutta scheme: {', '.join(known)}", "another one")
+    if name is not None and not _is_printed(name):
+        schemes = ", ".join(filter(_is_printed, INTEGRATORS.names))
+        raise InputError(f"integrator '{name}'", f"an explicit Runge-Kutta scheme: {schemes}", "another one")
+
+
+def _is_printed(name: str) -> bool:
+    return type(INTEGRATORS.get(name, "integrator")) is Tableau
 
 
 def values_of_run(mechanism: Mechanism, run: PrintedRun, used: Collection[str], own: Collection[str]) -> dict[str, Any]:
-    """Return what templates print of a whole run.
+    """Return the values of templates for a whole run.
 
     Parameters
     ----------

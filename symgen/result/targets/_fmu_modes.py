@@ -24,7 +24,7 @@ def indicator_names(model: CModel) -> tuple[str, ...]:
 
 
 def values_of_exchange(model: CModel, holonomic: Sequence[int]) -> dict[str, Any]:
-    """Return what templates print of model exchange, and of the modes in it.
+    """Return the values of templates for model exchange, and for the modes in it.
 
     Parameters
     ----------

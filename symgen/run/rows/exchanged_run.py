@@ -23,7 +23,7 @@ from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct, opene
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.searching import TO_EVENT
 from symgen.run.loops.switching import is_sought, taken_for
-from symgen.run.rows.kept_run import CHANGED, ENDING, VISIBLE, Traits, meet, recipe_of
+from symgen.run.rows.kept_run import CHANGED, ENDING, VISIBLE, Traits, meet, recipe_of, system_of_steps
 from symgen.run.rows.row_modes import begin_modes, rest_gaps
 from symgen.run.single.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
 from symgen.run.single.choice import read_rows
@@ -49,17 +49,6 @@ Exchange: Any = EXCHANGE.constructor
 
 
 # -- seams -------------------------------------------------------------------------------------------------------------
-
-
-def system_of(model: Any) -> Any:
-    """Return the functions of a run without seams."""
-    return ModelSystem(*model)
-
-
-def system_between_seams(model: Any) -> Any:
-    """Return the functions of a run with seams."""
-    own, _, _, _, _ = model
-    return ModelSystem(*own)
 
 
 def next_time(model: Any, state: Any) -> float:
@@ -109,7 +98,7 @@ def indicate_run(t: float, y: Any, model: Any, state: Any, values: Any) -> int:
 
     They pass 0 at events alone: a margin that its mode makes positive, whatever rounding makes of it, is positive.
     """
-    system = system_of(model[0])
+    system = ModelSystem(*system_of_steps(model[0]))
     run = opened(system.sizes, state)
     hunt, n, h = run.hunt, int(run.hunt[records.COUNT]), max(t - run.clock[abi.TIME], 0.0)
     evaluate_events(system, run, t, y)
@@ -219,7 +208,7 @@ def exchange_run(
     int
         `QUIET`, `HAPPENED`, `OVER` or `STUCK`.
     """
-    system = system_of(model[0])
+    system = ModelSystem(*system_of_steps(model[0]))
     run, code = opened(system.sizes, state), QUIET
     if doing != ASK:
         for i in range(visible.y.shape[0]):
@@ -253,7 +242,7 @@ def rest_low_gaps(t: float, modes: Any, state: Any) -> int:
 
 
 _loops: dict[Any, tuple[Any, Any]] = {}
-_SEAMED = {"system_of": system_between_seams, "next_time": next_seam, "pass_seams": pass_due_seams}
+_SEAMED = {"next_time": next_seam, "pass_seams": pass_due_seams}
 
 
 def exchanged_run(loop: Any, traits: Traits) -> tuple[Any, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -146,7 +147,7 @@ def _transmission(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
 
 def _room(mechanism: Mechanism, result: Result) -> Iterator[KeyNumber]:
     """Yield the way from the travel of the driver to the nearer dead centre, where there is one."""
-    rooms = [room for room in room_to_dead_centre(mechanism, result.t, result.parameters) if room.way == room.way]
+    rooms = [room for room in room_to_dead_centre(mechanism, result.t, result.parameters) if not math.isnan(room.way)]
     for room in sorted(rooms, key=lambda room: room.way)[:1]:
         where = f"{'below' if room.backward else 'above'} the travel of {room.driver}"
         yield KeyNumber("room to the dead centre", engineering(room.way, room.unit), where)

@@ -157,11 +157,11 @@ def _limits(model: Model, result: Result) -> Iterator[Section]:
             f"{'at most' if each.side == 'largest' else 'at least'} {engineering(each.limit, each.unit)}",
             engineering(each.reached, each.unit),
             "" if each.t is None else f"{each.t:.4g}",
-            TableCell("kept", "good") if each.kept else TableCell("exceeded", "bad"),
+            TableCell("kept", "good") if each.is_met else TableCell("exceeded", "bad"),
         )
         for each in found
     )
-    broken = list(dict.fromkeys(each.name for each in found if not each.kept))
+    broken = list(dict.fromkeys(each.name for each in found if not each.is_met))
     text = f"Exceeded: {', '.join(broken)}." if broken else f"The run keeps {counted(len(found), 'limit')} of the file."
     yield Section("Limits", (text,), tables=(DocumentTable("", headings, rows),))
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
+from symgen.base.latest import latest
 from symgen.describe.facts.digest import identity
 from symgen.describe.remembered import remembered
 from symgen.run.planning.starts import compiled_for
@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from symgen.run.compiling.pipeline import MethodChoice
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.planning.prepare import Assembled
-
-Key = TypeVar("Key")
-Value = TypeVar("Value")
 
 #: Mechanisms, and methods of each, that are kept at a time: cells come mechanism by mechanism and method by method.
 MECHANISMS, METHODS = 16, 8
@@ -30,35 +27,24 @@ identity_of = remembered(identity)
 _mechanisms = dict[str, "Mechanism"]()
 #: Compiled models by mechanism, method, shape, the latest last.
 _codes = dict[tuple[str, str, str], "CompiledModel"]()
+#: Closed starts by mechanism, parameters and options, the latest last.
+_starts = dict[tuple[str, tuple[tuple[str, float], ...], tuple[str, ...]], "dict[Any, Assembled]"]()
 
 
 def only_one(mechanism: Mechanism) -> Mechanism:
     """Return the one object for equal mechanisms: each task comes to a process with a mechanism of its own."""
-    return _kept(_mechanisms, identity_of(mechanism), mechanism, MECHANISMS)
+    return latest(_mechanisms, identity_of(mechanism), lambda: mechanism, MECHANISMS)
 
 
 def code_of(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
     """Return the compiled model of a run as `compiled_for` does, the same object for all values of parameters."""
     key = identity_of(mechanism), choice.stem, choice.shape
-    return _kept(_codes, key, _codes.get(key) or compiled_for(mechanism, choice), METHODS)
+    return latest(_codes, key, lambda: compiled_for(mechanism, choice), METHODS)
 
 
 def starts_of(
     mechanism: Mechanism, parameters: Mapping[str, float], options: Mapping[str, Any]
 ) -> dict[Any, Assembled]:
     """Return the closed starts of a mechanism with these parameters, by `Plan.key`; new ones are added to it."""
-    return _starts(identity_of(mechanism), tuple(sorted(parameters.items())), tuple(sorted(options)))
-
-
-@lru_cache(maxsize=STARTS)
-def _starts(which: str, parameters: tuple[tuple[str, float], ...], options: tuple[str, ...]) -> dict[Any, Assembled]:
-    return {}
-
-
-def _kept(store: dict[Key, Value], key: Key, value: Value, most: int) -> Value:
-    """Return the value of a key, `value` where there is none; of more keys than `most` the oldest leave."""
-    value = store.pop(key, value)
-    store[key] = value
-    for oldest in list(store)[:-most]:
-        del store[oldest]
-    return value
+    key = identity_of(mechanism), tuple(sorted(parameters.items())), tuple(sorted(options))
+    return latest(_starts, key, dict, STARTS)
