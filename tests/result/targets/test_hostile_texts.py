@@ -196,10 +196,11 @@ def same_xml(one: str, other: str) -> ElementTree.Element:
 
 
 def titles(*few: str):
-    """Parameters of a test: some titles, and the others in the slow run."""
+    """Parameters of a test: some titles, and in the slow run the others, a third of them each day."""
+    others = of_today((title for title in TITLES if title not in few), 3)
     return [
         *(pytest.param(title, id=f"title{TITLES.index(title)}") for title in few),
-        *(pytest.param(t, id=f"title{i}", marks=pytest.mark.slow) for i, t in enumerate(TITLES) if t not in few),
+        *(pytest.param(title, id=f"title{TITLES.index(title)}", marks=pytest.mark.slow) for title in others),
     ]
 
 
@@ -263,7 +264,7 @@ def printed_by_c(folder: Path) -> bytes:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("title", "fmi"), [(title, str(2 + i % 2)) for i, title in enumerate(TITLES)])
+@pytest.mark.parametrize(("title", "fmi"), of_today([(title, str(2 + i % 2)) for i, title in enumerate(TITLES)], 3))
 def test_fmu(title, fmi, honest, tmp_path):
     words = ("generate", "--target", "fmu", "--fmi", fmi, "swing.fmu")
     files = [honest(*words), written(hostile_file(tmp_path, title), *words)]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.base.errors import InputError, SimulationError
+from symgen.base.errors import InputError
 from symgen.compile.store.paths import cache_root
 from symgen.study.ensemble.cluster import connect
 
