@@ -14,6 +14,7 @@ def test_rows_leave_at_one_smooth_time(name: str, coordinates: str) -> None:
     assert found.differences < 1e-12
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", SETTINGS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

@@ -180,6 +180,7 @@ def test_some_of_the_cells_are_measured_again():
     assert not found, "\n".join(map(str, found))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.parametrize("name", [name for name in NAMES if record_of(name).lines()])
 @pytest.mark.slow  # measures: a part of a share of the lines, others on another day
 def test_drawn_lines_of_a_record_are_measured_again(name):

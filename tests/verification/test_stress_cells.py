@@ -58,13 +58,6 @@ def test_the_picture_has_a_column_for_a_model_that_is_whole(four_bar, tmp_path):
     assert "<svg" in (tmp_path / "shares.svg").read_text(encoding="utf-8")
 
 
-@pytest.mark.slow  # compiles four pairs
-def test_a_family_measured_again_has_the_outcomes():
-    line = Job("four-bar", "redundancy")._asdict() | {"cells": {"lagrange dop853": {"ok": 2}}}
-    pairs = list(again(line, Random(1)))
-    assert len(pairs) == 1 and all(pair.agree for pair in pairs)
-
-
 def test_other_outcomes_than_the_stored_ones_differ(monkeypatch):
     line = {"model": "four-bar", "family": "redundancy", "cells": {"lagrange rk4": {"ok": 2}, "auto auto": {"ok": 2}}}
     for count, agree in (({"ok": 2}, True), ({"ok": 1, "inaccurate": 1}, False)):

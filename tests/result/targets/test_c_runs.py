@@ -159,6 +159,7 @@ def test_integrators_that_are_not_printed_are_refused(keys, sentence, tmp_path):
     assert sentence in str(error.value)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "step", "coordinates"),

@@ -223,6 +223,7 @@ def error_of(kind: str, step: float, **settings: Any) -> float:
     return float(np.abs(found - reference(kind)).max())
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast(
     "force-abm4",
     "square wave-sdirk",

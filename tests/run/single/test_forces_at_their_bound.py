@@ -10,6 +10,7 @@ CASES = list(cases())
 OTHERS = of_today(((case, run) for run in RUNS if run != "dop853" for case in CASES), 5)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast(
     "start/constant/linear",
     "start/constant/falling",

@@ -263,6 +263,7 @@ def test_four_pins_rub_by_their_reactions() -> None:
 # -- rows of sweeps ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "joint")])
 def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coordinates: str) -> None:
