@@ -106,6 +106,12 @@ def pytest_collection_finish() -> None:
     gc.set_threshold(*COLLECTIONS)
 
 
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Name the day by which cases were chosen where something failed."""
+    if terminalreporter.stats.get("failed") or terminalreporter.stats.get("error"):
+        terminalreporter.write_line(f"cases of the day: SYMGEN_TEST_DAY={os.environ['SYMGEN_TEST_DAY']}")
+
+
 def pytest_unconfigure() -> None:
     """Remove the cache that this process made."""
     for path in _made:
