@@ -98,6 +98,7 @@ def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
     assert energy[-1] < -0.4
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("windows", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(windows):
@@ -286,6 +287,7 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast("scipy-bdf-0.001-None", "scipy-lsoda-0.001-None", "of stress studies-0.001-None")
 @pytest.mark.parametrize(
     ("solver", "w", "max_step"),

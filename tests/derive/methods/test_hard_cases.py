@@ -118,6 +118,7 @@ def test_singular_positions(method):
         assert set(found.statuses) == {"ok"} and np.median(found.errors) < 1e-6
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("method", "windows"), [(method, 1 + i % 2) for i, method in enumerate(METHODS.names)])
 def test_singular_positions_by_every_method(method, windows):
