@@ -20,7 +20,7 @@ CASES = (
     ("pendulum", KINDS[1:5]),
     ("everything", KINDS[:1]),
     ("rough", KINDS[:1]),
-    ("four-bar", of_today((name for name in METHODS if name not in KINDS), 3)),
+    ("slider-crank", of_today((name for name in METHODS if name not in KINDS), 3)),
     ("rolling-disc", KINDS[5:]),
 )
 
