@@ -52,7 +52,7 @@ def test_hard_chains_in_all_kinds_of_runs(name: str) -> None:
     assert len(verdicts) == len(ALL)
 
 
-@pytest.mark.by_turns(2)
+@pytest.mark.by_turns(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_mechanisms(kind: str) -> None:
