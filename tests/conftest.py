@@ -5,6 +5,7 @@ Worker processes of pytest-xdist inherit it through the environment. SYMGEN_TEST
 
 from __future__ import annotations
 
+import datetime
 import gc
 import os
 import shutil
@@ -30,6 +31,9 @@ providers._get_local_constants = lambda: providers._local_constants
 # Hundreds of tests start processes, each of which would compile the sources of all it imports: half of its time.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# The day by which `support.rotation` chooses cases: one for all workers, also where a session runs past midnight.
+os.environ.setdefault("SYMGEN_TEST_DAY", str(datetime.datetime.now(tz=datetime.UTC).date().toordinal()))
 
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
@@ -71,9 +75,28 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             if (case in marker.args) == (name == "slow_cases"):
                 item.add_marker("slow")
             named.setdefault(place, set(marker.args)).discard(case)
+    if any("::" in word for word in config.args):  # where one case is asked for, others are absent
+        return
     for place, unknown in named.items():
-        if unknown and not any("::" in word for word in config.args):  # where one case is asked for, others are absent
+        if unknown:
             raise pytest.UsageError(f"{place}: no case is called {', '.join(sorted(unknown))}")
+    _take_turns(config, items)
+
+
+def _take_turns(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the slow cases of tests marked `by_turns` that have their turn on another day."""
+    from support.rotation import of_today  # behind the choice of the day
+
+    cases: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        if item.get_closest_marker("by_turns") and item.get_closest_marker("slow"):
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    others: set[pytest.Item] = set()
+    for own in cases.values():
+        others.update(set(own) - set(of_today(own, own[0].get_closest_marker("by_turns").args[0])))
+    if others:
+        config.hook.pytest_deselected(items=[item for item in items if item in others])
+        items[:] = [item for item in items if item not in others]
 
 
 def pytest_collection_finish() -> None:
@@ -81,6 +104,12 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(*COLLECTIONS)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Name the day by which cases were chosen where something failed."""
+    if terminalreporter.stats.get("failed") or terminalreporter.stats.get("error"):
+        terminalreporter.write_line(f"cases of the day: SYMGEN_TEST_DAY={os.environ['SYMGEN_TEST_DAY']}")
 
 
 def pytest_unconfigure() -> None:

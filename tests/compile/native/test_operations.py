@@ -147,7 +147,7 @@ def test_random_programs(tmp_path_factory, program):
 
 @pytest.mark.slow
 @given(program=programs())
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck), database=None)
+@settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck), database=None)
 def test_more_random_programs(tmp_path_factory, program):
     assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
 

@@ -116,15 +116,14 @@ def test_impacts_of_a_ball_accumulate(tmp_path):
     assert transitions[-1][0] == pytest.approx(fall * (1.0 + 0.7) / (1.0 - 0.7), abs=1e-5)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "until", "step", "coordinates"),
     [
-        (DOOR, 4.0, 1e-3, "absolute"),
         (DOOR, 4.0, 1e-3, "joint"),
         (ROPE, 2.0, 1e-3, "absolute"),
         ("toggle-press", 0.4, 2e-4, "absolute"),
-        ("toggle-press", 0.4, 2e-4, "joint"),
         ("dry-four-bar", 8.0, 1e-3, "joint"),
     ],
 )

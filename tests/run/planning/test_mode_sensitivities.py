@@ -153,7 +153,7 @@ def test_the_dry_four_bar(coordinates):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "seed", "until"),
-    [*((chain, seed, 1.0) for seed in (1, 3, 4, 7, 8)), *((loop, seed, 2.0) for seed in (0, 2, 3, 6, 7))],
+    [*((chain, seed, 1.0) for seed in (1, 7)), *((loop, seed, 2.0) for seed in (0, 6))],
 )
 def test_random_chains_and_loops(tmp_path, make, seed, until):
     text, names = make(seed)
