@@ -5,7 +5,6 @@ Worker processes of pytest-xdist inherit it through the environment. SYMGEN_TEST
 
 from __future__ import annotations
 
-import datetime
 import gc
 import os
 import shutil
@@ -32,8 +31,8 @@ providers._get_local_constants = lambda: providers._local_constants
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
-# The day by which `support.rotation` chooses cases: one for all workers, also where a session runs past midnight.
-os.environ.setdefault("SYMGEN_TEST_DAY", str(datetime.datetime.now(tz=datetime.UTC).date().toordinal()))
+# The turn by which `support.rotation` chooses cases: the same ones every time unless another one, or all, is asked for.
+os.environ.setdefault("SYMGEN_TEST_TURN", "0")
 
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
@@ -84,8 +83,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def _take_turns(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the slow cases of tests marked `by_turns` that have their turn on another day."""
-    from support.rotation import of_today  # behind the choice of the day
+    """Leave out the slow cases of tests marked `by_turns` that belong to another turn."""
+    from support.rotation import of_turn  # behind the choice of the turn
 
     cases: dict[str, list[pytest.Item]] = {}
     for item in items:
@@ -93,7 +92,7 @@ def _take_turns(config: pytest.Config, items: list[pytest.Item]) -> None:
             cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
     others: set[pytest.Item] = set()
     for own in cases.values():
-        others.update(set(own) - set(of_today(own, own[0].get_closest_marker("by_turns").args[0])))
+        others.update(set(own) - set(of_turn(own, own[0].get_closest_marker("by_turns").args[0])))
     if others:
         config.hook.pytest_deselected(items=[item for item in items if item in others])
         items[:] = [item for item in items if item not in others]
@@ -104,12 +103,6 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(*COLLECTIONS)
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Name the day by which cases were chosen where something failed."""
-    if terminalreporter.stats.get("failed") or terminalreporter.stats.get("error"):
-        terminalreporter.write_line(f"cases of the day: SYMGEN_TEST_DAY={os.environ['SYMGEN_TEST_DAY']}")
 
 
 def pytest_unconfigure() -> None:

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from support.emitted import mechanism_of
 from support.models import parallelogram
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.api import load
 from symgen.derive.lower.looped.forms import form_key
@@ -34,15 +34,15 @@ COUNTS = 0.2
 FAST = "slider-crank"
 OWN = ("four-bar", "spatial-slider-crank", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial")
 OTHERS = (*OWN, "n-four-bar:3", *(name for name in catalogue.names() if name not in (FAST, *OWN)))
-TODAY = of_today(OTHERS, 3)
-MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in TODAY)]
+OF_TURN = of_turn(OTHERS, 3)
+MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in OF_TURN)]
 
 
 def of_all(module: str, mechanism: str = FAST) -> dict[str, dict[str, float]]:
     """Return the differences of a mechanism and those that share its process."""
     if mechanism == FAST:
         return differences(module, (FAST,))
-    return differences(module, tuple(f"-{name}" for name in (FAST, *OTHERS) if name not in TODAY))
+    return differences(module, tuple(f"-{name}" for name in (FAST, *OTHERS) if name not in OF_TURN))
 
 
 @cache

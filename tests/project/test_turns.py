@@ -1,22 +1,22 @@
-"""Cases that take turns: in so many days each has its own, and all of them where all are asked for."""
+"""Cases that take turns: each belongs to one, and all of them run where all are asked for."""
 
 from types import SimpleNamespace
 
 import conftest
 import pytest
-from support.rotation import DAY, of_today
+from support.rotation import TURN, of_turn
 
 
-@pytest.mark.parametrize("days", [1, 2, 3, 7])
-def test_each_case_has_one_day(days, monkeypatch):
+@pytest.mark.parametrize("turns", [1, 2, 3, 7])
+def test_each_case_has_one_turn(turns, monkeypatch):
     cases = list("abcdefghij")
     found = []
-    for day in range(739_000, 739_000 + days):
-        monkeypatch.setenv(DAY, str(day))
-        found += of_today(cases, days)
+    for turn in range(turns):
+        monkeypatch.setenv(TURN, str(turn))
+        found += of_turn(cases, turns)
     assert sorted(found) == cases
-    monkeypatch.setenv(DAY, "all")
-    assert of_today(iter(cases), days) == cases
+    monkeypatch.setenv(TURN, "all")
+    assert of_turn(iter(cases), turns) == cases
 
 
 class Item:
@@ -29,9 +29,11 @@ class Item:
         return self.markers.get(name)
 
 
-@pytest.mark.parametrize(("day", "left"), [("0", ["a", "c", "f", "s"]), ("1", ["b", "f", "s"]), ("all", list("abcfs"))])
-def test_fast_cases_and_tests_without_the_mark_are_there_every_day(day, left, monkeypatch):
-    monkeypatch.setenv(DAY, day)
+@pytest.mark.parametrize(
+    ("turn", "left"), [("0", ["a", "c", "f", "s"]), ("1", ["b", "f", "s"]), ("all", list("abcfs"))]
+)
+def test_fast_cases_and_tests_without_the_mark_are_there_in_every_turn(turn, left, monkeypatch):
+    monkeypatch.setenv(TURN, turn)
     mark, slow = SimpleNamespace(args=(2,)), SimpleNamespace(args=())
     items = [Item(f"test.py::test[{name}]", by_turns=mark, slow=slow) for name in "abc"]
     items += [Item("test.py::test[f]", by_turns=mark), Item("test.py::other[s]", slow=slow)]

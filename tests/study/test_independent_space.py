@@ -5,12 +5,12 @@ import pytest
 from support.checks import close
 from support.emitted import Emitted, mechanism_of
 from support.random_space import make
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.study.references.independent import IndependentEquations
 
-#: All kinds of joints and forces, a third of them each day.
+#: All kinds of joints and forces, a third of them in a turn.
 GROUPS = [
     (("revolute", "spherical"), ("force",)),
     (("translational", "distance"), ("spring-damper",)),
@@ -55,7 +55,7 @@ def regular(joints, forces):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("joints", "forces"), of_today(GROUPS, 3), ids=lambda kinds: "-".join(kinds) or "none")
+@pytest.mark.parametrize(("joints", "forces"), of_turn(GROUPS, 3), ids=lambda kinds: "-".join(kinds) or "none")
 def test_rows_and_accelerations_are_those_emitted(joints, forces):
     mechanism, emitted, found, rng, (t, q, v) = regular(joints, forces)
     values = {p.name: p.value for p in mechanism.parameters}

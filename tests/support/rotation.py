@@ -1,4 +1,4 @@
-"""Long lists of cases that prove the same of many mechanisms: a share of them each day, and all of them in turn."""
+"""Long lists of cases that prove the same of many mechanisms: a share of them in a turn, and all of them on request."""
 
 import os
 from collections.abc import Iterable
@@ -6,19 +6,25 @@ from typing import TypeVar
 
 Case = TypeVar("Case")
 
-#: Names the day for all workers of a session: a number, which `tests/conftest.py` takes from the calendar, or `all`.
-DAY = "SYMGEN_TEST_DAY"
+#: Names the turn for all workers of a session: a number, 0 unless given, or `all`.
+TURN = "SYMGEN_TEST_TURN"
 
 
-def of_today(cases: Iterable[Case], days: int) -> list[Case]:
-    """Return the cases whose turn it is.
+def of_turn(cases: Iterable[Case], turns: int) -> list[Case]:
+    """Return the cases of the turn.
 
     Parameters
     ----------
     cases : iterable
         All cases, in an order that does not change.
-    days : int
-        In so many days each case has its turn.
+    turns : int
+        In so many turns each case has its own.
     """
-    listed, day = list(cases), os.environ[DAY]
-    return listed if day == "all" else listed[int(day) % days :: days]
+    listed, turn = list(cases), os.environ[TURN]
+    return listed if turn == "all" else listed[number_of_turn() % turns :: turns]
+
+
+def number_of_turn() -> int:
+    """Return the number of the turn, 0 where all cases are asked for."""
+    turn = os.environ[TURN]
+    return 0 if turn == "all" else int(turn)

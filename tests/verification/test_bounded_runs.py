@@ -5,7 +5,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from benchmarks.bounded.chains import HARD, hard
 from benchmarks.bounded.compare import ROWS, RUNS, Reference, Verdict, compared, examined, judged, reference
@@ -44,7 +44,7 @@ def test_friction_goes_on_where_a_rate_passes_zero_beside_one_at_rest() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", of_today(HARD, 2))
+@pytest.mark.parametrize("name", of_turn(HARD, 2))
 def test_hard_chains_in_all_kinds_of_runs(name: str) -> None:
     """All kinds beside one reference, which takes most of the time."""
     verdicts = examined(hard(name), ALL, HARD[name])[1]

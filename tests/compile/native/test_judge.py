@@ -6,7 +6,7 @@ and behind a cancellation in any.
 """
 
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.derive.methods import METHODS
 
@@ -14,18 +14,18 @@ from .twofold import apart
 
 #: Methods of every kind of law and correction, each with a model that needs them.
 KINDS = ("lagrange", "augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl", "direct-correction")
-#: Models with all kinds of elements, and every other method in some days, as most of their functions are those of
-#: another method. Numba compiles all of them: half of the cases have their turn each day.
+#: Models with all kinds of elements, and every other method in some turn, as most of their functions are those of
+#: another method. Numba compiles all of them: half of the cases run in a turn.
 CASES = (
     ("pendulum", KINDS[1:5]),
     ("everything", KINDS[:1]),
     ("rough", KINDS[:1]),
-    ("slider-crank", of_today((name for name in METHODS if name not in KINDS), 3)),
+    ("slider-crank", of_turn((name for name in METHODS if name not in KINDS), 3)),
     ("rolling-disc", KINDS[5:]),
 )
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("model", "methods"), [pytest.param(*case, id=case[0]) for case in of_today(CASES, 2)])
+@pytest.mark.parametrize(("model", "methods"), [pytest.param(*case, id=case[0]) for case in of_turn(CASES, 2)])
 def test_functions_are_numbas(model, methods):
     assert apart(model, *methods) == ""

@@ -8,7 +8,7 @@ import json
 import msgspec
 import numpy as np
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.base.errors import InputError
 from symgen.compile.native.language import ScalarOperation
@@ -114,7 +114,7 @@ def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_refused(tmp_path, m
 
 
 #: Loops, and a model, a method and an integrator that enter each. Numba compiles them once more, which takes most of a
-#: minute each: these few have every construct of all loops, and one of them is compiled each day. Exact solutions
+#: minute each: these few have every construct of all loops, and one of them is compiled in a turn. Exact solutions
 #: prove that all loops do what they should.
 CASES = {
     ("explicit", "adaptive"): ("four-bar", "direct-correction", "dop853"),
@@ -141,7 +141,7 @@ def compared(shape, *words):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("loop", of_today(CASES, 4), ids="-".join)
+@pytest.mark.parametrize("loop", of_turn(CASES, 4), ids="-".join)
 def test_runs_are_numbas(loop):
     compared("straight", *CASES[loop])
 

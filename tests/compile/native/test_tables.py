@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from support.golden import LOOPED, emitted_looped, written
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.compile.native import types
 from symgen.compile.native.language import ArrayView, Assign, Evaluate, Invoke, ScalarOperation, Variable
@@ -119,8 +119,8 @@ CASES = {
 }
 
 
-@pytest.mark.slow  # Numba compiles all of looped code once more, another case on another day
-@pytest.mark.parametrize("case", of_today(CASES, 3))
+@pytest.mark.slow  # Numba compiles all of looped code once more, another case in another turn
+@pytest.mark.parametrize("case", of_turn(CASES, 3))
 def test_runs_of_looped_code_are_numbas(case):
     compared("looped", *CASES[case])
 

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.describe.catalogue import names
 
@@ -37,9 +37,9 @@ for name in sys.argv[1:]:
 """
 
 
-#: All methods for the first; a quarter of the others each day.
+#: All methods for the first; a quarter of the others in a turn.
 FIRST = "four-bar"
-CHOSEN = (FIRST, *of_today((name for name in names() if name != FIRST), 4))
+CHOSEN = (FIRST, *of_turn((name for name in names() if name != FIRST), 4))
 
 
 def start(cwd=None, **variables):

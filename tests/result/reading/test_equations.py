@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 from support.emitted import Emitted, mechanism_of
 from support.models import EVERYTHING, ROUGH
-from support.rotation import of_today
+from support.rotation import of_turn
 
 import symgen
 from symgen.base.errors import InputError
@@ -99,7 +99,7 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), of_today(product(catalogue.all_names(), ("absolute", "joint")), 3))
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(product(catalogue.all_names(), ("absolute", "joint")), 3))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load(name)
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)

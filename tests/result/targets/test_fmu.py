@@ -10,7 +10,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 from support.emitted import mechanism_of
 from support.locks import LOCKED, parts
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen import Settings, load
 from symgen.base.errors import InputError
@@ -302,7 +302,7 @@ def test_units_are_products_of_base_units(unit, exponents):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "fmi"), of_today([(name, 2 + i % 2) for i, name in enumerate(NAMES)], 3))
+@pytest.mark.parametrize(("name", "fmi"), of_turn([(name, 2 + i % 2) for i, name in enumerate(NAMES)], 3))
 def test_the_whole_catalogue(name, fmi, tmp_path):
     model = load(name)
     path = fmu_of(model, tmp_path / "model.fmu", fmi=fmi, coordinates="auto")

@@ -23,7 +23,7 @@ import fmpy
 import pytest
 import xarray as xr
 from support.emitted import mechanism_of
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
@@ -196,8 +196,8 @@ def same_xml(one: str, other: str) -> ElementTree.Element:
 
 
 def titles(*few: str):
-    """Parameters of a test: some titles, and in the slow run the others, a third of them each day."""
-    others = of_today((title for title in TITLES if title not in few), 3)
+    """Parameters of a test: some titles, and in the slow run the others, a third of them in a turn."""
+    others = of_turn((title for title in TITLES if title not in few), 3)
     return [
         *(pytest.param(title, id=f"title{TITLES.index(title)}") for title in few),
         *(pytest.param(title, id=f"title{TITLES.index(title)}", marks=pytest.mark.slow) for title in others),
@@ -264,7 +264,7 @@ def printed_by_c(folder: Path) -> bytes:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("title", "fmi"), of_today([(title, str(2 + i % 2)) for i, title in enumerate(TITLES)], 3))
+@pytest.mark.parametrize(("title", "fmi"), of_turn([(title, str(2 + i % 2)) for i, title in enumerate(TITLES)], 3))
 def test_fmu(title, fmi, honest, tmp_path):
     words = ("generate", "--target", "fmu", "--fmi", fmi, "swing.fmu")
     files = [honest(*words), written(hostile_file(tmp_path, title), *words)]
@@ -354,7 +354,7 @@ def test_saved_runs_and_terminals(title, tmp_path, capsys):
 @pytest.mark.slow
 def test_reports():
     """Titles, reasons and notes: a journal may be of somebody else."""
-    texts = [" ".join(TEXTS), *of_today(TITLES, 5)]
+    texts = [" ".join(TEXTS), *of_turn(TITLES, 5)]
     made = [
         comparison(
             [

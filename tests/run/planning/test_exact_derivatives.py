@@ -7,7 +7,7 @@ import types
 import mpmath as mp
 import numpy as np
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 import symgen
 from symgen import Settings
@@ -184,8 +184,8 @@ def test_derivatives_are_those_of_the_run_that_was_made(method):
     assert largest_difference("four-bar", MASSES, method, "rk4", 10) < 1e-11
 
 
-#: Each method with an integrator, as neither knows of the other, and with the next one on another day.
-PAIRS = of_today(
+#: Each method with an integrator, as neither knows of the other, and with the next one in another turn.
+PAIRS = of_turn(
     (
         (method, integrator)
         for method in METHODS.names

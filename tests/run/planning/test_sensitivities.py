@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 import symgen
 from symgen import InputError
@@ -336,7 +336,7 @@ def test_mechanisms_of_the_catalogue(name, number, quantity, settings, coordinat
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", of_today(ODE, 3))
+@pytest.mark.parametrize("method", of_turn(ODE, 3))
 def test_every_method_that_explicit_schemes_solve(method):
     four_bar = symgen.load("four-bar")
     limits = {"max_violation": 1.0, "max_energy_error": 1e3}

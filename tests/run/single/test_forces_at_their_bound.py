@@ -1,13 +1,13 @@
 """Forces that are exactly at their bound at a start, behind a reset or `set`, or where an input jumps: closed forms."""
 
 import pytest
-from support.rotation import of_today
+from support.rotation import of_turn
 
 from benchmarks.bounded.margins import RUNS, Case, cases, examined
 
 CASES = list(cases())
-#: All cases in all other kinds of runs, a fifth of them each day.
-OTHERS = of_today(((case, run) for run in RUNS if run != "dop853" for case in CASES), 5)
+#: All cases in all other kinds of runs, a fifth of them in a turn.
+OTHERS = of_turn(((case, run) for run in RUNS if run != "dop853" for case in CASES), 5)
 
 
 @pytest.mark.by_turns(3)
