@@ -181,7 +181,7 @@ class Preparation:
         assembled = assembled or code_and_start(self.plan, self.near, code)
         if shared is not None:
             shared[self.plan.key] = assembled
-        return begin(self.plan, assembled)
+        return prepared_run(self.plan, assembled)
 
 
 @uncollected()
@@ -251,7 +251,7 @@ def preparation(
     chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
     same = assembled if chosen.choice == plan.choice else None
     if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:
-        facts = replace(facts, slow=slow_steps(begin(chosen, same)))
+        facts = replace(facts, slow=slow_steps(prepared_run(chosen, same)))
         if facts.slow > SLOW:
             _, integrator, notes = automatic_choice(facts, settings.method, settings.integrator)
             notes = *gains, *notes
@@ -326,7 +326,7 @@ def code_and_start(plan: Plan, near: Array | None = None, code: Code = compiled_
     return Assembled(tree.compiled, tree.start, tree)
 
 
-def begin(plan: Plan, assembled: Assembled) -> Prepared:
+def prepared_run(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
     run = Prepared(plan, noted(plan, assembled), plan.spec)
     if plan.purpose in (Purpose.STATE, Purpose.DESCRIBED):

@@ -14,7 +14,7 @@ from fmpy.validation import validate_fmu
 import symgen
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel
-from symgen.result.targets.fmu import files_of
+from symgen.result.targets.fmu import fmu_files
 from tests.result.targets.test_c_modes import DOOR, loaded, transitions_of
 from tests.result.targets.test_fmu import fmu_of
 from tests.run.single.test_clutches import CLUTCH
@@ -101,7 +101,7 @@ def assert_same_motion(model, rows, until, error, coordinates="absolute", parame
 def test_margins_of_modes_are_event_indicators(tmp_path):
     text = "[mechanism]\nname = 'rail'\n[bodies.b]\ntype = 'point'\nmass = 1.0\n[joints.rail]\ntype = 'rows'\n"
     model = loaded(text + "rows = [{ position = 'b.y' }]\n[stops.wall]\ngap = '1.0 - b.x'\n", tmp_path)
-    files = files_of(CModel.of(Request(model.mechanism, tmp_path / "rail.fmu"), "fmu"), 3)
+    files = fmu_files(CModel.of(Request(model.mechanism, tmp_path / "rail.fmu"), "fmu"), 3)
     description = files["modelDescription.xml"].decode()
     for name in ("event.wall.hit", "event.wall.leave", "event.choice_of_states"):
         assert f'name="{name}"' in description
