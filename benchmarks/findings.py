@@ -18,6 +18,7 @@ from benchmarks import (
     beside_tools,
     coordinates,
     equal_error,
+    identification,
     literature,
     long,
     picard,
@@ -39,7 +40,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
-        *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
+        *(equal_error.page_table(), statistics.page_table(), identification.page_table(), *beside_tools.tables()),
     )
 
 
