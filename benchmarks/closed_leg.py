@@ -23,6 +23,8 @@ def leg() -> symgen.Model:
     """Return the leg."""
     builder = (
         symgen.MechanismBuilder("leg", gravity=(0.0, -9.81))
+        .input("hip", 0.0, unit="N m")
+        .input("knee", 0.0, unit="N m")
         .body("thigh", mass=1.0, inertia=0.02, points={"hip": (-0.2, 0.0), "knee": (0.2, 0.0)}, angle=-0.9)
         .body(
             "shank",
@@ -38,6 +40,8 @@ def leg() -> symgen.Model:
         .joint("lever_pin", "revolute", between=("ground", "lever"), at=((0.0, 0.0), "hip"))
         .joint("rod_top", "revolute", between=("lever", "rod"), at=("rod", "lever"))
         .joint("rod_end", "revolute", between=("rod", "shank"), at=("shank", "rod"), cut=True)
+        .force("hip_motor", "torque", body="thigh", torque="hip")
+        .force("knee_motor", "torque", body="lever", torque="knee")
     )
     return symgen.load(builder.build())
 
