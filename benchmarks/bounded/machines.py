@@ -40,9 +40,7 @@ class Machine:
 
 MACHINES = {
     "press": Machine("press.toml", "m", (4.0, 6.0), "guide.lower.leave", ("A", "knee", "B"), 0.5),
-    "bucket": Machine(
-        "bucket.toml", "dig", (17e3, 23e3), "cylinder.lower.leave", ("A", "B", "C", "D", "E", "F"), 40.0
-    ),
+    "bucket": Machine("bucket.toml", "dig", (17e3, 23e3), "cylinder.lower.leave", ("A", "B", "C", "D", "E", "F"), 40.0),
 }
 #: Settings of runs by name; `picard` is the default's.
 SETTINGS: dict[str, dict[str, Any]] = {
