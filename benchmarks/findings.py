@@ -18,6 +18,7 @@ from benchmarks import (
     beside_tools,
     coordinates,
     equal_error,
+    functions,
     identification,
     literature,
     long,
@@ -41,6 +42,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
         *(equal_error.page_table(), statistics.page_table(), identification.page_table(), *beside_tools.tables()),
+        *functions.tables(),
     )
 
 

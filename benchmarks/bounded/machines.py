@@ -40,9 +40,7 @@ class Machine:
 
 MACHINES = {
     "press": Machine("press.toml", "m", (4.0, 6.0), "guide.lower.leave", ("A", "knee", "B"), 0.5),
-    "bucket": Machine(
-        "bucket.toml", "load", (200.0, 400.0), "cylinder.lower.leave", ("A", "B", "C", "D", "E", "F"), 40.0
-    ),
+    "bucket": Machine("bucket.toml", "dig", (17e3, 23e3), "cylinder.lower.leave", ("A", "B", "C", "D", "E", "F"), 40.0),
 }
 #: Settings of runs by name; `picard` is the default's.
 SETTINGS: dict[str, dict[str, Any]] = {
@@ -69,12 +67,15 @@ class Found:
         Single runs that did not leave.
     differences : float
         Largest second difference of the times at which single runs left [s].
+    span : float
+        How far these times are apart [s]: what varies has to matter.
     """
 
     statuses: Mapping[str, int]
     reasons: Sequence[str]
     never: int
     differences: float
+    span: float
 
 
 def text(machine: Machine, dry: bool) -> str:
@@ -116,7 +117,7 @@ def examined(
     differences = np.abs(np.diff(known, 2))
     largest = float(np.nanmax(differences)) if np.isfinite(differences).any() else float("nan")
     reasons = [reason for reason, _ in why.most_common(2) if reason]
-    return Found(statuses, reasons, int(np.isnan(known).sum()), largest)
+    return Found(statuses, reasons, int(np.isnan(known).sum()), largest, float(np.nanmax(known) - np.nanmin(known)))
 
 
 def main() -> int:

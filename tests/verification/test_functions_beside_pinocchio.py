@@ -5,6 +5,7 @@ import pinocchio as pin
 import pytest
 from support.recursion import random_robot, urdf
 
+from benchmarks.functions import LEG, batches, timed
 from symgen.api import load
 
 ROBOTS = {
@@ -54,6 +55,15 @@ def test_robots_are_pinocchios(name, tmp_path):
             assert apart(ours.velocity(q, v), pin.getFrameVelocity(other, data, frame, axes).vector) < 1e-12
         rate = pin.getFrameClassicalAcceleration(other, data, frame, world).vector
         assert apart(tool.jacobian_rate(q, v), rate) < 1e-12
+
+
+@pytest.mark.slow
+def test_a_closed_leg_has_the_accelerations_of_other_programs():
+    velocities, table, apart_from = batches(LEG)
+    assert velocities == 4 and {"pinocchio", "mujoco, alone"} < set(table["forward_dynamics"])
+    assert apart_from["pinocchio"] < 1e-12 and apart_from["mujoco"] < 1e-3  # its connection is soft
+    for row in table.values():
+        assert all(times["us"] > 0.0 and len(times["over"]) == 3 for times in timed(row, rounds=2).values())
 
 
 def apart(value, exact):

@@ -117,12 +117,12 @@ class Advance:
             if not loop.is_ahead(until):
                 return None
             self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_attempts
-        began = 0.0
+        began, further = 0.0, False
         try:
             while True:
                 self._until = until
                 self.unsure = True
-                code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most)
+                code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most, further)
                 if code == _DONE:
                     self.unsure = False
                     return None
@@ -133,7 +133,7 @@ class Advance:
                     return record_of(loop.compiled.info, event)
                 if code != abi.PAUSED:
                     self.fail(code)
-                self.unsure = False
+                self.unsure, further = False, True
                 now = time.perf_counter()
                 if began > 0.0:
                     more = self._steps_at_once * PATIENCE / max(now - began, 1e-9)

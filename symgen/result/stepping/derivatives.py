@@ -148,7 +148,7 @@ class StepDirections:
             self._refuse_jumps(t, until)
         outputs, left_out, taken = self.outputs
         if self.is_straight:
-            a, b, c = self._straight(until)
+            a, b, c = self._straight(until, first)
         else:
             again = self._again
             again.span = loop.span
@@ -207,12 +207,18 @@ class StepDirections:
         slopes, taken = one.slopes[0], self.outputs[2]
         return slopes[:, :n], slopes[:, n : n + len(self.inputs)], one.by_outputs[0][:, :n] if taken else None
 
-    def _straight(self, until: float) -> tuple[Array, Array, Array]:
-        """Return A, B and C of the last piece."""
-        one = self._one
+    def _straight(self, until: float, first: Array | None) -> tuple[Array, Array, Array]:
+        """Return A, B and C of the last piece, from a first copy where there is one."""
+        one, copy = self._one, self._loop.snapshot.copy
+        latest = None if first is None else copy.copy()
+        if first is not None:
+            copy[:] = first
         if self._loop.spec.adaptive:
             self._directed.rescale(self._before)
-        if one.made(self._loop.span, until) != abi.DONE:
+        code = one.made(self._loop.span, until)
+        if latest is not None:
+            copy[:] = latest
+        if code != abi.DONE:
             raise InputError(WHERE, "a step that is the same once more", "another one")
         (a, b, c), (_, left_out, taken) = self._results, self.outputs
         if c is None:

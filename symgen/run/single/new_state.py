@@ -141,7 +141,7 @@ class Snapshot:
     rows : int
         Count of numbers of the table of passages in the copy.
     first : Array or None
-        The first copy of the last piece of the run, where events inside have made others since.
+        The first copy of the last piece of the run, where events or pauses inside have made others since.
     """
 
     first: Array | None = None

@@ -289,13 +289,17 @@ class Simulation:
         self.setup, self._prepared = replace(self.setup, loop=loop), None
         self.__dict__.pop("_entry", None)
 
-    def go(self, until: float, pause: float, most: float | None = None) -> int:
+    def go(self, until: float, pause: float, most: float | None = None, further: bool = False) -> int:
         """Continue as `enter` does, without outputs and by the shortest way, so that a step from Python is cheap.
 
-        The state before is saved, see `go_back`.
+        The state before is saved, see `go_back`; `further` goes on with a piece of the run that was left at a pause.
         """
         self._begin_modes()
         entry, snapshot = self._entry, self.snapshot
+        if further:
+            snapshot.keep()
+        else:
+            snapshot.first = None
         if entry is None or not self.direct:
             snapshot.take(self.scheme)
             return self.enter(self._nothing, until, pause, most)
@@ -303,7 +307,6 @@ class Simulation:
             snapshot.take(self.scheme)
         else:
             snapshot.rows = 0
-        snapshot.first = None
         most = self.span.most if most is None else most
         while True:
             if not entry.has(self.scheme, self.span):

@@ -211,6 +211,16 @@ def test_an_implicit_step_has_its_derivatives():
     compare(found, after, np.eye(4), {"push": 0.3}, 3e-3, 1e-11)
 
 
+@pytest.mark.parametrize("name", ["smooth", "stopped"])
+def test_a_step_that_is_made_in_pieces_has_the_derivatives_of_the_whole(name):
+    model, h = (cart(), 3e-3) if name == "smooth" else (rubbed(1.0, 0.05), 1e-5)
+    run, _, found, after = made(model, {"coordinates": "joint", "integrator": "rk4", "step": 1e-3}, 0.25, 0)
+    assert found.t == 0.0 and found.dt == 0.25 and bool(run.events) == (name == "stopped")
+    push = run.parameters["push"]
+    slope = difference(lambda x: after(None, {"push": push + x}), h)
+    assert np.abs(found.B[:, 0] - slope).max() < 1e-9 < 1e-4 < np.abs(slope).max()
+
+
 @pytest.mark.slow
 def test_an_adaptive_run_has_derivatives_of_its_steps():
     run = cart().start(coordinates="joint", integrator="dop853", rtol=1e-12, atol=1e-12)
