@@ -27,6 +27,7 @@ from benchmarks import (
     statistics,
     stiff,
     stress_cells,
+    stress_quick,
 )
 from benchmarks.page_tables import ROOT, PageTable, missing, written
 
@@ -39,6 +40,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
+        *stress_quick.tables().values(),
         *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
     )
 
