@@ -40,7 +40,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
-        *stress_quick.tables().values(),
+        *(stress_quick.tables().values() if stress_quick.RECORD.lines() else ()),
         *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
     )
 

@@ -16,7 +16,7 @@ from symgen.base.errors import InputError, SimulationError
 from symgen.result.points import Points
 from symgen.study.journal import Journal
 from symgen.study.references.independent import IndependentEquations
-from symgen.study.references.motion import CompiledEquations, motion
+from symgen.study.references.motion import CompiledEquations, InterpretedEquations, motion
 from symgen.study.references.reference import reference
 from symgen.study.references.solvers import fastest_modes
 from symgen.study.stress.bench import Base, Level
@@ -92,6 +92,16 @@ type = "driver"
 joint = "rail"
 value = "0.1 + 0.05*sin(3*t)"
 """
+
+
+def test_interpreted_equations_are_the_compiled_ones_and_undefined_where_these_are():
+    mechanism = Base.of("slider-crank").stressed
+    values = {**symgen.load(mechanism).parameters(), "stress_stiffness": 300.0, "stress_mass": 3.0}
+    pair = [kind(mechanism, values) for kind in (CompiledEquations, InterpretedEquations)]
+    q, v = np.linspace(0.1, 0.9, 9), np.linspace(-1.0, 1.0, 9)
+    for compiled, interpreted in zip(*(equations.evaluate(0.2, q, v) for equations in pair), strict=True):
+        np.testing.assert_allclose(interpreted, compiled, rtol=1e-13, atol=1e-12)
+    assert np.isnan(pair[1].evaluate(0.2, np.full(9, np.inf), v)[0]).any()
 
 
 @pytest.mark.slow
