@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @click.option(
     "--cases",
     metavar="A,B",
-    help="Families of cases, such as stiffness,mass-ratio; by default all, with --quick families of the model alone.",
+    help="Families of cases, such as stiffness,mass-ratio; by default all, with --quick no mechanisms of their own.",
 )
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto by default.")
 @click.option("--quick", is_flag=True, help="A look in a minute: fewer cases, one integrator a method.")
