@@ -90,7 +90,8 @@ def stress(
     models : sequence of str or path
         Base models: catalogue entries or files; `DEFAULT_MODEL` by default.
     cases : sequence of str
-        Families (`symgen.study.stress.families.FAMILIES`); by default all, in a quick study without mechanisms of their own.
+        Families (`symgen.study.stress.families.FAMILIES`); by default all, in a quick study without families that have
+        mechanisms of their own.
     methods : sequence of str
         Methods, ``auto`` among them; all and ``auto`` by default.
     quick : bool
