@@ -74,8 +74,8 @@ def examine(job: Job, methods: Sequence[str] = METHODS.names) -> dict[str, Any]:
 
 
 def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
-    """Yield status and error of the runs of three methods beside those measured again."""
-    methods = dice.sample(sorted(stored["runs"]), 3)
+    """Yield status and error of the runs of a method beside those measured again."""
+    methods = dice.sample(sorted(stored["runs"]), 1)
     new = examine(Job(stored["mechanism"]), methods)["runs"]
     for method in methods:
         where = f"{stored['mechanism']}, {method}"
@@ -166,7 +166,7 @@ def tables() -> dict[str, PageTable]:
     return {"ends": ends(), "times": times()}
 
 
-RECORD = Record("all_methods", lambda: map(Job, MECHANISMS), examine, again, PATIENCE, share=0.2)
+RECORD = Record("all_methods", lambda: map(Job, MECHANISMS), examine, again, PATIENCE)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from benchmarks import (
     beside_tools,
     coordinates,
     equal_error,
+    identification,
     literature,
     long,
     picard,
@@ -41,7 +42,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
         *(stress_quick.tables().values() if stress_quick.RECORD.lines() else ()),
-        *(equal_error.page_table(), statistics.page_table(), *beside_tools.tables()),
+        *(equal_error.page_table(), statistics.page_table(), identification.page_table(), *beside_tools.tables()),
     )
 
 

@@ -26,7 +26,7 @@ from benchmarks.verification.workers import answers
 
 FOLDER = Path(__file__).with_name("records")
 #: Modules that have a record, by its name.
-NAMES = ("statistics", "equal_error", "all_methods", "beside_tools", "stress_cells", "stress_quick")
+NAMES = ("statistics", "equal_error", "all_methods", "beside_tools", "stress_cells", "stress_quick", "identification")
 #: Digits of stored numbers.
 DIGITS = 3
 

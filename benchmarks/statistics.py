@@ -322,7 +322,7 @@ RECORD = Record(
     examine,
     again,
     PATIENCE,
-    share=0.05,
+    share=0.02,
 )
 
 

@@ -31,6 +31,9 @@ providers._get_local_constants = lambda: providers._local_constants
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
+# The turn by which `support.rotation` chooses cases: the same ones every time unless another one, or all, is asked for.
+os.environ.setdefault("SYMGEN_TEST_TURN", "0")
+
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
 COLLECTIONS = (10_000, 20, 50)
@@ -71,9 +74,28 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             if (case in marker.args) == (name == "slow_cases"):
                 item.add_marker("slow")
             named.setdefault(place, set(marker.args)).discard(case)
+    if any("::" in word for word in config.args):  # where one case is asked for, others are absent
+        return
     for place, unknown in named.items():
-        if unknown and not any("::" in word for word in config.args):  # where one case is asked for, others are absent
+        if unknown:
             raise pytest.UsageError(f"{place}: no case is called {', '.join(sorted(unknown))}")
+    _take_turns(config, items)
+
+
+def _take_turns(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the slow cases of tests marked `by_turns` that belong to another turn."""
+    from support.rotation import of_turn  # behind the choice of the turn
+
+    cases: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        if item.get_closest_marker("by_turns") and item.get_closest_marker("slow"):
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    others: set[pytest.Item] = set()
+    for own in cases.values():
+        others.update(set(own) - set(of_turn(own, own[0].get_closest_marker("by_turns").args[0])))
+    if others:
+        config.hook.pytest_deselected(items=[item for item in items if item in others])
+        items[:] = [item for item in items if item not in others]
 
 
 def pytest_collection_finish() -> None:

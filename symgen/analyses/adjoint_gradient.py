@@ -24,7 +24,7 @@ from symgen.run.planning.moving_breaks import with_moving_kinks
 from symgen.run.planning.start_directions import StartDirections
 from symgen.run.single.adjoint import Adjoint, run_for_adjoint
 from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
-from symgen.run.single.directions import Course, Part, run_with_directions
+from symgen.run.single.directions import Course, DirectedPart, run_with_directions
 from symgen.run.single.kept_run import Uncovered
 
 if TYPE_CHECKING:
@@ -80,12 +80,14 @@ class EndDirections:
         """Return the end of a run with these directions."""
         outcome, ny, n = adjoint.outcome, self.compiled.info.ny, self.start.count
         seeds = Seeds(np.hstack([np.zeros((ny, n)), np.eye(ny)]), self.parameters(self.compiled))
-        model, parts = DirectedModel(self.compiled, lanes_of(n + ny)), list[Part]()
+        model, parts = DirectedModel(self.compiled, lanes_of(n + ny)), list[DirectedPart]()
         for first in range(0, seeds.count, model.lanes):
             own = seeds.part(first, model.lanes)
             p = model.parameters(outcome.p, own.p)
             state = model.longer(outcome.states[-1], "y", own.y)
-            parts.append(Part(model, replace(outcome, states=state[np.newaxis], p=p, w=model.scratch(p, outcome.w))))
+            parts.append(
+                DirectedPart(model, replace(outcome, states=state[np.newaxis], p=p, w=model.scratch(p, outcome.w)))
+            )
         return Course(outcome, tuple(parts), seeds.count)
 
 

@@ -14,7 +14,7 @@ from symgen.result.stepping.named import Named
 from symgen.run.loops import projection
 
 if TYPE_CHECKING:
-    from symgen.compile.native.array_entry import Block
+    from symgen.compile.native.array_entry import EntrySlots
     from symgen.run.compiling.functions import StateFunction
 
 Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ class _Converted:
 
     def __init__(self, function: StateFunction, default: Array, values: Callable[..., Array]) -> None:
         self.function, self.default, self.values = function, default, values
-        self.block: Block | None = None
+        self.block: EntrySlots | None = None
 
     def __call__(self, *given: Any, **named: Any) -> Any:
         function = self.function

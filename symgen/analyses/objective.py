@@ -21,7 +21,7 @@ from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.facts.lifted import lifted
 from symgen.describe.mechanism import Mechanism, Output
-from symgen.describe.parts.inputs import put
+from symgen.describe.parts.inputs import with_formulas
 from symgen.describe.parts.scope import Context, Scope
 from symgen.result.sensitivities import derivative_unit, place_of
 from symgen.run.layout import abi
@@ -224,5 +224,5 @@ def _with_output(where: str, mechanism: Mechanism, quantity: str) -> tuple[Mecha
     while any(name == output.name for output in mechanism.outputs):
         name += "_"
     output = Output(name, Scope(Context.of(mechanism), where).of_motion("", text))
-    outputs = (*mechanism.outputs, put(output, dict(mechanism.input_formulas)))
+    outputs = (*mechanism.outputs, with_formulas(output, dict(mechanism.input_formulas)))
     return msgspec.structs.replace(mechanism, outputs=outputs), name

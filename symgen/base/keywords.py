@@ -15,7 +15,7 @@ from symgen.base.plugins import in_sentences
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-class Ended(Protocol):
+class EndedRun(Protocol):
     """A run that another one continues: a result."""
 
     @property
@@ -28,7 +28,7 @@ class DrivenKeywords(TypedDict, total=False):
 
     parameters: Mapping[str, float]
     inputs: Mapping[str, Any]
-    start: Mapping[str, float] | Ended
+    start: Mapping[str, float] | EndedRun
     strict: bool
     shape: str
 
@@ -38,7 +38,7 @@ class StateKeywords(TypedDict, total=False):
 
     parameters: Mapping[str, float]
     inputs: Mapping[str, Any]
-    start: Mapping[str, float] | Ended
+    start: Mapping[str, float] | EndedRun
     coordinates: str
     shape: str
 

@@ -157,6 +157,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         return complain(_sentence(error), BAD_INPUT)
     except InputError as error:
+        from symgen.describe.files.problems import with_line
+
         return complain(with_line(error), error.exit_code)
     except SymgenError as error:
         return complain(str(error), error.exit_code)
@@ -179,15 +181,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if (failure := failure_of_plugin(error)) is None:
             raise
         return complain(str(failure), failure.exit_code)
-
-
-def with_line(error: InputError) -> str:
-    """Return the sentence of an error, with the line of the mechanism file that it is about."""
-    if error.file is None:
-        return str(error)
-    from symgen.describe.files.problems import with_line
-
-    return with_line(error)
 
 
 def complain(sentence: str, code: int) -> int:

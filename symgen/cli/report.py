@@ -48,7 +48,7 @@ def command(model: str, over: str, output: str | None, page: str | None, **value
     loaded = load(model)
     path = Path(output or f"{loaded.name}.html")
     check_report("--output", path)
-    player = None if page is None else beside(path, page)
+    player = None if page is None else page_beside(path, page)
     with Bar(loaded.name, settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
     tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
@@ -61,7 +61,7 @@ def command(model: str, over: str, output: str | None, page: str | None, **value
     return write_files(code, files, lambda file: click.echo(f"written: {file}{by if file == path else ''}"))
 
 
-def beside(report: Path, page: str) -> Path:
+def page_beside(report: Path, page: str) -> Path:
     """Return the file of ``--page``, which stands in the folder of the report, so that both can be moved together.
 
     Raises

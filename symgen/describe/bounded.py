@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Output
 
 
-class Family(msgspec.Struct, frozen=True):
+class RowFamily(msgspec.Struct, frozen=True):
     """Words for bounded rows of related kinds, in sentences on all that a mechanism has of them.
 
     Parameters
@@ -96,7 +96,7 @@ class BoundedRow(Protocol):
         ...
 
     @property
-    def family(self) -> Family:
+    def family(self) -> RowFamily:
         """Words for rows of its kind."""
         ...
 

@@ -18,7 +18,7 @@ from symgen.run.planning.prepare import Prepared
 from symgen.run.single.bounded_rows import CONSTANT, HELD, SIGN
 from symgen.run.single.directed_model import DirectedModel
 from symgen.run.single.directed_observer import Observer
-from symgen.run.single.directions import Course, Part
+from symgen.run.single.directions import Course, DirectedPart
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -65,13 +65,13 @@ class Evaluated:
             return tuple(self._own(part) for part in parts)
         return tuple(self._carried(part, k * part.model.lanes) for k, part in enumerate(parts))
 
-    def _own(self, part: Part) -> Observer:
+    def _own(self, part: DirectedPart) -> Observer:
         outcome, info = part.outcome, part.model.plain.info
         windings = outcome.status_columns[:, abi.N_STATUS : abi.N_STATUS + info.kept]
         pieces = (*outcome.held, (np.inf, outcome.p))
         return Observer(part.model, outcome.times, outcome.states, windings, pieces, outcome.w, part.modes)
 
-    def _carried(self, part: Part, first: int) -> Observer:
+    def _carried(self, part: DirectedPart, first: int) -> Observer:
         """Return the motion of bodies that joints carry."""
         tree = self.run.tree
         assert tree is not None, "the state is that of joints"

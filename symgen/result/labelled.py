@@ -127,7 +127,7 @@ def column_texts(table: Labelled, of: Callable[[Array], float] = lambda column: 
     return {name: digits(of(values), scales[unit]) for name, unit, values in columns}
 
 
-def largest(values: Array) -> tuple[float, ...]:
+def largest_magnitudes(values: Array) -> tuple[float, ...]:
     """Return the largest finite magnitude of an array, nothing where there is none."""
     finite = values[np.isfinite(values)]
     return (float(np.abs(finite).max()),) if finite.size else ()
@@ -136,7 +136,7 @@ def largest(values: Array) -> tuple[float, ...]:
 def unit_scales(table: Labelled) -> dict[str, float]:
     """Return the scale of the numbers of each unit: the largest of all columns, of moments forces times lengths."""
     units = np.array(table.units)
-    scales = {unit: scale_of(largest(table.values[:, units == unit]), unit) for unit in set(table.units)}
+    scales = {unit: scale_of(largest_magnitudes(table.values[:, units == unit]), unit) for unit in set(table.units)}
     return scales | {unit: max(x, least_scale(scales, unit)) for unit, x in scales.items()}
 
 
@@ -171,7 +171,7 @@ def notebook_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most:
     return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:first]] + left)}</table>"
 
 
-class Quantity(Protocol):
+class NamedQuantity(Protocol):
     """Anything with a name and a unit."""
 
     @property
@@ -180,7 +180,7 @@ class Quantity(Protocol):
     def unit(self) -> str: ...  # noqa: D102  # the class says what they are
 
 
-def labelled(values: Array, quantities: Iterable[Quantity]) -> Labelled:
+def labelled(values: Array, quantities: Iterable[NamedQuantity]) -> Labelled:
     """Return `values` with the names and units of `quantities`."""
     columns = tuple(quantities)
     return Labelled(values, tuple(q.name for q in columns), tuple(q.unit for q in columns))

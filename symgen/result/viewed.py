@@ -23,7 +23,7 @@ from symgen.result.labelled import Array, Labelled, columns_at, least_scale, uni
 from symgen.result.live_columns import live_columns
 from symgen.result.player.live import NONE, Live, live_part
 from symgen.result.player.motion_page import Page, live_script, page, page_data
-from symgen.result.player.recording import Moment, PlottedGroup, Recording, parts_of, position_groups
+from symgen.result.player.recording import PlottedGroup, RecordedEvent, Recording, parts_of, position_groups
 from symgen.result.plots import panels
 from symgen.result.saved import check_names, checked_file, dataset_of
 from symgen.result.signals import TABLES
@@ -123,10 +123,10 @@ def _recording(
     facts = [("", run["method"]), ("", run["integrator"]), ("status", run["status"])]
     facts += [("", run["reason"])] if run["reason"] else []
     moments = [
-        Moment(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
+        RecordedEvent(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
         for e in run.get("rank_events", [])
     ]
-    moments += [Moment(e["t"], e["t"], "event", e["name"]) for e in run.get("events", [])]
+    moments += [RecordedEvent(e["t"], e["t"], "event", e["name"]) for e in run.get("events", [])]
     reactions, pushed = _reactions(mechanism, read("reactions"))
     elements = read("elements")
     pulls = [name for name in elements.names if name.endswith(".force")]
@@ -266,7 +266,7 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | No
     from symgen.run.planning.plan import Purpose
     from symgen.run.planning.prepare import prepare
     from symgen.run.planning.start_lines import exported_start
-    from symgen.run.planning.tree import begin_on_tree, carried_of
+    from symgen.run.planning.tree_starts import begin_on_tree, carried_of
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
     values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info

@@ -41,6 +41,7 @@ CASES = {
 }
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast("adaptive-jump", "constant-bounces")
 @pytest.mark.parametrize("case", [*CASES])
 @pytest.mark.parametrize("steps", ["adaptive", "constant"])

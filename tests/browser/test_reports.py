@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import symgen
-from symgen.study.report.document import Document
+from symgen.study.report.document import ReportDocument
 from symgen.study.report.machine import machine
 from symgen.study.report.picture import sketched
 from symgen.study.report.write import html, write
@@ -22,7 +22,7 @@ def test_a_tall_sketch_is_no_taller_than_a_screen(chromium: Chromium, tmp_path: 
         for name, (w, h) in shapes.items()
     }
     path = tmp_path / "report.html"
-    path.write_text(html(Document("sketches", (), (), "", tuple(sketched(sketches)))), encoding="utf-8")
+    path.write_text(html(ReportDocument("sketches", (), (), "", tuple(sketched(sketches)))), encoding="utf-8")
     for width in (1280, 390):
         chromium.open(path, width)
         tall, wide = chromium.run("[...document.querySelectorAll('.pictures img')].map((i) => i.clientHeight)")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.rotation import of_turn
 
 import symgen
 from symgen.cli import main
@@ -277,7 +278,7 @@ def has_friction(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in catalogue.all_names() if not has_friction(name)])
+@pytest.mark.parametrize("name", of_turn((name for name in catalogue.all_names() if not has_friction(name)), 3))
 def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_path):
     agrees(name, alone, tmp_path)
 

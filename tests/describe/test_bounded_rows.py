@@ -10,7 +10,7 @@ import pytest
 import symgen
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import ZERO, Expr
-from symgen.describe.bounded import Family
+from symgen.describe.bounded import RowFamily
 from symgen.describe.bounds.dry_friction import Friction
 from symgen.describe.bounds.keys import BOUNDS, KeyOfJoints, families, keys_of_any_joint, nouns
 from symgen.describe.bounds.modes import families_of, refuse_bounds
@@ -53,7 +53,7 @@ def test_no_other_room_names_a_kind() -> None:
 class Brake(Friction, frozen=True):
     """Friction of another name: what a further kind of rows brings along."""
 
-    family: ClassVar[Family] = Family(
+    family: ClassVar[RowFamily] = RowFamily(
         one="brake",
         some="a brake",
         noun="brakes",

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from support.emitted import mechanism_of
 from support.models import parallelogram
+from support.rotation import of_turn
 
 from symgen.api import load
 from symgen.derive.lower.looped.forms import form_key
@@ -29,18 +30,19 @@ TOLERANCE = {"parallelogram": 2e-9, "bricard": 5e-8}
 COUNTS = 0.2
 
 
-#: A small one; slow are those that have every kind of element, and the other entries of the catalogue.
+#: A small one; slow are those that have every kind of element, and the other entries of the catalogue, by turns.
 FAST = "slider-crank"
 OWN = ("four-bar", "spatial-slider-crank", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial")
-OTHERS = ("n-four-bar:3", *(name for name in catalogue.names() if name not in (FAST, *OWN)))
-MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in (*OWN, *OTHERS))]
+OTHERS = (*OWN, "n-four-bar:3", *(name for name in catalogue.names() if name not in (FAST, *OWN)))
+OF_TURN = of_turn(OTHERS, 3)
+MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in OF_TURN)]
 
 
 def of_all(module: str, mechanism: str = FAST) -> dict[str, dict[str, float]]:
     """Return the differences of a mechanism and those that share its process."""
     if mechanism == FAST:
         return differences(module, (FAST,))
-    return differences(module, tuple(f"-{name}" for name in (FAST, *(OWN if mechanism in OTHERS else OTHERS))))
+    return differences(module, tuple(f"-{name}" for name in (FAST, *OTHERS) if name not in OF_TURN))
 
 
 @cache

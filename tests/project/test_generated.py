@@ -70,6 +70,7 @@ def test_emitted_modules_name_nothing_of_this_machine(name: str) -> None:
             assert word not in text, f"{name}/{stem} contains '{word}'"
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast("slider_crank", "n_four_bar_2", "driven_four_bar", "four_bar_joint")
 @pytest.mark.parametrize("name", everything())
 def test_nothing_is_named_that_is_not_defined_nor_defined_that_is_not_used(name: str) -> None:

@@ -91,10 +91,9 @@ def test_energy_and_momentum_about_the_vertical_stay(name, until):
     ("name", "until"),
     [
         ("free-rigid-body", 10.0),
-        ("heavy-top", 2.0),
-        ("spherical-double-pendulum", 10.0),
-        ("chain:2", 5.0),
-        ("chain:4", 5.0),
+        ("heavy-top", 1.0),
+        ("spherical-double-pendulum", 4.0),
+        ("chain:4", 2.0),
     ],
 )
 def test_independent_equations_lead_the_same_way(name, until):

@@ -98,6 +98,7 @@ def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
     assert energy[-1] < -0.4
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("windows", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(windows):
@@ -286,6 +287,7 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-6
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast("scipy-bdf-0.001-None", "scipy-lsoda-0.001-None", "of stress studies-0.001-None")
 @pytest.mark.parametrize(
     ("solver", "w", "max_step"),
@@ -309,7 +311,7 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
 @pytest.mark.fast("scipy-radau")
 @pytest.mark.parametrize(
     "solver",
-    ["scipy-dop853", "scipy-radau", *(pytest.param(f"scipy-{x}", marks=pytest.mark.slow) for x in ("bdf", "lsoda"))],
+    ["scipy-dop853", "scipy-radau", pytest.param("scipy-bdf", marks=pytest.mark.slow)],
 )
 def test_references_see_a_force_between_two_places(solver, tmp_path):
     """A point that flies by at 1 m/s is pushed for 0.8 mm, with 0.4 s between two outputs."""

@@ -1,6 +1,7 @@
 """Methods where stops are left: right, or a sentence, never `ok` and wrong, never an exception."""
 
 import pytest
+from support.rotation import of_turn
 
 from benchmarks.bounded.methods import Line, examine
 from symgen.derive.methods import METHODS
@@ -25,7 +26,7 @@ def test_stops_are_left(file: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", of_turn(METHODS.names, 3))
 def test_stops_are_left_by_all_methods(method: str) -> None:
     lines = examine([method], [], [])
     assert lines

@@ -1,10 +1,10 @@
 """Tables of pages beside what is measured: numbers spoilt by hand are found, and a second writing changes nothing."""
 
-import datetime
 import random
 import re
 
 import pytest
+from support.rotation import number_of_turn
 
 from benchmarks.findings import TABLES, measured_tables
 from benchmarks.page_tables import (
@@ -167,11 +167,10 @@ def test_a_table_is_what_is_written():
     assert lines[0] == "| a | b |" and [cells_of(line) for line in lines[2:]] == [["", r"\|Phi\|"], ["x", "2"]]
 
 
-@pytest.mark.slow  # measures: a tenth of all cells, others on another day
-def test_a_tenth_of_the_cells_is_measured_again():
-    today = datetime.datetime.now(tz=datetime.UTC).date().toordinal()
-    chosen, dice = drawn(MEASURED, 0.1, today), random.Random(today)
-    assert len(chosen) >= 3
+@pytest.mark.slow  # measures: a thirtieth of all cells, others in another turn
+def test_some_of_the_cells_are_measured_again():
+    chosen, dice = drawn(MEASURED, 1 / 30, number_of_turn()), random.Random(number_of_turn())
+    assert chosen
     chosen.append((table := dice.choice(TIMED), dice.randrange(len(table.rows))))
     found = []
     for table, number in chosen:
@@ -180,10 +179,11 @@ def test_a_tenth_of_the_cells_is_measured_again():
     assert not found, "\n".join(map(str, found))
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.parametrize("name", [name for name in NAMES if record_of(name).lines()])
-@pytest.mark.slow  # measures: a part of a tenth of the lines, others on another day
+@pytest.mark.slow  # measures: a part of a share of the lines, others in another turn
 def test_drawn_lines_of_a_record_are_measured_again(name):
-    found = list(record_of(name).differences(datetime.datetime.now(tz=datetime.UTC).date().toordinal()))
+    found = list(record_of(name).differences(number_of_turn()))
     assert not found, "\n".join(found)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import stress_cells
 from benchmarks.page_tables import KEPT
-from benchmarks.stress_cells import Job, again, causes, examine, families, jobs, methods, models
+from benchmarks.stress_cells import Job, again, causes, families, jobs, methods, models
 
 CELLS = {"lagrange rk4": {"ok": 3, "inaccurate": 1, "refused": 1}, "auto auto": {"ok": 2}}
 WHY = "nothing estimates the error of a constant step"
@@ -56,13 +56,6 @@ def test_sentences_count_what_the_tables_do(four_bar):
 def test_the_picture_has_a_column_for_a_model_that_is_whole(four_bar, tmp_path):
     stress_cells.picture(tmp_path / "shares.svg")
     assert "<svg" in (tmp_path / "shares.svg").read_text(encoding="utf-8")
-
-
-@pytest.mark.slow  # compiles four pairs, twice
-def test_a_family_measured_again_has_the_outcomes():
-    job = Job("four-bar", "redundancy")
-    line = json.loads(json.dumps(job._asdict() | examine(job, ["lagrange"])))
-    assert all(pair.agree for pair in again(line, Random(1))) and line["cells"]["lagrange dop853"] == {"ok": 2}
 
 
 def test_other_outcomes_than_the_stored_ones_differ(monkeypatch):

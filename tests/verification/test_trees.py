@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.rotation import of_turn
 
 from benchmarks.mechanisms.draw import draw
 from benchmarks.plain.start import choose_turns
@@ -64,7 +65,7 @@ def test_random_trees_in_the_plane(index, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "index", [*SPACE[2:5], *(pytest.param(i, marks=pytest.mark.slow) for i in (*SPACE[:2], *SPACE[5:]))]
+    "index", [*SPACE[2:5], *(pytest.param(i, marks=pytest.mark.slow) for i in of_turn((*SPACE[:2], *SPACE[5:]), 3))]
 )
 def test_random_trees_in_space(index, tmp_path):
     compare(index, True, tmp_path)

@@ -15,7 +15,7 @@ from symgen.base.ir.graph import Graph
 from symgen.base.vocabulary.functions import ELEMENTARY
 
 
-class Functions:
+class GraphFunctions:
     """Functions of formulas in a graph.
 
     Parameters

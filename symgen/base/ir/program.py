@@ -121,7 +121,7 @@ COUNTERS = (
 
 
 @dataclass(frozen=True)
-class Target:
+class OutputSlot:
     """Place of an output: element `index` of array or scratch section `space`."""
 
     space: str
@@ -172,7 +172,7 @@ class Block:
     name: str
     purpose: str
     graph: Graph
-    outputs: tuple[tuple[Target, int], ...]
+    outputs: tuple[tuple[OutputSlot, int], ...]
     arguments: tuple[str, ...]
     flag: int | None = None
     role: str = ""

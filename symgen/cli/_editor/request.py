@@ -9,7 +9,7 @@ from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.files.snippets import Spot
 
 
-class Place(msgspec.Struct, frozen=True):
+class RequestedPlace(msgspec.Struct, frozen=True):
     """A point that was pointed at: see `symgen.describe.files.snippets.Spot`."""
 
     x: float
@@ -26,7 +26,7 @@ class Place(msgspec.Struct, frozen=True):
         return Spot(self.x, self.y, body, self.point or "", self.at, self.joint or "")
 
 
-class Request(msgspec.Struct, frozen=True):
+class EditorRequest(msgspec.Struct, frozen=True):
     """A request; each job reads some of its fields.
 
     Attributes
@@ -39,7 +39,7 @@ class Request(msgspec.Struct, frozen=True):
         Which page asks, and the number of its question.
     path, name : str, str
         What is renamed or taken out, such as ``bodies.rod``; a new name, or that of a joint.
-    kind, part, spots : str, str, list of Place
+    kind, part, spots : str, str, list of RequestedPlace
         Kind of the file that is made; what is added, and where.
     """
 
@@ -52,7 +52,7 @@ class Request(msgspec.Struct, frozen=True):
     name: str = ""
     kind: str = ""
     part: str = ""
-    spots: list[Place] = []
+    spots: list[RequestedPlace] = []
 
     @property
     def draft(self) -> str:
@@ -68,7 +68,7 @@ class Request(msgspec.Struct, frozen=True):
         return self.text
 
 
-def read_request(body: bytes) -> Request:
+def read_request(body: bytes) -> EditorRequest:
     """Return the request in the body of a message.
 
     Raises
@@ -79,6 +79,6 @@ def read_request(body: bytes) -> Request:
         If it is no JSON.
     """
     try:
-        return msgspec.json.decode(body, type=Request)
+        return msgspec.json.decode(body, type=EditorRequest)
     except msgspec.ValidationError as error:
         raise InputError("request", "what the page of this editor sends", f"something else ({error})") from None

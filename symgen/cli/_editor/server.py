@@ -22,7 +22,7 @@ from symgen.base.errors import InputError, SymgenError
 from symgen.cli._editor.document import Document
 from symgen.cli._editor.drafts import Drafts
 from symgen.cli._editor.page import editor_page
-from symgen.cli._editor.request import Request, read_request
+from symgen.cli._editor.request import EditorRequest, read_request
 from symgen.describe.files.load import LARGEST_FILE
 from symgen.describe.files.problems import with_line
 
@@ -39,7 +39,7 @@ _HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
 }
 
-Job = Callable[[Request], Mapping[str, Any]]
+Job = Callable[[EditorRequest], Mapping[str, Any]]
 
 
 class Editor(ThreadingHTTPServer):
@@ -84,7 +84,7 @@ class Editor(ThreadingHTTPServer):
 
         def read() -> None:
             with suppress(SymgenError):
-                self.jobs["check"](Request(self.document.read()["text"]))
+                self.jobs["check"](EditorRequest(self.document.read()["text"]))
 
         threading.Thread(target=read, name="symgen-edit", daemon=True).start()
 

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compile.native.machine import load
+from symgen.compile.native.machine import load_machine_code
 
 #: Slots of a block: functions of NumPy and Python, facts of the result, then two for each argument.
 (
@@ -64,7 +64,7 @@ class _Definition(ctypes.Structure):
     )
 
 
-class Block(np.ndarray[Any, np.dtype[np.int64]]):
+class EntrySlots(np.ndarray[Any, np.dtype[np.int64]]):
     """The slots of an entry, with what has to live as long."""
 
     kept: tuple[Any, ...]
@@ -86,7 +86,7 @@ def block_of(
     default: NDArray[np.float64],
     otherwise: Callable[..., Any],
     views: type[np.ndarray[Any, Any]] = np.ndarray,
-) -> Block:
+) -> EntrySlots:
     """Return the slots of an entry.
 
     Parameters
@@ -107,7 +107,7 @@ def block_of(
     views : type
         A subclass of arrays, which lives as long as the process: its instances are arguments like others.
     """
-    block = np.zeros(FIRST + len(lengths), dtype=np.int64).view(Block)
+    block = np.zeros(FIRST + len(lengths), dtype=np.int64).view(EntrySlots)
     numbers = np.dtype(np.float64)
     block.kept = sizes, scratch, default, otherwise, numbers
     api, python = _numpy_table(), ctypes.pythonapi
@@ -124,7 +124,7 @@ def block_of(
     return block
 
 
-def array_entry(block: Block, inputs: int, object_file: Callable[[str, str], bytes]) -> Any:
+def array_entry(block: EntrySlots, inputs: int, object_file: Callable[[str, str], bytes]) -> Any:
     """Return the built-in function of a block.
 
     Parameters
@@ -152,7 +152,7 @@ def many(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[...,
 @functools.cache
 def _many(inputs: int, object_file: Callable[[str, str], bytes]) -> Callable[..., int]:
     name = f"symgen.many.{inputs}"
-    address = load(object_file(many_text(name, inputs), name), name)
+    address = load_machine_code(object_file(many_text(name, inputs), name), name)
     kinds = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p]
     return ctypes.CFUNCTYPE(ctypes.c_int64, *kinds, *(ctypes.c_void_p, ctypes.c_int64) * inputs)(address)
 
@@ -174,11 +174,11 @@ def _address(function: Any) -> int:
 def _definition(inputs: int, object_file: Callable[[str, str], bytes]) -> _Definition:
     """Return the definition of built-in functions of so many arguments, which lives as long as the process."""
     name = f"symgen.array_entry.{inputs}"
-    address = load(object_file(entry_text(name, inputs), name), name)
+    address = load_machine_code(object_file(entry_text(name, inputs), name), name)
     return _Definition(b"compiled", address, _FASTCALL | _KEYWORDS, b"A compiled function of the state.")
 
 
-def _new_builtin(definition: _Definition, block: Block) -> Any:
+def _new_builtin(definition: _Definition, block: EntrySlots) -> Any:
     new = ctypes.pythonapi.PyCFunction_NewEx
     new.restype, new.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.py_object, ctypes.c_void_p]
     return new(ctypes.addressof(definition), block, None)

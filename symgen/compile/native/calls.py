@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.native import types
-from symgen.compile.native.machine import load
+from symgen.compile.native.machine import load_machine_code
 
 #: Slots before the arguments: address of the function, its result; then memory to copy before: destination, source,
 #: number of bytes.
@@ -122,7 +122,7 @@ def _trampoline(
     returned: str, kinds: tuple[str, ...], object_file: Callable[[str, str], bytes]
 ) -> Callable[[int], Any]:
     name = "symgen.trampoline." + hashlib.sha256(" ".join((returned, *kinds)).encode()).hexdigest()[:32]
-    address = load(object_file(trampoline_text(name, returned, kinds), name), name)
+    address = load_machine_code(object_file(trampoline_text(name, returned, kinds), name), name)
     return ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
 
 

@@ -133,7 +133,7 @@ def optimised(text: str) -> Any:
     return llvm.parse_assembly(re.sub(r'"min-legal-vector-width"="\d+"', _LEGAL, str(module)))
 
 
-def load(code: bytes, symbol: str) -> int:
+def load_machine_code(code: bytes, symbol: str) -> int:
     """Put machine code into memory and return the address of a symbol.
 
     Its callees must be in memory before: LLVM ends the process where a symbol is missing.

@@ -23,7 +23,7 @@ from symgen.base.memory import uncollected
 from symgen.compile.native import types
 from symgen.compile.native.calls import caller, kind_of
 from symgen.compile.native.compiler import compiler, interpreted
-from symgen.compile.native.machine import load, lock, processor
+from symgen.compile.native.machine import load_machine_code, lock, processor
 from symgen.compile.store.entries import cached, plain_name
 from symgen.compile.store.identity import combined_digest, content, file_digest
 from symgen.compile.store.sources import COMPILER, reached_digest, source_stamp
@@ -165,7 +165,7 @@ class MachineFunction(ABC):
             entry = CacheEntry(*marshal.loads(cached(place, self.__qualname__, key, make)))
             for name, kinds in entry.called:
                 self.callee(name).code(arguments_of(kinds))
-            address = load(entry.code, symbol)
+            address = load_machine_code(entry.code, symbol)
         if not clock.loaded and compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} compiled in {clock.seconds:.3f} s", file=sys.stderr)
         return MachineCode(address, types.Signature(_NUMBERS[entry.returned], arguments))

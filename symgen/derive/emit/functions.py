@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from symgen.base.ir.program import FORMAT, Target
+from symgen.base.ir.program import FORMAT, OutputSlot
 from symgen.derive.emit.emit import table_codes
 from symgen.derive.emit.module import function_source, module_source, templates_digest
 from symgen.derive.emit.printer import Access, Printer
@@ -26,7 +26,7 @@ class VectorAccess(Access):
             return f"z{index}", f"p[{self.parameters + index - 1}]"
         return f"{space}{index}", f"{space}[{index}]"
 
-    def write(self, target: Target) -> str:
+    def write(self, target: OutputSlot) -> str:
         """Return the left-hand side of an output."""
         return f"{target.space}[{target.index}]"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from symgen.base.ir.program import FORMAT, STATUS, Block, Target
+from symgen.base.ir.program import FORMAT, STATUS, Block, OutputSlot
 from symgen.derive.emit.emit import table_codes
 from symgen.derive.emit.module import ModulePiece, function_source, module_source
 from symgen.derive.emit.printer import Access, Printer
@@ -115,11 +115,11 @@ class InstanceAccess(Access):
             return f"state_{index - 1}", self.element("y", f"own{index - 1}")
         return f"{space}_{index}", self.element(*_READ[space], plus=index)
 
-    def operator(self, target: Target) -> str:
+    def operator(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "+=" if target.space in (*_SUMS, "force+") else "="
 
-    def write(self, target: Target) -> str:
+    def write(self, target: OutputSlot) -> str:
         """Return the left-hand side of an output."""
         space, i = target.space, target.index
         if space in _SUMS:
@@ -188,11 +188,11 @@ class FormAccess(InstanceAccess):
             return f"{space}{index}", self.unknown("w", ("stage",), space.removeprefix("k_"), index)
         return super().read(space, index)
 
-    def operator(self, target: Target) -> str:
+    def operator(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "=" if target.space == "entry" else "+="
 
-    def write(self, target: Target) -> str:
+    def write(self, target: OutputSlot) -> str:
         """Return the left-hand side of an output."""
         if target.space == "power":
             return "power"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.numerics import SKIP, SUSPICIOUS
-from symgen.base.ir.program import FORMAT, STATUS, Block, Target
+from symgen.base.ir.program import FORMAT, STATUS, Block, OutputSlot
 from symgen.derive.emit.emit import law_header
 from symgen.derive.emit.module import ModulePiece, function_source, render
 from symgen.derive.emit.parts import PartsLayout, law_modules
@@ -164,7 +164,7 @@ def print_function(f: data.LoopedFunction) -> ModulePiece:
 
 def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> list[str]:
     """Print values that are assigned or added up, in a loop where they are general elements."""
-    outputs = tuple((Target(space, index), node) for space, index, node in statement.outputs)
+    outputs = tuple((OutputSlot(space, index), node) for space, index, node in statement.outputs)
     body = Printer(Block("", "", graph, outputs, ()), access).lines()
     lines = [*body.terms, *body.outputs]
     access.functions |= body.functions
@@ -186,14 +186,14 @@ class LoopAccess(Access):
 
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return (local name, expression) of an input: the expression twice, as it is written at its use."""
-        text = self.write(Target(space, index))
+        text = self.write(OutputSlot(space, index))
         return text, text
 
-    def operator(self, target: Target) -> str:
+    def operator(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "+=" if target.space == data.SUM else "="
 
-    def write(self, target: Target) -> str:
+    def write(self, target: OutputSlot) -> str:
         """Return an element or a number."""
         space, index = target.space, target.index
         if space in (data.LOCAL, data.SUM):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.escapes import comment_text
 from symgen.base.ir.graph import CARRIED
-from symgen.base.ir.program import STATUS, Block, JacobianEntry, ModelLayout, Target, of_table
+from symgen.base.ir.program import STATUS, Block, JacobianEntry, ModelLayout, OutputSlot, of_table
 from symgen.base.vocabulary.functions import ELEMENTARY
 
 if TYPE_CHECKING:
@@ -49,10 +49,10 @@ class Access(ABC):
         """Return (local name, expression) of an input."""
 
     @abstractmethod
-    def write(self, target: Target) -> str:
+    def write(self, target: OutputSlot) -> str:
         """Return the left-hand side of an output."""
 
-    def operator(self, target: Target) -> str:
+    def operator(self, target: OutputSlot) -> str:
         """Return the sign between an output and its value."""
         return "="
 
@@ -86,9 +86,9 @@ class ElementAccess(Access):
             return f"v{index}", self.element("y", self.layout.nq + index)
         if space == "z":
             return f"z{index}", self.element("y", self.layout.nq + self.layout.nv + index)
-        return f"{space}{index}" if space in ("p", "k") else f"{space}_{index}", self.write(Target(space, index))
+        return f"{space}{index}" if space in ("p", "k") else f"{space}_{index}", self.write(OutputSlot(space, index))
 
-    def write(self, target: Target) -> str:
+    def write(self, target: OutputSlot) -> str:
         """Return the left-hand side of an output."""
         if target.space in _ARRAYS:
             return self.element(target.space, target.index)
@@ -159,7 +159,7 @@ class Printer:
         flag = None if self.block.flag is None else self.text[self.block.flag][0]
         return BodyLines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
 
-    def comment(self, target: Target) -> str:
+    def comment(self, target: OutputSlot) -> str:
         """Return the name of an output as a comment, empty where it has none."""
         note = comment_text(self.access.note(target.space, target.index))
         return f"  # {note}" if note else ""

@@ -21,7 +21,7 @@ import sympy as sp
 FRAME_SLOTS = ("x", "y", "c", "s", "vx", "vy", "w")
 
 
-class Frame:
+class FrameSymbols:
     """Symbols of one body's frame in the plane: centre of mass, rotation entries and velocities.
 
     Parameters
@@ -98,8 +98,8 @@ def cross(a: Sequence[Any], b: Sequence[Any]) -> Triple:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-class SpatialFrame(Frame):
-    """Symbols of one body's frame in space, and the vectors fixed in it that a kernel uses; parameters as `Frame`."""
+class SpatialFrame(FrameSymbols):
+    """Symbols of one body's frame in space, and the vectors fixed in it that a kernel uses; as `FrameSymbols`."""
 
     dimension, first_velocity = 3, 12
     slots = SPATIAL_SLOTS
@@ -202,12 +202,12 @@ class SpatialFrame(Frame):
         return x, y, z
 
 
-def frame(prefix: str, kind: str) -> Frame:
+def frame(prefix: str, kind: str) -> FrameSymbols:
     """Return a frame of a kind; kinds of space end in 3."""
-    return SpatialFrame(prefix, kind) if kind.endswith("3") else Frame(prefix, kind)
+    return SpatialFrame(prefix, kind) if kind.endswith("3") else FrameSymbols(prefix, kind)
 
 
-def along_motion(expression: Any, frames: Iterable[Frame]) -> Any:
+def along_motion(expression: Any, frames: Iterable[FrameSymbols]) -> Any:
     """Return the time derivative of `expression` along the motion of `frames`, velocities constant."""
     total = sp.S.Zero
     for frame in frames:

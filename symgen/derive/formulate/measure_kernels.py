@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 
 from symgen.base.ir.graph import Graph
-from symgen.derive.formulate.frames import Frame, SpatialFrame, along_motion, cross, frame
+from symgen.derive.formulate.frames import FrameSymbols, SpatialFrame, along_motion, cross, frame
 from symgen.derive.formulate.translate import Translator
 
 
@@ -28,7 +28,7 @@ class Kernel:
     """
 
     graph: Graph
-    frames: tuple[Frame, ...]
+    frames: tuple[FrameSymbols, ...]
     constants: int
     value: int
     row: tuple[tuple[int, ...], ...]
@@ -40,7 +40,7 @@ class Kernel:
         return (self.value, *(n for part in self.row for n in part), self.bias)
 
 
-Frames = tuple[Frame, ...]
+Frames = tuple[FrameSymbols, ...]
 #: Points and directions as tuples of components, lengths as symbols.
 Constants = tuple[Any, ...]
 _Build = Callable[[Frames, Constants], Any]

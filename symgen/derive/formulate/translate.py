@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 
 from symgen.base.errors import InputError
-from symgen.base.ir.formula import Functions
+from symgen.base.ir.formula import GraphFunctions
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import derived_table, of_table
 from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, Reading
@@ -56,7 +56,7 @@ class Translator:
     """
 
     def __init__(self, graph: Graph, symbols: Mapping[Any, int]) -> None:
-        self.graph, self.functions = graph, Functions(graph)
+        self.graph, self.functions = graph, GraphFunctions(graph)
         self.nodes: dict[Any, int] = dict(symbols)
 
     def all(self, expressions: Sequence[Any]) -> list[int]:

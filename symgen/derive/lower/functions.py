@@ -15,7 +15,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.derivative import Key, jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.ir.program import MODE_NUMBERS, Block, Target, of_table
+from symgen.base.ir.program import MODE_NUMBERS, Block, OutputSlot, of_table
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.formulate.measures import ModelNodes
@@ -363,7 +363,7 @@ def lower_function(
         The quantity.
     """
     arguments = (*vectors, "p")
-    outputs = tuple((Target("out", i), node) for i, node in enumerate(values.nodes))
+    outputs = tuple((OutputSlot("out", i), node) for i, node in enumerate(values.nodes))
     block = Block(name, purpose, values.graph, outputs, (*arguments, "out"), values.flag)
     read = {of_table(values.graph.nodes[n].payload)[0] for n in block.needed if values.graph.nodes[n].op == "table"}
     tables = tuple(t.interpolated for t in functions.mechanism.tables if t.name in read)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.base.ir.graph import PARAMETER, Graph
-from symgen.base.ir.program import Block, Target
+from symgen.base.ir.program import Block, OutputSlot
 
 
 class Hoister:
@@ -52,7 +52,7 @@ class Hoister:
         self,
         name: str,
         purpose: str,
-        outputs: Sequence[tuple[Target, int]],
+        outputs: Sequence[tuple[OutputSlot, int]],
         arguments: tuple[str, ...],
         flag: int | None = None,
     ) -> Block:
@@ -78,6 +78,6 @@ class Hoister:
         nodes = sorted(self.slots, key=self.slots.__getitem__)
         images = graph.inline(self.graph, nodes, {key: self._input(graph, *key) for key in self.graph.keys(nodes)})
         outputs = tuple(
-            (Target("p", self._place(self.slots[n])), image) for n, image in zip(nodes, images, strict=True)
+            (OutputSlot("p", self._place(self.slots[n])), image) for n, image in zip(nodes, images, strict=True)
         )
         return Block("prepare", "numbers that depend on parameters alone", graph, outputs, ("p",))

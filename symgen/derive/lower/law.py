@@ -18,7 +18,7 @@ from symgen.base.ir.program import (
     LawProgram,
     ModelLayout,
     ModelProgram,
-    Target,
+    OutputSlot,
 )
 from symgen.base.vocabulary.infos import LawInfo
 from symgen.derive.formulate.equations import Equations
@@ -241,10 +241,10 @@ def part_outputs(scalars: ScalarNodes, part: Part) -> Outputs:
         rates = scalars.equations.state_rates
         if part.velocities is not None:
             rates = scalars.at_velocity(rates, scalars.values[part.velocities])
-        outputs += [(Target(space, work + i), node) for i, node in enumerate(rates, 1)]
-        outputs += [(Target(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
+        outputs += [(OutputSlot(space, work + i), node) for i, node in enumerate(rates, 1)]
+        outputs += [(OutputSlot(JAMMING, i), node) for i, node in enumerate(scalars.jamming)]
     if part.name in _KEEPS_MASS:
-        outputs += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+        outputs += [(OutputSlot("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
     return outputs
 
 
@@ -259,7 +259,9 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
         return list(value)
     if place == "dense":
         return [
-            (Target(place, i * e.nv + j), scalars.in_force(i, node)) for i, row in enumerate(value) for j, node in row
+            (OutputSlot(place, i * e.nv + j), scalars.in_force(i, node))
+            for i, row in enumerate(value)
+            for j, node in row
         ]
     section, _, name = place.partition(".")
     if section == "status":
@@ -268,7 +270,7 @@ def _outputs(scalars: ScalarNodes, place: str, index: int) -> Outputs:
         value = scalars.graph.add(value, scalars.drag_power)
     space, first = scalars.places.get(place, (place, 0))
     nodes = value if isinstance(value, tuple) else (value,)
-    return [(Target(space, first + i), node) for i, node in enumerate(nodes)]
+    return [(OutputSlot(space, first + i), node) for i, node in enumerate(nodes)]
 
 
 def _sections(
@@ -313,7 +315,7 @@ def _form_blocks(
             rows[i] = group, g.add(g.mul(held, node), g.mul(g.sub(g.one, held), g.input("k", i)))
     rows[own:own] = [("states", g.sub(g.input("k", own + i), rate)) for i, rate in enumerate(e.state_rates)]
     arguments = ("t", "y", "k", "p", "w", "r")
-    residual = [(Target("r", i), node) for i, (_, node) in enumerate(rows)]
+    residual = [(OutputSlot("r", i), node) for i, (_, node) in enumerate(rows)]
     residual.append(to_status("power", groups["power"]))
     first = {"k": 0, "q": unknowns, "v": unknowns + e.nq, "z": unknowns + own - 1}
     keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
@@ -325,7 +327,7 @@ def _form_blocks(
         derived, keys = range(e.nq, e.nq + e.nv), keys[:unknowns]
     for i, derivatives in zip(derived, jacobian(law.graph, [rows[i][1] for i in derived], keys), strict=True):
         for space, index in sorted(derivatives):
-            tangent.append((Target("j", len(tangent)), derivatives[space, index]))
+            tangent.append((OutputSlot("j", len(tangent)), derivatives[space, index]))
             pattern.append((i, index + first[space]))
     entries = "entries of dF/dk and dF/dy of the descriptor form"
     return [

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 
 from symgen.base.ir.derivative import Key, jacobian
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import Block, Target
+from symgen.base.ir.program import Block, OutputSlot
 from symgen.base.vocabulary.infos import BY, LinearisedInfo
 from symgen.base.vocabulary.measures import Holonomic
 from symgen.derive.formulate.equations import Equations
@@ -80,7 +80,7 @@ def lower_linearised(
             pattern.append((i, places[space], index - {"ydot": nq, "z": 1}.get(space, 0)))
             derivatives.append(slopes[space, index])
     graph, images = separate_graph(g, [*outputs, *derivatives])
-    targets = tuple((Target("out", i), image) for i, image in enumerate(images))
+    targets = tuple((OutputSlot("out", i), image) for i, image in enumerate(images))
     purpose = "The descriptor form with its derivatives"
     block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))
     labels = [f"{group} {i}" for group, size in sizes.items() for i in range(size)]

@@ -6,7 +6,7 @@ Planar coordinates change as velocities do, so planar modules need no such funct
 from __future__ import annotations
 
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import Block, Target
+from symgen.base.ir.program import Block, OutputSlot
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.hoist import Hoister
 
@@ -28,7 +28,7 @@ def manifold_blocks(hoister: Hoister, equations: Equations) -> tuple[Block, ...]
     change = [g.input("change", j) for j in range(equations.nv)]
     retract = _moved(g, equations, change, exponential=False)
     exact = _moved(g, equations, change, exponential=True)
-    lengths, outputs = [], list[tuple[Target, int]]()
+    lengths, outputs = [], list[tuple[OutputSlot, int]]()
     for i, _ in equations.spins:
         e = [g.input("q", i + k) for k in range(4)]
         square = g.dot(e, e)
@@ -50,14 +50,14 @@ def manifold_blocks(hoister: Hoister, equations: Equations) -> tuple[Block, ...]
     )
 
 
-def _moved(g: Graph, equations: Equations, change: list[int], exponential: bool) -> list[tuple[Target, int]]:
+def _moved(g: Graph, equations: Equations, change: list[int], exponential: bool) -> list[tuple[OutputSlot, int]]:
     """Return the new coordinates, body by body in the order of q."""
-    outputs: list[tuple[Target, int]] = []
+    outputs: list[tuple[OutputSlot, int]] = []
     starts = dict(equations.spins)
     i = j = 0
     while i < equations.nq:
         if i not in starts:
-            outputs.append((Target("y", i), g.add(g.input("q", i), change[j])))
+            outputs.append((OutputSlot("y", i), g.add(g.input("q", i), change[j])))
             i, j = i + 1, j + 1
             continue
         e = [g.input("q", i + k) for k in range(4)]
@@ -95,6 +95,6 @@ def _turned(g: Graph, e: list[int], real: int, h: list[int]) -> list[int]:
     ]
 
 
-def _unit(g: Graph, first: int, e: list[int], square: int) -> list[tuple[Target, int]]:
+def _unit(g: Graph, first: int, e: list[int], square: int) -> list[tuple[OutputSlot, int]]:
     length = g.div(g.one, g.call("sqrt", square))
-    return [(Target("y", first + k), g.mul(length, n)) for k, n in enumerate(e)]
+    return [(OutputSlot("y", first + k), g.mul(length, n)) for k, n in enumerate(e)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from symgen.base.ir.program import JAMMING, MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, Target
+from symgen.base.ir.program import JAMMING, MODE_NUMBERS, SECTIONS, STATUS, Block, ModelLayout, ModelProgram, OutputSlot
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.lower.factor import fill_of
 from symgen.derive.lower.hoist import Hoister
@@ -59,7 +59,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         *manifold_blocks(hoister, equations),
     ]
     if equations.bodies:
-        outputs = [(Target("out", i), node) for i, node in enumerate(equations.bodies)]
+        outputs = [(OutputSlot("out", i), node) for i, node in enumerate(equations.bodies)]
         purpose = "coordinates, velocities and accelerations of bodies"
         blocks.append(hoister.block("bodies", purpose, outputs, ("t", "y", "p", "w", "ydot", "out")))
     blocks.insert(0, hoister.prepare())
@@ -80,7 +80,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
 def _diagonal(scalars: ScalarNodes) -> Outputs:
     """Return the diagonal of M; where it changes with the position, that at coordinates and time of 0."""
     equations, g = scalars.equations, scalars.graph
-    diagonal = [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
+    diagonal = [(OutputSlot("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
     if not scalars.mass_entries:
         return diagonal
     origin = {("t", 0): g.zero} | {("q", i): g.zero for i in range(equations.nq)}
@@ -104,10 +104,10 @@ def measure(hoister: Hoister, scalars: ScalarNodes) -> Block:
             total = g.sub(total, g.input("nu", i))
         total = scalars.in_force(i, total)
         residuals.append(total)
-        outputs.append((Target("residual", i), total))
+        outputs.append((OutputSlot("residual", i), total))
     outputs += scalars.violation("velocity", residuals)
     outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
-    outputs += [(Target("winding", i), node) for i, node in enumerate(equations.windings)]
+    outputs += [(OutputSlot("winding", i), node) for i, node in enumerate(equations.windings)]
     purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
     return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
 
@@ -117,9 +117,9 @@ def observe(hoister: Hoister, scalars: ScalarNodes) -> Block:
     g, e = hoister.graph, scalars.equations
     changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))
     left = [scalars.in_force(i, g.sub(n, row.gamma)) for i, (n, row) in enumerate(zip(changes, e.rows, strict=True))]
-    outputs: Outputs = [(Target("out", i), n) for i, n in enumerate(left)]
+    outputs: Outputs = [(OutputSlot("out", i), n) for i, n in enumerate(left)]
     for k, c in enumerate(e.joint_coordinates):
-        outputs += [(Target("out", e.m + 2 * k), c.value), (Target("out", e.m + 2 * k + 1), c.rate)]
+        outputs += [(OutputSlot("out", e.m + 2 * k), c.value), (OutputSlot("out", e.m + 2 * k + 1), c.rate)]
     return hoister.block(
         "observe", "D v' - gamma, then joint coordinates and their rates", outputs, ("t", "y", "p", "w", "ydot", "out")
     )

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from symgen.base.ir.graph import PARAMETER, POSITION, TIME, VELOCITY, Graph
-from symgen.base.ir.program import Target
+from symgen.base.ir.program import OutputSlot
 from symgen.derive.lower.record import RecordedLaw
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.lower.scalar_values import Outputs
@@ -64,7 +64,7 @@ def by_residual(scalars: ScalarNodes, record: RecordedLaw, outputs: Outputs) -> 
     return [(target, node) for (target, _), node in zip(outputs, own, strict=True)]
 
 
-def _place(scalars: ScalarNodes, target: Target) -> int | None:
+def _place(scalars: ScalarNodes, target: OutputSlot) -> int | None:
     """Return the place among v' and lambda of an output."""
     e = scalars.equations
     if target.space == "multipliers":

@@ -10,7 +10,7 @@ from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.graph import PARAMETER
 from symgen.base.ir.numerics import PARALLEL, SKIP, SUSPICIOUS, TINY
 from symgen.base.ir.polynomial import NormalForms
-from symgen.base.ir.program import STATUS, EliminationPlan, FixedVelocities, Target
+from symgen.base.ir.program import STATUS, EliminationPlan, FixedVelocities, OutputSlot
 from symgen.derive.formulate.equations import Equations, without_bounded_rows
 from symgen.derive.lower.blocks import SaddleMatrix
 from symgen.derive.lower.drag import drag_forces
@@ -423,19 +423,19 @@ class ScalarNodes(OfMass):
         A relative pivot is the squared sine of the angle between a row and those eliminated before it.
         """
         g = self.graph
-        outputs: Outputs = [(Target("residual", i), n) for i, n in enumerate(self.phi)]
+        outputs: Outputs = [(OutputSlot("residual", i), n) for i, n in enumerate(self.phi)]
         outputs += self.violation("position", self.phi)
-        outputs += [(Target("nu", i), n) for i, n in enumerate(self.nu) if n != g.zero]
+        outputs += [(OutputSlot("nu", i), n) for i, n in enumerate(self.nu) if n != g.zero]
         entries = [node for row in self.rows for _, node in row]
         slots = ((e.slot, n) for e, n in zip(self.jacobian, entries, strict=True))
-        outputs += [(Target("jacobian", slot), n) for slot, n in slots if slot is not None]
+        outputs += [(OutputSlot("jacobian", slot), n) for slot, n in slots if slot is not None]
         count, smallest = g.zero, g.one
         for i in range(len(rank.order)):
             if self._certain(i, rank.pivots[i], rank.diagonal[i]):
                 count = g.add(count, g.one)
                 continue
             relative = g.div(rank.pivots[i], self._usual(i, rank.diagonal[i]))
-            outputs.append((Target("pivot", i), self.in_force(i, relative)))
+            outputs.append((OutputSlot("pivot", i), self.in_force(i, relative)))
             count = g.add(count, self._decided(i, rank.pivots[i], rank.diagonal[i]))
             smallest = g.call("min", smallest, g.add(relative, g.add(self.mask[i], self._off(i))))
         shortest = g.one

@@ -8,14 +8,14 @@ from functools import cached_property
 from typing import Any, Self
 
 from symgen.base.ir.derivative import jacobian
-from symgen.base.ir.program import STATUS, JacobianEntry, Target
+from symgen.base.ir.program import STATUS, JacobianEntry, OutputSlot
 from symgen.derive.formulate.equations import Drag, Equations
 from symgen.derive.lower.drag import length
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.replay import Nodes, Replay
 from symgen.derive.methods._formula import FormulaStep
 
-Outputs = list[tuple[Target, int]]
+Outputs = list[tuple[OutputSlot, int]]
 #: A sparse matrix: for each row its (column, node) entries in increasing order of column.
 Rows = tuple[tuple[tuple[int, int], ...], ...]
 #: Rows of a matrix W of weights: for each its nodes by column.
@@ -256,7 +256,7 @@ class NodeValues(Replay):
         written = self.stored.setdefault(section, [])
         for node in x:
             if self.graph.value(node) is None:
-                written.append((Target(section, len(written)), node))
+                written.append((OutputSlot(section, len(written)), node))
                 node = self.graph.input(section, len(written) - 1)
             yield node
 
@@ -285,6 +285,6 @@ class NodeValues(Replay):
         return self.graph.div(self.graph.one, pivot)
 
 
-def to_status(name: str, node: int) -> tuple[Target, int]:
+def to_status(name: str, node: int) -> tuple[OutputSlot, int]:
     """Return an output to the status at the beginning of ``w``."""
-    return Target("status", STATUS.index(name)), node
+    return OutputSlot("status", STATUS.index(name)), node

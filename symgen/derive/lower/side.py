@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from symgen.base.ir.derivative import Key, jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.interpolation import Interpolation
-from symgen.base.ir.program import JAMMING, STATUS, Block, ModelLayout, Target
+from symgen.base.ir.program import JAMMING, STATUS, Block, ModelLayout, OutputSlot
 from symgen.base.vocabulary.expressions import Expr, Reading
 from symgen.base.vocabulary.measures import Driven, Exerted, Integral, Measure
 from symgen.base.vocabulary.quantities import Quantity
@@ -181,7 +181,7 @@ def lower_side(
         nodes += model.sizes(nodes[: len(formulas)])
         labels += [f"size of {label}" for label, _ in formulas]
     graph, images = separate_graph(model.graph, nodes)
-    outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
+    outputs = tuple((OutputSlot("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
     return side_program(mechanism, (block,), beside, labels)
 
@@ -208,9 +208,9 @@ def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
         return {"ydot": ("k", key[1]), "multipliers": ("k", first + key[1])}.get(key[0], key)
 
     graph, images = separate_graph(model.graph, nodes)
-    rates = tuple((Target("ydot", work + 1 + i), image) for i, image in enumerate(images))
+    rates = tuple((OutputSlot("ydot", work + 1 + i), image) for i, image in enumerate(images))
     stage, inside = separate_graph(model.graph, nodes, unknown)
-    stored = tuple((Target("auxiliary", 1 + i), image) for i, image in enumerate(inside))
+    stored = tuple((OutputSlot("auxiliary", 1 + i), image) for i, image in enumerate(inside))
     blocks = (
         Block("integrands", "rates of integrals", graph, rates, ("t", "y", "p", "w", "ydot")),
         Block("accumulate", "the same of a stage with the unknowns k", stage, stored, ("t", "y", "k", "p", "w")),

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
-from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.bounds.by_reaction import reaction_of
 from symgen.describe.bounds.modes import (
     JAM,
@@ -44,7 +44,7 @@ def _line(facts: Mapping[str, Any]) -> str:
     return f"dry friction {x['name']}: {at_rest}; {motion}{stribeck}{viscous}{jam}"
 
 
-FRICTION = Family(
+FRICTION = RowFamily(
     one="friction",
     some="dry friction",
     noun="dry friction",
@@ -101,7 +101,7 @@ class Friction(Bounds, frozen=True):
         Whether bounds depend on more than parameters: they are read whenever they matter.
     """
 
-    family: ClassVar[Family] = FRICTION
+    family: ClassVar[RowFamily] = FRICTION
 
     name: str
     joint: str

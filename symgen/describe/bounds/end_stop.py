@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Number, Reading, call, difference, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Holonomic, Measure
-from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.bounds.modes import (
     HIT,
     LEAVE,
@@ -36,7 +36,7 @@ def _line(facts: Mapping[str, Any]) -> str:
     return f"stop {facts['name']}: {closed}; restitution {facts['restitution']}"
 
 
-STOPS = Family(
+STOPS = RowFamily(
     one="stop",
     some="a stop",
     noun="stops",
@@ -68,7 +68,7 @@ class GapStop(Bounds, frozen=True):
         Unit of the gap.
     """
 
-    family: ClassVar[Family] = STOPS
+    family: ClassVar[RowFamily] = STOPS
 
     name: str
     owner: str

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import msgspec
 
 from symgen.base.registry import Registry
-from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import OF_ANY_JOINT, words_of
 from symgen.describe.parts.scope import Scope
@@ -34,7 +34,7 @@ class KeyOfJoints(msgspec.Struct, frozen=True):
     """A key that joints of any kind may have, the words for its rows, the type of its table, and what reads it."""
 
     key: str
-    family: Family
+    family: RowFamily
     table: Any
     read: OfJoint
 
@@ -43,7 +43,7 @@ class SectionOfFiles(msgspec.Struct, frozen=True):
     """A section of files, the words for its rows, the table of an entry, and what reads that."""
 
     section: str
-    family: Family
+    family: RowFamily
     table: type[msgspec.Struct]
     read: OfSection
 
@@ -66,7 +66,7 @@ def keys_of_any_joint() -> dict[str, Any]:
     return {**OF_ANY_JOINT, **{key: kind.table for key, kind in keys_of_joints().items()}}
 
 
-def families() -> tuple[Family, ...]:
+def families() -> tuple[RowFamily, ...]:
     """Return the families of all kinds."""
     return tuple(dict.fromkeys(kind.family for _, kind in BOUNDS.items()))
 

@@ -16,7 +16,7 @@ from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS, MODES
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, readings
 from symgen.base.vocabulary.measures import Driven, Integral
-from symgen.describe.bounded import BoundedRow, Family
+from symgen.describe.bounded import BoundedRow, RowFamily
 from symgen.describe.mechanism import Event, Mechanism, Output
 
 #: Action of events at which modes are chosen anew.
@@ -154,7 +154,7 @@ def _outputs_without(mechanism: Mechanism, reports: Iterable[Output]) -> tuple[O
     return tuple(o for o in mechanism.outputs if o.name not in reported and not reads(o.value))
 
 
-def families_of(mechanism: Mechanism) -> dict[Family, tuple[BoundedRow, ...]]:
+def families_of(mechanism: Mechanism) -> dict[RowFamily, tuple[BoundedRow, ...]]:
     """Return the rows with bounds of a mechanism by their families, in their order."""
     families = dict.fromkeys(row.family for row in mechanism.bounded)
     return {family: tuple(row for row in mechanism.bounded if row.family == family) for family in families}

@@ -21,7 +21,7 @@ _SCALAR = re.compile(
 )
 
 
-class Span(NamedTuple):
+class TextSpan(NamedTuple):
     """A part of one line or more.
 
     Attributes
@@ -48,13 +48,13 @@ class Place(NamedTuple):
         The value; None for tables and arrays that headers and dotted keys make.
     """
 
-    key: Span | None
-    value: Span | None
+    key: TextSpan | None
+    value: TextSpan | None
 
     @property
     def line(self) -> int:
         """Line of the key, or of the value of an item."""
-        return (self.key or self.value or Span(1, 1, 0)).line
+        return (self.key or self.value or TextSpan(1, 1, 0)).line
 
 
 def places(text: str) -> dict[Path, Place]:
@@ -150,9 +150,9 @@ class _Scanner:
                 self.pair(table)
             self.blank()
 
-    def span(self, start: int, end: int) -> Span:
+    def span(self, start: int, end: int) -> TextSpan:
         line = bisect_right(self._starts, start)
-        return Span(line, start - self._starts[line - 1] + 1, end - start)
+        return TextSpan(line, start - self._starts[line - 1] + 1, end - start)
 
     def blank(self) -> None:
         """Pass white space, line ends and comments."""
@@ -169,9 +169,9 @@ class _Scanner:
         self.at += passed
         return passed
 
-    def key(self, table: Path = ()) -> list[tuple[str, Span]]:
+    def key(self, table: Path = ()) -> list[tuple[str, TextSpan]]:
         """Pass a key of `table`; return its parts."""
-        parts = list[tuple[str, Span]]()
+        parts = list[tuple[str, TextSpan]]()
         while not parts or self.passed("."):
             match = self.after(_PART)
             part = match[1]
@@ -209,7 +209,7 @@ class _Scanner:
         self.at += 1  # the equals sign
         self.value(path, parts[-1][1])
 
-    def value(self, path: Path, key: Span | None) -> None:
+    def value(self, path: Path, key: TextSpan | None) -> None:
         """Pass a value whose path is `path`."""
         self.blank()
         start = self.at

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from symgen.base.errors import InputError
 from symgen.describe.files.load import parse_toml, read_text
-from symgen.describe.files.places import Path, Place, Span, places
+from symgen.describe.files.places import Path, Place, TextSpan, places
 from symgen.describe.files.validate import errors_of
 
 _INDEX = re.compile(r"\[(\d+)\]")
@@ -95,7 +95,7 @@ def _path_in(error: InputError, source: str) -> str:
 def _syntax(error: InputError) -> Place:
     """Return the place of a syntax error of TOML; for other errors of the text none."""
     match = _AT.search(error.got)
-    return _NOWHERE if match is None else Place(Span(int(match[1]), int(match[2]), 0), None)
+    return _NOWHERE if match is None else Place(TextSpan(int(match[1]), int(match[2]), 0), None)
 
 
 def _place(error: InputError, source: str, raw: Mapping[str, Any], found: Mapping[Path, Place]) -> Place:

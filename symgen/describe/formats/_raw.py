@@ -26,7 +26,7 @@ from symgen.describe.formats._frames import (
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
-    Follower,
+    CoupledCoordinate,
     LeftOut,
     Robot,
     RobotActuator,
@@ -305,7 +305,7 @@ class _Description:
         label = _SLIDE if self.joints[joint].kind == "translational" else _ANGLE
         return f"{self.names.of('joint', joint)}.{label}"
 
-    def _follower(self, f: Follower) -> dict[str, Any]:
+    def _follower(self, f: CoupledCoordinate) -> dict[str, Any]:
         terms, polynomial = {self.names.of("joint", f.joint): 1.0}, list(f.polynomial)
         if f.of is None or not any(polynomial[1:]):
             return {"type": "coupling", "terms": terms, "value": polynomial[0]}

@@ -130,7 +130,7 @@ class Connection:
 
 
 @dataclass(frozen=True)
-class Follower:
+class CoupledCoordinate:
     """A coordinate that is a polynomial of another one, or the constant alone where there is none."""
 
     name: str
@@ -179,7 +179,7 @@ class Robot:
     name: str
     links: dict[str, RobotLink]
     connections: list[Connection]
-    followers: list[Follower] = field(default_factory=list)
+    followers: list[CoupledCoordinate] = field(default_factory=list)
     actuators: list[RobotActuator] = field(default_factory=list)
     gravity: Vector = (0.0, 0.0, -9.81)
     left_out: list[LeftOut] = field(default_factory=list)
@@ -190,7 +190,7 @@ class Robot:
 _EFFORTS: dict[str, tuple[str, str]] = {"revolute": ("torque", "N m"), "translational": ("force", "N")}
 
 
-def follow(followers: list[Follower], connections: Mapping[str, Connection]) -> None:
+def follow_coupled(followers: list[CoupledCoordinate], connections: Mapping[str, Connection]) -> None:
     """Set the values at the start of joints that follow others, whose own values stay; rings are left as they are."""
     waiting = {f.joint: f for f in followers if f.of is not None}
     while ready := [f for f in waiting.values() if f.of not in waiting]:
@@ -200,7 +200,7 @@ def follow(followers: list[Follower], connections: Mapping[str, Connection]) -> 
             del waiting[f.joint]
 
 
-def actuators_of(connections: list[Connection], followers: list[Follower]) -> list[RobotActuator]:
+def actuators_of(connections: list[Connection], followers: list[CoupledCoordinate]) -> list[RobotActuator]:
     """Return an input for each joint that turns or slides and follows no other."""
     led = {f.joint for f in followers}
     return [

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from symgen.base.errors import InputError, quoted
 from symgen.describe.formats._frames import Vector, matrix_vector, scalar_product, unit
-from symgen.describe.formats._robot import GROUND, Connection, Follower
+from symgen.describe.formats._robot import GROUND, Connection, CoupledCoordinate
 from symgen.describe.formats._xml import inner_number
 
 #: Types that are no connection alone: two axes with a part without mass between, and wheels of two other joints.
@@ -79,7 +79,7 @@ class Gearbox:
     ratio: float
 
 
-def follower_of(gear: Gearbox, connections: Iterable[Connection]) -> Follower:
+def follower_of(gear: Gearbox, connections: Iterable[Connection]) -> CoupledCoordinate:
     """Return the coupling of the two joints that hold the wheels of a gearbox on its carrier.
 
     Raises
@@ -98,7 +98,7 @@ def follower_of(gear: Gearbox, connections: Iterable[Connection]) -> Follower:
             raise InputError(gear.where, expected, f"none of {quoted(end)}")
         found.append(turning)
     (first, way), (second, other) = found
-    return Follower(f"{gear.name}_mesh", second.name, first.name, (0.0, -gear.ratio * way * other))
+    return CoupledCoordinate(f"{gear.name}_mesh", second.name, first.name, (0.0, -gear.ratio * way * other))
 
 
 def _top(link: str, below: dict[str, str]) -> str:

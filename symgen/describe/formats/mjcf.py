@@ -12,7 +12,7 @@ from symgen.describe.formats._mjcf_files import MjcfMeshes, check_files
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
-    Follower,
+    CoupledCoordinate,
     Kind,
     LeftOut,
     Robot,
@@ -181,8 +181,8 @@ class _Reader:
 
     # -- equalities --------------------------------------------------------------------------------------------------
 
-    def _equalities(self) -> list[Follower]:
-        followers, sorts = list[Follower](), self.mujoco.mjtEq
+    def _equalities(self) -> list[CoupledCoordinate]:
+        followers, sorts = list[CoupledCoordinate](), self.mujoco.mjtEq
         for k in range(self.model.neq):
             sort, name = int(self.model.eq_type[k]), self._name("equality", k)
             if not self.model.eq_active0[k]:
@@ -213,7 +213,7 @@ class _Reader:
         kind: Kind = "rigid" if weld else "spherical"
         self.connections.append(Connection(name, kind, names[0], names[1], frames[0], frames[1]))
 
-    def _polynomial(self, k: int, name: str) -> Follower:
+    def _polynomial(self, k: int, name: str) -> CoupledCoordinate:
         """Return y - y0 = p(x - x0) as a polynomial of x."""
         model = self.model
         joint, other = int(model.eq_obj1id[k]), int(model.eq_obj2id[k])
@@ -227,7 +227,7 @@ class _Reader:
         shifted[0] += float(model.qpos0[int(model.jnt_qposadr[joint])])
         while len(shifted) > 1 and shifted[-1] == 0.0:
             shifted.pop()
-        return Follower(
+        return CoupledCoordinate(
             name, self._name("joint", joint), None if other < 0 else self._name("joint", other), tuple(shifted)
         )
 

@@ -14,7 +14,7 @@ from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
-    Follower,
+    CoupledCoordinate,
     Kind,
     LeftOut,
     Robot,
@@ -131,7 +131,7 @@ class _Reader(RobotReader):
             self._model(model, prefix, _WORLD, self._pose(model, "", _WORLD), False)
         for name, link in self.links.items():
             link.place = self._place(name)
-        connections, followers, gears = list[Connection](), list[Follower](), list[Gearbox]()
+        connections, followers, gears = list[Connection](), list[CoupledCoordinate](), list[Gearbox]()
         for prefix, element in self.elements:
             if element.get("type", "") == GEARBOX:
                 gears.append(self._gearbox(element, prefix))
@@ -377,7 +377,7 @@ class _Reader(RobotReader):
         own = self._place(self._frame(prefix + frame, f"{where}, expressed_in"))
         return matrix_vector(transpose(self._place(name).rotation), matrix_vector(own.rotation, direction))
 
-    def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[Follower]:
+    def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[CoupledCoordinate]:
         mimic = element.find("axis/mimic")
         if mimic is None or _KINDS.get(element.get("type", "")) not in ("revolute", "translational"):
             return
@@ -387,7 +387,7 @@ class _Reader(RobotReader):
         if leader not in names or leader == name:
             raise InputError(where, "the name of another joint", quoted(leader), nearest(leader, names))
         ratio, offset, zero = (inner_number(where, mimic, key) for key in ("multiplier", "offset", "reference"))
-        yield Follower(f"{name}_mimic", name, leader, (offset - ratio * zero, ratio))
+        yield CoupledCoordinate(f"{name}_mimic", name, leader, (offset - ratio * zero, ratio))
 
     def _fixed(self, connections: list[Connection]) -> list[Connection]:
         """Return the joints, fixed ones away from the ground: each link has one that holds it; others close a ring."""

@@ -12,13 +12,13 @@ from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
-    Follower,
+    CoupledCoordinate,
     Kind,
     LeftOut,
     Robot,
     RobotLink,
     actuators_of,
-    follow,
+    follow_coupled,
     turned_inertia,
 )
 from symgen.describe.formats._xml import colour_of, decimal, frame_of_origin, triple
@@ -94,7 +94,7 @@ class _Reader(RobotReader):
         if twice := next((name for name in names if names.count(name) > 1), None):
             raise InputError(f"{self.source}: joint", "a name used once", f"{quoted(twice)} twice")
         followers = [f for e, c in joints if (f := self._mimic(e, c, names)) is not None]
-        follow(followers, {c.name: c for _, c in joints})
+        follow_coupled(followers, {c.name: c for _, c in joints})
         roots = self._place(links, joints)
         connections = [c for _, c in joints]
         for root in roots:
@@ -196,7 +196,7 @@ class _Reader(RobotReader):
             raise InputError(f"{self.source}: link {quoted(lost)}", "links that form trees", "a ring of joints")
         return roots
 
-    def _mimic(self, element: ET.Element, c: Connection, names: list[str]) -> Follower | None:
+    def _mimic(self, element: ET.Element, c: Connection, names: list[str]) -> CoupledCoordinate | None:
         mimic = element.find("mimic")
         if mimic is None or c.kind not in ("revolute", "translational"):
             return None
@@ -205,7 +205,7 @@ class _Reader(RobotReader):
         if leader not in names:
             raise InputError(where, "the name of a joint", quoted(leader), nearest(leader, names))
         polynomial = decimal(where, mimic.attrib, "offset"), decimal(where, mimic.attrib, "multiplier", 1.0)
-        return Follower(f"{c.name}_mimic", c.name, leader, polynomial)
+        return CoupledCoordinate(f"{c.name}_mimic", c.name, leader, polynomial)
 
     # -- loops -------------------------------------------------------------------------------------------------------
 

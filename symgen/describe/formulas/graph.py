@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from symgen.base.ir.formula import Functions
+from symgen.base.ir.formula import GraphFunctions
 from symgen.base.ir.graph import ARITHMETIC, Graph
 from symgen.base.vocabulary.expressions import Expr, Name, Number, Reading, call
 from symgen.base.vocabulary.measures import GROUND, Direction, Marker
@@ -43,7 +43,7 @@ class Formulas:
     def expression(self, e: Expr, **placeholders: int) -> int:
         """Return the node of a formula of the file."""
         names = {**self.names, **placeholders} if placeholders else self.names
-        functions = Functions(self.graph)
+        functions = GraphFunctions(self.graph)
 
         def node(e: Expr) -> int:
             if isinstance(e, Number):

@@ -13,7 +13,7 @@ from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.names import check_identifier
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.parts.fields import Condition, NewValues, read_table, words_of
-from symgen.describe.parts.inputs import put
+from symgen.describe.parts.inputs import with_formulas
 from symgen.describe.parts.scope import Context, Scope
 
 RISING, FALLING, ANY = "rising", "falling", "any"
@@ -95,7 +95,9 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
     """
     switching, condition = _switching(Scope(Context.of(mechanism), settings), "", when)
     text = " ".join(when.split())
-    return put(Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.input_formulas))
+    return with_formulas(
+        Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.input_formulas)
+    )
 
 
 def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, ...]:
@@ -107,7 +109,7 @@ def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, .
             where = f"{mechanism.name}: events.{name}"
             raise InputError(where, "a name that no event of the mechanism has", f"'{name}' again")
         event = read_event(Scope(Context.of(mechanism), f"events.{name}", name), name, table)
-        result.append(put(event, dict(mechanism.input_formulas)))
+        result.append(with_formulas(event, dict(mechanism.input_formulas)))
     return tuple(result)
 
 

@@ -97,7 +97,7 @@ class DrivenMechanism:
     def varied(self) -> Mechanism:
         """The mechanism whose inputs are their formulas and data plus the values in their slots."""
         beside = {name: call("add", e, Name(name)) for name, e in self.mechanism.input_formulas}
-        parts = {part: put(getattr(self.declared, part), beside) for part in _READING}
+        parts = {part: with_formulas(getattr(self.declared, part), beside) for part in _READING}
         return msgspec.structs.replace(self.mechanism, **parts)
 
 
@@ -155,8 +155,8 @@ def driven(mechanism: Mechanism, sources: Mapping[str, Any]) -> DrivenMechanism:
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
         return DrivenMechanism(mechanism, numbers, samples, curves, (), words, mechanism)
-    parts = {part: put(getattr(with_tables, part), changed) for part in _READING}
-    parts["bounded"] = put(with_tables.bounded, formulas)  # what jumps in them is found there
+    parts = {part: with_formulas(getattr(with_tables, part), changed) for part in _READING}
+    parts["bounded"] = with_formulas(with_tables.bounded, formulas)  # what jumps in them is found there
     parameters, put_in = (*with_tables.parameters, *switches), tuple(changed.items())
     whole = msgspec.structs.replace(with_tables, **parts, parameters=parameters, input_formulas=put_in)
     return DrivenMechanism(whole, numbers, samples, curves, tuple(jumps), words, with_tables)
@@ -189,7 +189,7 @@ def inputs_of_gaps(mechanism: Mechanism) -> dict[str, str]:
     return found
 
 
-def put(value: T, formulas: Mapping[str, Expr]) -> T:
+def with_formulas(value: T, formulas: Mapping[str, Expr]) -> T:
     """Return a part of a mechanism with formulas in the place of inputs."""
     return replaced(value, lambda e: formulas.get(e.name, e)) if formulas else value
 

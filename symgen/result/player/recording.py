@@ -11,7 +11,7 @@ import numpy as np
 
 from symgen.base.digits import cleaned, scale_of
 from symgen.describe.drawing.scene import Array
-from symgen.result.labelled import largest
+from symgen.result.labelled import largest_magnitudes
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -58,7 +58,7 @@ class PlottedGroup:
 
 
 @dataclass(frozen=True)
-class Moment:
+class RecordedEvent:
     """An event of a run.
 
     Attributes
@@ -103,7 +103,7 @@ class Recording:
         Force of each force element of `pulling` that pushes its ends apart [N].
     pulling : tuple of str
         Force elements.
-    moments : tuple of Moment
+    moments : tuple of RecordedEvent
         Rank events and others.
     """
 
@@ -118,7 +118,7 @@ class Recording:
     pushed: tuple[str, ...] = ()
     pulls: Array | None = None
     pulling: tuple[str, ...] = ()
-    moments: tuple[Moment, ...] = ()
+    moments: tuple[RecordedEvent, ...] = ()
 
 
 def parts_of(title: str, names: Sequence[str]) -> Iterator[tuple[str, slice]]:
@@ -138,7 +138,7 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[PlottedGroup]:
         for title, some in parts_of(meaning, [names[i][0] for i in columns]):
             chosen = columns[some]
             own = tuple(names[i][0] for i in chosen)
-            scale = scale_of(largest(q[:, columns]), unit)
+            scale = scale_of(largest_magnitudes(q[:, columns]), unit)
             groups.append(PlottedGroup(title, unit, own, q[:, chosen], places=tuple(chosen), scale=scale))
     return groups
 
@@ -264,7 +264,7 @@ def _plotted(group: PlottedGroup, keep: Array) -> dict[str, Any]:
     if group.logarithmic:
         values = np.log10(np.maximum(np.abs(values), 1e-17))
     else:
-        values = cleaned(values, max(group.scale, scale_of(largest(group.values), group.unit)))
+        values = cleaned(values, max(group.scale, scale_of(largest_magnitudes(group.values), group.unit)))
     return {"every": every, **shorts(values)}
 
 

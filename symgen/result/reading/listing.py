@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from symgen.base.errors import counted
 from symgen.base.escapes import printable
-from symgen.base.ir.program import Target
+from symgen.base.ir.program import OutputSlot
 from symgen.derive.emit.printer import ElementAccess
 from symgen.describe import catalogue
 from symgen.result.reading.html import attribute, fold
@@ -83,14 +83,14 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
     """
     access = ElementAccess(program.layout, {})
     names, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
-    targets = [("geometry", Target("residual", i), n, "Phi") for i, n in enumerate(names)]
-    targets += [("geometry", Target("nu", i), n, "nu") for i, n in enumerate(names)]
+    targets = [("geometry", OutputSlot("residual", i), n, "Phi") for i, n in enumerate(names)]
+    targets += [("geometry", OutputSlot("nu", i), n, "nu") for i, n in enumerate(names)]
     targets += [
-        ("geometry", Target("jacobian", e.slot), names[e.row], speeds[e.column])
+        ("geometry", OutputSlot("jacobian", e.slot), names[e.row], speeds[e.column])
         for e in program.jacobian
         if e.slot is not None
     ]
-    targets += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
+    targets += [("observe", OutputSlot("out", i), n, "gamma") for i, n in enumerate(names)]
     entries, lines = list[Computed](), assigned_lines(source)
     for function, target, row, what in targets:
         line = lines.get((function, access.write(target)))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import InputError, StepError
 from symgen.describe.parts.events import STOP
 from symgen.run.layout import abi
-from symgen.run.single.changes import begin, begin_anew
+from symgen.run.single.changes import begin_anew, begin_stepping
 from symgen.run.single.events import EventRecord, record_of
 from symgen.run.single.run import reason_of
 
@@ -85,7 +85,7 @@ class Advance:
     def begin(self) -> None:
         """Accept the first state, if that has not happened."""
         if self._control[abi.BEGUN] == 0:
-            code = begin(self.loop)
+            code = begin_stepping(self.loop)
             if code != abi.DONE:
                 self.fail(code)
 

@@ -12,7 +12,7 @@ from symgen.base.errors import InputError, quoted
 from symgen.base.vocabulary.expressions import readings
 from symgen.base.vocabulary.measures import Integral
 from symgen.compile.loopcode.entry import direct
-from symgen.describe.parts.inputs import put
+from symgen.describe.parts.inputs import with_formulas
 from symgen.describe.parts.scope import Context, Scope
 from symgen.run.compiling.side import Side, compile_side
 from symgen.run.layout import abi
@@ -49,7 +49,7 @@ def compiled_formulas(prepared: Prepared, formulas: Sequence[str], where: str) -
         expression = Scope(context, place).of_motion("", text)
         if any(isinstance(reading.source, Integral) for reading in readings(expression)):
             raise InputError(place, "a formula of the present state", "an integral")
-        parsed.append((text, put(expression, inputs)))
+        parsed.append((text, with_formulas(expression, inputs)))
     purpose = "formulas at the present state of a run"
     side = compile_side(prepared.mechanism, prepared.compiled, "formulas", purpose, parsed)
     return side, bool(side.reads & {"ydot", "multipliers"})

@@ -168,7 +168,7 @@ class CModel:
             "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
             "failed": FAILED,
-            "effects": self.printed_run is None and self.events.effects is not None,
+            "effects": self._resets,
             "memory": [
                 {"name": name, "is_real": kind == "float", "size": size}
                 for name, (kind, size) in self._memory.items()
@@ -257,6 +257,13 @@ class CModel:
         return PrintedEvents.of(self.mechanism, self.compiled)
 
     @property
+    def _resets(self) -> bool:
+        """Whether events of the file change a state."""
+        if self.printed_run is None:
+            return self.events.effects is not None
+        return any(event.reset is not None for event in self.mechanism.events)
+
+    @property
     def exchanges(self) -> bool:
         """Whether an importer may integrate: in FMUs without a named integrator."""
         return self.target == "fmu" and not self.named
@@ -276,6 +283,8 @@ class CModel:
             printed.add_run(self.printed_run)
             if self.exchanges and self.mechanism.bounded:
                 printed.add_exchange(self.printed_run)
+            if self._resets:
+                printed.add_reset(self.printed_run)
             printed.add_steps(self.compiled, PrintedEvents(), ("find_rates",))
         else:
             further = ("apply_effects",) if self.events.effects else ()

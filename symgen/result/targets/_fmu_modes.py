@@ -9,7 +9,7 @@ from symgen.run.rows import exchanged_run
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from symgen.result.targets._c_model import CModel
 
@@ -40,6 +40,9 @@ def values_of_exchange(model: CModel, holonomic: Sequence[int]) -> dict[str, Any
     info = model.compiled.info
     asked = {name.lower(): getattr(exchanged_run, name) for name in ("COMPLETE", "HANDLE", "GO_ON", "ASK")}
     answers = {name.lower(): getattr(exchanged_run, name) for name in ("HAPPENED", "OVER", "STUCK")}
+    outputs, run = [output.name for output in model.mechanism.outputs], model.printed_run
+    watched = None if run is None else run.watched
+    rows = () if watched is None or watched.bounded is None else watched.bounded.names
     positions = [*holonomic, *(-1 for _ in info.spins)]
     return {
         **flags,
@@ -52,8 +55,10 @@ def values_of_exchange(model: CModel, holonomic: Sequence[int]) -> dict[str, Any
         "answers": answers,
         "next": exchanged_run.NEXT,
         "behind": exchanged_run.BEHIND,
+        "rests": exchanged_run.RESTS,
+        "mode_outputs": _numbers(outputs.index(f"{row}.mode") for row in rows),
     }
 
 
-def _numbers(numbers: Sequence[int]) -> str:
+def _numbers(numbers: Iterable[int]) -> str:
     return broken_line(", ".join(map(str, numbers)))

@@ -79,7 +79,7 @@ def write_functions(request: Request, library: str, syntax: Syntax, head: str, m
     return Package(request.path, files, derived - began, time.perf_counter() - derived)
 
 
-class StateQuantity(NamedTuple):
+class ModuleFunction(NamedTuple):
     """A function of a module.
 
     Attributes
@@ -120,14 +120,14 @@ def state_model(where: str, request: Request) -> StateModel:
     return model
 
 
-def quantities(model: StateModel) -> Iterator[StateQuantity]:
+def quantities(model: StateModel) -> Iterator[ModuleFunction]:
     """Yield the functions of a mechanism."""
     for name, (vectors, purpose) in (OF_ALL | (OF_ROWS if model.rows else {})).items():
         if model.rows and name in ("forward_dynamics", "inverse_dynamics"):
             values = partial(StateFunctions.solved, name=name, kept=model.kept)
-            yield StateQuantity(name, name, purpose, vectors, values, model.kept)
+            yield ModuleFunction(name, name, purpose, vectors, values, model.kept)
         else:
-            yield StateQuantity(name, name, purpose, vectors, partial(StateFunctions.values, name=name))
+            yield ModuleFunction(name, name, purpose, vectors, partial(StateFunctions.values, name=name))
     taken = set[str]()
     for body in model.mechanism.bodies:
         origin = (ZERO,) * len(model.mechanism.gravity)
@@ -139,7 +139,7 @@ def quantities(model: StateModel) -> Iterator[StateQuantity]:
             for what, vectors in OF_FRAMES.items():
                 frame = partial(StateFunctions.frame, body=body.name, point=at, what=what, axes="world")
                 purpose, identity = f"{what} of {place}", (body.name, *map(to_text, at))
-                yield StateQuantity(f"{what}_{place}", what, purpose, vectors, frame, identity)
+                yield ModuleFunction(f"{what}_{place}", what, purpose, vectors, frame, identity)
 
 
 def _head(model: StateModel, library: str, programs: dict[str, FunctionProgram]) -> str:

@@ -66,7 +66,7 @@ def _write(request: Request) -> Package:
     # inputs with formulas remain inputs of the FMU: the importing tool connects them
     mechanism = msgspec.structs.replace(request.mechanism, input_formulas=())
     model = CModel.of(replace(request, mechanism=mechanism), "fmu")
-    files = files_of(model, request.fmi)
+    files = fmu_files(model, request.fmi)
     files |= _binaries(model.prefix, files, request.fmi)
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -79,7 +79,7 @@ def _write(request: Request) -> Package:
     return Package(request.path.parent, (request.path,), compiled.derive_seconds, compiled.emit_seconds, model.notes)
 
 
-def files_of(model: CModel, fmi: int) -> dict[str, bytes]:
+def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
     """Return the text files of an FMU of a version of the interface by their names in it."""
     texts = sources(model.values)
     values = model.values | _partition(model)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import finite_numbers
 from symgen.compile.native import types
-from symgen.compile.native.array_entry import Block, array_entry, block_of, has_entries, many
+from symgen.compile.native.array_entry import EntrySlots, array_entry, block_of, has_entries, many
 from symgen.compile.store.jit import MachineFunction, object_file
 from symgen.compile.store.modules import load_module
 from symgen.run.compiling.side import module_beside
@@ -72,7 +72,7 @@ class StateFunction:
 
     def block(
         self, default: Array, otherwise: Callable[..., Any], views: type[np.ndarray[Any, Any]] = np.ndarray
-    ) -> Block | None:
+    ) -> EntrySlots | None:
         """Return the slots of an entry, None where only plain Python can be called; see `block_of`."""
         if not isinstance(self.function, MachineFunction) or not has_entries():
             return None
@@ -84,11 +84,11 @@ class StateFunction:
         scratch = np.zeros(self.scratch)
         return block_of(address, kernel, self.sizes, scratch, self.lengths, self.shape, default, otherwise, views)
 
-    def entry(self, block: Block) -> Any:
+    def entry(self, block: EntrySlots) -> Any:
         """Return the built-in function of a block."""
         return array_entry(block, len(self.lengths), object_file)
 
-    def rows(self, block: Block | None, arrays: Sequence[Array], out: Array) -> tuple[int, int]:
+    def rows(self, block: EntrySlots | None, arrays: Sequence[Array], out: Array) -> tuple[int, int]:
         """Evaluate many states, each array with one a row, or one for all states.
 
         Returns

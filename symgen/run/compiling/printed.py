@@ -262,6 +262,10 @@ class Printed:
         """Add ``indicate_run(t, y, values)`` and ``exchange_run(doing, t)`` of a run whose steps an importer makes."""
         self.entries.update(run.exchange_entries(self.emitted))
 
+    def add_reset(self, run: PrintedRun) -> None:
+        """Add ``reset_run(event, t, y)``, the effects of one event in a run, see `symgen.run.rows.kept_reset`."""
+        self.entries.update(run.reset_entries(self.emitted))
+
     def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:
         """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
         layout, geometry = layout_of(compiled), compiled.model.geometry

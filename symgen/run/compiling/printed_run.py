@@ -33,8 +33,9 @@ from symgen.run.loops.schemes import readable
 from symgen.run.loops.seams import preparing, seams_of
 from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
-from symgen.run.rows.exchanged_run import Exchange, exchanged_run
+from symgen.run.rows.exchanged_run import RESTS, Exchange, exchanged_run
 from symgen.run.rows.kept_modes import KeptModes
+from symgen.run.rows.kept_reset import kept_reset
 from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
 from symgen.run.rows.rows import observe_nothing
 from symgen.run.single.events import event_state
@@ -178,6 +179,12 @@ class PrintedRun:
         }
         return self._read(functions, emitted)
 
+    def reset_entries(self, named: Mapping[str, lang.Function]) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
+        """Return ``reset_run(event, t, y)``; see `symgen.run.rows.kept_reset`."""
+        model, _, _, _, state, _, visible, _ = self._arguments
+        functions = {"reset_run": (kept_reset(*self._recipe), (None, None, visible.y.copy(), model, state))}
+        return self._read(functions, self.emitted(named))
+
     def _read(
         self, functions: Mapping[str, tuple[Any, tuple[Any, ...]]], emitted: dict[int, lang.Function]
     ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
@@ -260,7 +267,16 @@ class PrintedRun:
         visible = Visible(np.zeros(info.ny), clock, np.zeros(4, dtype=np.int64), ends)
         numbers = Span(**{**span._asdict(), "until": None, "step": None, "end": np.inf})
         of_model = model, observers, *self._further(span, len(state.w))
-        return of_model, setup.scheme, numbers, chunk, state, outputs, visible, Exchange(np.zeros(2))
+        return (
+            of_model,
+            setup.scheme,
+            numbers,
+            chunk,
+            state,
+            outputs,
+            visible,
+            Exchange(np.zeros(RESTS + (0 if self._rows is None else len(self._rows.names)))),
+        )
 
     def _further(self, span: Span, nw: int) -> tuple[Any, ...]:
         """Return what stands behind the functions of a model: rows with bounds, or effects of events."""

@@ -136,7 +136,7 @@ def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, 
 
 
 @jit()
-def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) -> float:
+def refine_velocities(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) -> float:
     """Correct velocities by D^+ times the section of the residual; return the relative change."""
     spread(p, w)
     step = size_of(course, w, course.change)
@@ -184,7 +184,7 @@ def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
     part_of, enough = 1.0, REFINED * w[abi.PIVOT]
     for _ in range(ROUNDS):
         measure(t, z, p, w)
-        part_of = refine(course, spread, p, w, z, nq)
+        part_of = refine_velocities(course, spread, p, w, z, nq)
         if part_of <= enough:
             break
     if part_of > MEASURED:
@@ -193,7 +193,7 @@ def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
         observe(t, z, p, w, rates, stand.rows)
         for i in range(course.m):
             w[course.residual + i] = stand.rows[i]
-        if refine(course, spread, p, w, rates, nq) <= enough:
+        if refine_velocities(course, spread, p, w, rates, nq) <= enough:
             break
     for j in range(nv):
         if not math.isfinite(z[nq + j] + rates[nq + j]):

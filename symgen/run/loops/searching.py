@@ -131,7 +131,7 @@ def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
 
 
 @plain
-def settle(hunt: A, n: int, ends: int) -> int:
+def settle_bracket(hunt: A, n: int, ends: int) -> int:
     """Make the end of the step, or of the bracket where `ends` is 0, the beginning of the next step."""
     at = N_HEAD
     g, d = G_END if ends == 1 else G_HIGH, D_END if ends == 1 else D_HIGH
@@ -309,7 +309,7 @@ def ended(hunt: A, n: int, notes: int, following: float, width: int, y: A) -> in
         if following - hunt[SINCE] > _HEAP * following:
             hunt[SINCE], hunt[PASSED] = following, 0.0
         hunt[PASSED] += 1.0
-    settle(hunt, n, 0)
+    settle_bracket(hunt, n, 0)
     if action >= ANEW and hunt[PASSED] > _CROWDED:
         return HOLD
     return MEET if action != ANEW or hunt[NOTED] > NOTES else RESTART
@@ -365,7 +365,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
     if search == TAKE and hunt[DOING] != TO_EVENT:
         if hunt[DOING] == _BEFORE:
             end_before(hunt, n, h)
-        settle(hunt, n, 1)
+        settle_bracket(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
     take_in(hunt, n, h, following, search)
     if search == NOTHING and hunt[INSIDE] > 0.0 and hunt[REACH] < _ENDLESS and divides(hunt, n, h) == 1:
@@ -416,7 +416,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             break
         move_on(hunt, n)
     if search == NOTHING:
-        settle(hunt, n, 1)
+        settle_bracket(hunt, n, 1)
         return NOTHING
     hunt[DOING], hunt[TRY] = _WHOLE_STEP, hunt[WHOLE]
     return TAKE

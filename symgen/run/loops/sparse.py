@@ -254,7 +254,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
         place[i] = pivot_row[i] = mark[i] = -1
     used, skipped = 0, 0
     for k in range(n):
-        top = reach(plan, k)
+        top = filled_rows(plan, k)
         if used + n - top > room:
             return -1
         for f in range(top, n):
@@ -315,7 +315,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
 
 
 @jit()
-def reach(plan: Any, k: int) -> int:
+def filled_rows(plan: Any, k: int) -> int:
     """Find the rows in which column `k` has entries after the elimination of earlier columns, in its order.
 
     Returns

@@ -32,7 +32,7 @@ from symgen.run.compiling.choices import choose_coordinates, on_tree
 from symgen.run.compiling.closing import at_start
 from symgen.run.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
 from symgen.run.planning.plan import Plan, Purpose
-from symgen.run.planning.prepare import begin, code_and_start, make_plan
+from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
 
 if TYPE_CHECKING:
     from symgen.compile.store.entries import Modules
@@ -202,7 +202,7 @@ def _started(plans: Sequence[Plan]) -> tuple[list[Plan], dict[str, Any] | None, 
         refuse_jumps(usual.mechanism, {}, usual.spec.until)
     except InputError as error:
         return list(plans), None, markdown_text(str(error))
-    simulation = begin(usual, assembled).simulation()
+    simulation = prepared_run(usual, assembled).simulation()
     simulation.enter(simulation.outputs(np.zeros(0)), until=0.0)
     state, info, defaults = simulation.state, assembled.compiled.info, usual.mechanism.defaults
     sections = {name: info.sections[name] for name in SETTLED if name in info.sections}

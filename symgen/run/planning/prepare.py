@@ -33,7 +33,8 @@ from symgen.run.planning.continuation import continued
 from symgen.run.planning.inputs import put_inputs
 from symgen.run.planning.plan import Plan, Purpose, resolved
 from symgen.run.planning.starts import Code, begun, compiled_for, open_start
-from symgen.run.planning.tree import TreeRun, on_tree_of, tree_taken_up
+from symgen.run.planning.tree import TreeRun
+from symgen.run.planning.tree_starts import on_tree_of, tree_taken_up
 from symgen.run.single.run import integrate
 from symgen.run.single.simulation import Simulation
 
@@ -181,7 +182,7 @@ class Preparation:
         assembled = assembled or code_and_start(self.plan, self.near, code)
         if shared is not None:
             shared[self.plan.key] = assembled
-        return begin(self.plan, assembled)
+        return prepared_run(self.plan, assembled)
 
 
 @uncollected()
@@ -251,7 +252,7 @@ def preparation(
     chosen = resolved(inputs, replace(trial, integrator=integrator), purpose, notes)
     same = assembled if chosen.choice == plan.choice else None
     if purpose is Purpose.MOTION and settings.integrator == AUTO and integrator == TOGETHER and same is not None:
-        facts = replace(facts, slow=slow_steps(begin(chosen, same)))
+        facts = replace(facts, slow=slow_steps(prepared_run(chosen, same)))
         if facts.slow > SLOW:
             _, integrator, notes = automatic_choice(facts, settings.method, settings.integrator)
             notes = *gains, *notes
@@ -326,7 +327,7 @@ def code_and_start(plan: Plan, near: Array | None = None, code: Code = compiled_
     return Assembled(tree.compiled, tree.start, tree)
 
 
-def begin(plan: Plan, assembled: Assembled) -> Prepared:
+def prepared_run(plan: Plan, assembled: Assembled) -> Prepared:
     """Return a run from its plan, its code and its start, which runs with an equal `Plan.key` may share."""
     run = Prepared(plan, noted(plan, assembled), plan.spec)
     if plan.purpose in (Purpose.STATE, Purpose.DESCRIBED):

@@ -27,7 +27,7 @@ from symgen.run.rows.kept_run import CHANGED, ENDING, VISIBLE, Traits, meet, rec
 from symgen.run.rows.row_modes import begin_modes, rest_gaps
 from symgen.run.single.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
 from symgen.run.single.choice import read_rows
-from symgen.run.single.strikes import end_flights
+from symgen.run.single.strikes import end_flights, end_lost_flights
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
 
@@ -36,8 +36,9 @@ _F, _A, _K = types.float64, types.float64[::1], types.int64
 COMPLETE, HANDLE, GO_ON, ASK = range(4)
 #: Answers: nothing has happened; something has; an event ends the run; the motion cannot go on.
 QUIET, HAPPENED, OVER, STUCK = range(4)
-#: Places of times: that of the next jump or kink of formulas; the one behind a jump, from which formulas are evaluated.
-NEXT, BEHIND = range(2)
+#: Places of times: that of the next jump or kink of formulas, or of a rest; the one behind a jump, from which formulas
+#: are evaluated; then, for each row, that at which the flights end of a gap that has come to rest before.
+NEXT, BEHIND, RESTS = range(3)
 
 #: Values of functions below this part of their size are 0 for an importer that has located that; a margin that sleeps
 #: has fallen to 0 at this part of what lifts it; and the least value.
@@ -87,6 +88,61 @@ def pass_due_seams(model: Any, span: Any, state: Any) -> int:
         if not is_defined(p):
             return STUCK
     return HAPPENED if changed or skipped else QUIET
+
+
+# -- rests -------------------------------------------------------------------------------------------------------------
+
+
+def forget_rests(modes: Any, times: Any, is_begun: bool) -> None:
+    """Do nothing: no gap of a run without gaps comes to rest."""
+
+
+def rest_lost_gaps(t: float, modes: Any, state: Any) -> int:
+    """Return `SAME`: a run without gaps has no flights."""
+    return SAME
+
+
+def note_rests(t: float, modes: Any, times: Any) -> None:
+    """Do nothing: no gap of a run without gaps comes to rest."""
+
+
+def next_rest(t: float, modes: Any, times: Any) -> float:
+    """Return infinity: no gap of a run without gaps comes to rest."""
+    return math.inf
+
+
+def forget_rests_of_gaps(modes: Any, times: Any, is_begun: bool) -> None:
+    """Forget which gaps have just come to rest; and where a run begins, all of them."""
+    left = modes.strikes.left
+    for i in range(left.shape[0]):
+        left[i] = math.nan
+        times[RESTS + i] = times[RESTS + i] if is_begun else 0.0
+
+
+def rest_gaps_in_flight(t: float, modes: Any, state: Any) -> int:
+    """Bring gaps to rest that an importer finds at 0 on the way up; return `OTHERS` where any are, or another code."""
+    c = modes.choice
+    c.depth[0] = math.inf
+    code = read_rows(t, c, state.y, state.p, state.w)
+    if code == SAME:
+        code = end_lost_flights(t, c, modes.strikes, state.y, state.p, state.w, state.iw)
+    return int(code)
+
+
+def note_rests_of_gaps(t: float, modes: Any, times: Any) -> None:
+    """Note when the flights end of gaps that have just come to rest."""
+    left = modes.strikes.left
+    for i in range(left.shape[0]):
+        times[RESTS + i] = t + left[i] if left[i] > 0.0 else times[RESTS + i]
+
+
+def next_rest_of_gaps(t: float, modes: Any, times: Any) -> float:
+    """Return the first time behind `t` at which flights end that have been left out; else infinity."""
+    first = math.inf
+    for i in range(modes.strikes.left.shape[0]):
+        if t < times[RESTS + i] < first:
+            first = times[RESTS + i]
+    return first
 
 
 # -- the run -----------------------------------------------------------------------------------------------------------
@@ -159,6 +215,7 @@ def look_at(system: Any, run: Any, t: float) -> int:
 @called
 def handle(t: float, system: Any, run: Any, model: Any, span: Any, chunk: Any, state: Any, visible: Any) -> int:
     """Handle the event at which an importer stands: modes, impacts, resets, seams; return as `exchange_run`."""
+    _, _, modes = model
     control, numbers, code = state.control, visible.numbers, QUIET
     known = run.clock[abi.TIME] == t and run.hunt[records.NOTED] > 0.0
     if not known and numbers[CHANGED] == 0:
@@ -176,10 +233,12 @@ def handle(t: float, system: Any, run: Any, model: Any, span: Any, chunk: Any, s
         if ended != abi.MET:
             return STUCK
         code = HAPPENED
-    passed = pass_seams(model, span, state)
-    if passed == STUCK:
+    passed, lost = pass_seams(model, span, state), SAME
+    if code == QUIET:
+        lost = rest_lost_gaps(t, modes, state)
+    if passed == STUCK or not (lost == SAME or lost == OTHERS):
         return STUCK
-    if passed == HAPPENED or numbers[CHANGED] != 0:
+    if passed == HAPPENED or numbers[CHANGED] != 0 or lost == OTHERS:
         control[abi.BEGUN] = abi.AFRESH
         if begin_modes(model, span, state) != abi.DONE:
             return STUCK
@@ -210,6 +269,7 @@ def exchange_run(
     """
     system = ModelSystem(*system_of_steps(model[0]))
     run, code = opened(system.sizes, state), QUIET
+    _, _, modes = model
     if doing != ASK:
         for i in range(visible.y.shape[0]):
             state.y[i] = visible.y[i]
@@ -218,14 +278,19 @@ def exchange_run(
         code = look_at(system, run, now)
     elif doing == HANDLE:
         visible.numbers[ENDING] = -1
+        forget_rests(modes, exchange.times, True)
         code = handle(now, system, run, model, span, chunk, state, visible)
+        note_rests(now, modes, exchange.times)
         visible.numbers[CHANGED] = 0
         for i in range(visible.y.shape[0]):
             visible.y[i] = state.y[i]
     elif doing == GO_ON and run.control[abi.BEGUN] != 1:
         code = STUCK if prepare_search(system, run, LOOK) == FAIL else QUIET
         run.control[abi.BEGUN] = 1
-    exchange.times[NEXT] = next_time(model[0], state)
+    elif doing == ASK:
+        forget_rests(modes, exchange.times, False)
+    following, rest = next_time(model[0], state), next_rest(t, modes, exchange.times)
+    exchange.times[NEXT] = following if following < rest else rest
     exchange.times[BEHIND] = run.clock[abi.TIME] if run.clock[abi.TIME] > t else 0.0
     return int(code)
 
@@ -234,14 +299,21 @@ def rest_low_gaps(t: float, modes: Any, state: Any) -> int:
     """Bring gaps to rest as `rest_gaps` does, and where an importer's tolerance loses their flights."""
     c, count = modes.choice, modes.strikes.pushing[0]
     code = rest_gaps(t, modes, state)
-    if count > 0 and code == SAME:
-        code = end_flights(t, c, modes.strikes, state.y, state.p, state.w)
+    if code == SAME:
+        if count > 0:
+            code = end_flights(t, c, modes.strikes, state.y, state.p, state.w)
+        else:
+            code = end_lost_flights(t, c, modes.strikes, state.y, state.p, state.w, state.iw)
         if code == OTHERS and read_rows(t, c, state.y, state.p, state.w) != SAME:
             code = OUT_OF_RANGE
     return int(code)
 
 
 _loops: dict[Any, tuple[Any, Any]] = {}
+_RESTING = {
+    **{"gather_impacts": rest_low_gaps, "forget_rests": forget_rests_of_gaps},
+    **{"note_rests": note_rests_of_gaps, "next_rest": next_rest_of_gaps, "rest_lost_gaps": rest_gaps_in_flight},
+}
 _SEAMED = {"next_time": next_seam, "pass_seams": pass_due_seams}
 
 
@@ -250,7 +322,7 @@ def exchanged_run(loop: Any, traits: Traits) -> tuple[Any, Any]:
     key = loop, traits
     if key not in _loops:
         name, meanings, _, model = recipe_of(loop, traits)
-        meanings |= {"gather_impacts": rest_low_gaps} if traits.effects else {}
+        meanings |= _RESTING if traits.effects else {}
         meanings |= _SEAMED if traits.seams else {}
         indicate = types.int64(_F, _A, model, EVENT_STATE, _A)
         exchange = types.int64(_K, _F, model, SPAN, CHUNK, EVENT_STATE, VISIBLE, EXCHANGE)

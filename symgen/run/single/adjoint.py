@@ -23,7 +23,7 @@ from symgen.run.single.bounded_rows import CONSTANT, LIMIT
 from symgen.run.single.directed_model import DirectedModel, Seeds, for_derivatives, lanes_of
 from symgen.run.single.kept_run import KeptRun, refusal
 from symgen.run.single.moments import Moments
-from symgen.run.single.passages import Passage
+from symgen.run.single.passages import RunPassage
 from symgen.run.single.run import Progress, completed
 from symgen.run.single.transfer import Transfer
 
@@ -192,7 +192,7 @@ class WayBack:
         from symgen.run.loops.schemes.adjoint import CORRECTIONS, Corrections
 
         run, most, accept = self.run, len(Corrections._fields), self.run.compiled.law_module.accept
-        pieces = [run.first, *(x for x in run.course if not isinstance(x, Passage))]
+        pieces = [run.first, *(x for x in run.course if not isinstance(x, RunPassage))]
         counts = sorted({int(k) for piece in pieces for k in np.unique(piece[CORRECTIONS :: run.size])})
         if counts[-1] >= most:
             expected = f"at most {most - 1} rounds of corrections in a step"
@@ -200,9 +200,9 @@ class WayBack:
         made = {k: _adjoint(accept, k) for k in counts}
         return Corrections(*(made.get(k, made[counts[0]]) for k in range(most)))
 
-    def through(self, item: Array | Passage) -> None:
+    def through(self, item: Array | RunPassage) -> None:
         """Go back through some steps, or a passage."""
-        if isinstance(item, Passage):
+        if isinstance(item, RunPassage):
             self._through_passage(item)
         else:
             self._through_steps(item)
@@ -225,7 +225,7 @@ class WayBack:
         y[: len(run.start.y)] = run.start.y
         if run.corrected:
             passage = run.course[run.corrected - 1]
-            assert isinstance(passage, Passage), "there are no steps before the start"
+            assert isinstance(passage, RunPassage), "there are no steps before the start"
             y[:] = passage.after.y
         call = self._corrections[int(run.first[CORRECTIONS])].caller(CORRECTION.signature.arguments)
         call(run.start.t, y, *self._now, self._y, self._p, self._w)
@@ -237,7 +237,7 @@ class WayBack:
 
     # -- passages ------------------------------------------------------------------------------------------------------
 
-    def _through_passage(self, passage: Passage) -> None:
+    def _through_passage(self, passage: RunPassage) -> None:
         """Go back through a passage: the transposed derivative of what it changes."""
         before = passage.before
         if passage.numbers or passage.effects or self._places:

@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 _WATCHED = [abi.PASSAGES, abi.IN_ZONE, abi.LAST_RANK, abi.MASKED, abi.OUTPUTS]
 
 
-def begin(simulation: Simulation) -> int:
+def begin_stepping(simulation: Simulation) -> int:
     """Accept the first state and prepare the scheme, without a step; return `DONE` or the reason for a refusal."""
     control = simulation.state.control
     control[abi.STOP] = 1
@@ -69,7 +69,7 @@ def begin_with_step(simulation: Simulation) -> int:
     if state.control[abi.STEPS] > 0 and simulation.spec.adaptive:
         simulation.span = span._replace(step=float(state.clock[abi.NEXT]))
     try:
-        return begin(simulation)
+        return begin_stepping(simulation)
     finally:
         simulation.span = span
 

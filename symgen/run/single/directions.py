@@ -20,7 +20,7 @@ from symgen.run.layout import abi
 from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.single.direction_errors import StepErrors, begin_estimates, estimating, step_errors
 from symgen.run.single.moments import Moments
-from symgen.run.single.passages import Passage, PassingSimulation
+from symgen.run.single.passages import PassingSimulation, RunPassage
 from symgen.run.single.reset_directions import events_at_start
 from symgen.run.single.run import Progress, completed
 from symgen.run.single.simulation import Simulation
@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Part:
+class DirectedPart:
     """A run with as many directions as its code takes.
 
     Attributes
@@ -76,14 +76,14 @@ class Course:
     ----------
     outcome : Outcome
         As of a run without directions.
-    parts : tuple of Part
+    parts : tuple of DirectedPart
         The loops, each with some of the directions.
     count : int
         Number of directions.
     """
 
     outcome: Outcome
-    parts: tuple[Part, ...]
+    parts: tuple[DirectedPart, ...]
     count: int
 
     @property
@@ -91,7 +91,7 @@ class Course:
         """Why directions behind events are in doubt."""
         return tuple(doubt for part in self.parts for doubt in part.doubts)
 
-    def gathered(self, of: Callable[[Part], Array]) -> Array:
+    def gathered(self, of: Callable[[DirectedPart], Array]) -> Array:
         """Return the directions of all parts beside each other, along the last axis."""
         return np.concatenate([of(part) for part in self.parts], axis=-1)[..., : self.count]
 
@@ -138,7 +138,7 @@ class DirectedSimulation(PassingSimulation):
         """Place of the numbers of modes in the scratch array."""
         return self.transfer.moments.place_of_modes()
 
-    def passed(self, passage: Passage) -> None:
+    def passed(self, passage: RunPassage) -> None:
         """Take the directions through a passage."""
         model, state = self.directed, self.state
         y, w = (model.shadow(x, name) for x, name in ((passage.before.y, "y"), (passage.before.w, "w")))
@@ -166,7 +166,7 @@ def run_with_directions(
     seeds : Seeds
         Directions at the start.
     """
-    model, parts = DirectedModel(compiled, lanes_of(seeds.count)), list[Part]()
+    model, parts = DirectedModel(compiled, lanes_of(seeds.count)), list[DirectedPart]()
     for first in range(0, seeds.count, model.lanes):
         own = seeds.part(first, model.lanes)
         p = model.parameters(start.p, own.p)
@@ -177,14 +177,14 @@ def run_with_directions(
         begin_estimates(simulation, model.sizes["y"])
         outcome = completed(simulation, progress)
         modes = *simulation.modes, (np.inf, model.shadow(simulation.state.w, "w")[simulation.place].copy())
-        parts.append(Part(model, outcome, (*doubts, *simulation.transfer.doubts), modes))
+        parts.append(DirectedPart(model, outcome, (*doubts, *simulation.transfer.doubts), modes))
         progress = None
         if outcome.interrupted:
             break
     return Course(_plain(parts[0], integrator, start, spec), tuple(parts), seeds.count)
 
 
-def _plain(part: Part, integrator: Integrator, start: Start, spec: RunSpec) -> Outcome:
+def _plain(part: DirectedPart, integrator: Integrator, start: Start, spec: RunSpec) -> Outcome:
     """Return the outcome of a run with directions as one of a run without them."""
     outcome, sizes, compiled = part.outcome, part.model.sizes, part.model.plain
     simulation, longer = Simulation(compiled, integrator, start, spec), outcome.simulation

@@ -44,7 +44,7 @@ class Free:
     def _rows(self) -> Array:
         """Derivatives of the rows in force, of their rates, and of the lengths of Euler parameters."""
         info, now, by = self.moments.compiled.info, self.now, self.by
-        d, by_d, residual, nu = jacobian(self.moments, now, by)
+        d, by_d, residual, nu = constraint_directions(self.moments, now, by)
         off = self.moments.compiled.off(now.w)
         force = [i for i, row in enumerate(info.rows) if row.name not in off]
         v, by_v = now.y[info.nq : info.work], by.y[info.nq : info.work, :-1]
@@ -63,7 +63,7 @@ class Free:
         return bool(np.any(np.abs(left).max(axis=1) > TOGETHER * np.abs(of).max()))
 
 
-def jacobian(moments: Moments, now: Moment, by: Directions) -> tuple[Array, Array, Array, Array]:
+def constraint_directions(moments: Moments, now: Moment, by: Directions) -> tuple[Array, Array, Array, Array]:
     """Return D, then directions of D, of residuals and of nu, shapes (m, nv), (m, nv, k), (m, k), (m, k)."""
     compiled, model = moments.compiled, moments.model
     info, columns = compiled.info, list[Array]()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.padding import aligned
 from symgen.run.layout import abi
-from symgen.run.single.passages import Passage, PassingSimulation
+from symgen.run.single.passages import PassingSimulation, RunPassage
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -95,7 +95,7 @@ class KeptRun(PassingSimulation):
         self.size = record_size(self.sizes.width, int(self.scheme.stages))
         self._capacity = _PIECE // self.size
         self.first, self.corrected, self.bytes_kept = np.zeros(0), 0, 0
-        self.course = list[Array | Passage]()
+        self.course = list[Array | RunPassage]()
         self._pages, self._turned, self._begins, self._left = pages, 0, 0, 0
         if self._capacity < 1:
             raise refusal("a smaller mechanism", f"one with {self.sizes.ny} numbers in its state")
@@ -124,7 +124,7 @@ class KeptRun(PassingSimulation):
                 self._close()
                 return code
 
-    def passed(self, passage: Passage) -> None:
+    def passed(self, passage: RunPassage) -> None:
         """Keep a passage; the steps behind it begin anew."""
         self._close()
         self.course.append(passage)

@@ -46,7 +46,7 @@ class Struck:
 
 
 @dataclass(frozen=True)
-class Passage:
+class RunPassage:
     """An instant at which a run goes on otherwise.
 
     Attributes
@@ -120,14 +120,14 @@ class PassingSimulation(Simulation):
         state = self.state
         return Moment(self._time, state.y.copy(), state.p.copy(), state.w.copy())
 
-    def passed(self, passage: Passage) -> None:
+    def passed(self, passage: RunPassage) -> None:
         """Take a passage; the run goes on behind it. What is done with it is up to subclasses."""
         raise NotImplementedError
 
     def _pass(self, numbers: Sequence[int], before: Moment, starts: bool = False) -> None:
         effects, self._effects = tuple(self._effects), []
         self._p = self.state.p.copy()
-        self.passed(Passage(tuple(numbers), before, self._moment(), effects, starts))
+        self.passed(RunPassage(tuple(numbers), before, self._moment(), effects, starts))
 
     def _begin_modes(self) -> None:
         if self.transitions is None or self.state.control[abi.BEGUN] == 1:

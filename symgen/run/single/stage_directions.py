@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 _ITERATIONS, _SAME = 10, 1e-11
 
 
-class Step(NamedTuple):
+class DifferentiatedStep(NamedTuple):
     """A step to be differentiated.
 
     Attributes
@@ -78,12 +78,12 @@ class StageDirections(ABC):
         self.moments, self.law = moments, moments.compiled.law_module
 
     @abstractmethod
-    def through(self, step: Step, state: State) -> Array:
+    def through(self, step: DifferentiatedStep, state: State) -> Array:
         """Return the directions of the state behind a step, shape (ny, k).
 
         Parameters
         ----------
-        step : Step
+        step : DifferentiatedStep
             The step.
         state : State
             Of the run behind it: in its working memory, stages of the step or some near them.
@@ -93,7 +93,7 @@ class StageDirections(ABC):
     def _accept(self) -> Any:
         return self.moments.model.function(self.law.accept, timed=True).caller(abi.ACCEPT.signature.arguments)
 
-    def _corrected(self, step: Step, end: Array, y: Array) -> Array:
+    def _corrected(self, step: DifferentiatedStep, end: Array, y: Array) -> Array:
         """Return the directions of a state behind its correction."""
         columns, model = list[Array](), self.moments.model
         now, by = step.at(1.0, end), Directions(y, step.time(1.0), step.by.modes)
@@ -128,7 +128,7 @@ class ExplicitStages(StageDirections):
         rates, confirm = (f.caller(abi.RHS.signature.arguments) for f in functions)
         return rates, confirm
 
-    def through(self, step: Step, state: State) -> Array:
+    def through(self, step: DifferentiatedStep, state: State) -> Array:
         """Return the directions of the state behind a step, shape (ny, k)."""
         stages, columns, count = list[Array](), list[Array](), len(self._a) - 1
         end = step.before.y[: self.moments.model.sizes["y"]]
@@ -144,7 +144,7 @@ class ExplicitStages(StageDirections):
                 columns.append(slope)
         return self._corrected(step, end, y)
 
-    def _rate(self, step: Step, c: float, y: Array, by: Array) -> tuple[Array, Array]:
+    def _rate(self, step: DifferentiatedStep, c: float, y: Array, by: Array) -> tuple[Array, Array]:
         """Return the rate at a stage and its directions."""
         model, (rates, confirm), columns = self.moments.model, self._rates, list[Array]()
         now, counters = step.at(c, y), np.zeros(abi.N_COUNTERS, dtype=np.int64)
@@ -186,7 +186,7 @@ class ImplicitStages(StageDirections):
         function = directed(self.law.residual, model.lanes, tuple(sorted(places.items())))
         return function.caller(abi.STAGE.signature.arguments)
 
-    def through(self, step: Step, state: State) -> Array:
+    def through(self, step: DifferentiatedStep, state: State) -> Array:
         """Return the directions of the state behind a step, shape (ny, k)."""
         pattern, n, s, y = Pattern.of(self.moments.compiled, step.before.w), self._n, self._s, step.by.y
         k, matrix = self._converged(step, pattern, state.room[2 * len(state.y) :][: s * n].reshape(s, n).copy())
@@ -204,7 +204,7 @@ class ImplicitStages(StageDirections):
         end[self._elements] += step.h * total
         return self._corrected(step, end, after)
 
-    def _converged(self, step: Step, pattern: Pattern, k: Array) -> tuple[Array, Array]:
+    def _converged(self, step: DifferentiatedStep, pattern: Pattern, k: Array) -> tuple[Array, Array]:
         """Return the stages from some near them, and Newton's matrix there."""
         for _ in range(_ITERATIONS):
             matrix, right = self._equations(step, pattern, k)
@@ -214,12 +214,12 @@ class ImplicitStages(StageDirections):
                 return k, self._equations(step, pattern, k)[0]
         raise InputError("derivatives", "stages of the step that converge", f"others at t = {step.before.t:.6g} s")
 
-    def _stage(self, step: Step, i: int, k: Array) -> Moment:
+    def _stage(self, step: DifferentiatedStep, i: int, k: Array) -> Moment:
         y = step.before.y.copy()
         y[self._elements] += step.h * self._a[i] @ k[:, self._rates]
         return step.at(float(self._c[i]), y)
 
-    def _equations(self, step: Step, pattern: Pattern, k: Array) -> tuple[Array, Array]:
+    def _equations(self, step: DifferentiatedStep, pattern: Pattern, k: Array) -> tuple[Array, Array]:
         """Return Newton's matrix of all stages and their residuals, flat."""
         n, s, out = self._n, self._s, pattern.left_out
         matrix, right, slopes = np.zeros((s, n, s, n)), np.zeros((s, n)), np.zeros(pattern.size)
@@ -237,7 +237,7 @@ class ImplicitStages(StageDirections):
             right[i, out] = k[i, out]
         return matrix.reshape(s * n, s * n), right.ravel()
 
-    def _by_state(self, step: Step, i: int, k: Array, y: Array) -> Array:
+    def _by_state(self, step: DifferentiatedStep, i: int, k: Array, y: Array) -> Array:
         """Return the directions of the residual of a stage whose unknowns have none, shape (n, k)."""
         lanes, n, columns, now = self.moments.model.lanes, self._n, list[Array](), self._stage(step, i, k)
         unknowns, out = np.zeros(n * (1 + lanes)), np.zeros(n * (1 + lanes))

@@ -17,8 +17,8 @@ from symgen.run.layout import abi
 from symgen.run.layout.scheme_records import Stages
 from symgen.run.single.directed_model import Seeds
 from symgen.run.single.moments import Directions, Moments
-from symgen.run.single.passages import Passage, PassingSimulation
-from symgen.run.single.stage_directions import ExplicitStages, ImplicitStages, Step
+from symgen.run.single.passages import PassingSimulation, RunPassage
+from symgen.run.single.stage_directions import DifferentiatedStep, ExplicitStages, ImplicitStages
 from symgen.run.single.transfer import Transfer
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class StepsAgain(PassingSimulation):
         self._begin()
         if self.transitions is not None:
             here = self._moment()
-            self.passed(Passage((), here, here, starts=True))
+            self.passed(RunPassage((), here, here, starts=True))
         while self.is_ahead(until) and code in _ENDS:
             code = self.enter(self._nothing, until, float(state.control[abi.STEPS] + 1))
             self._follow()
@@ -102,13 +102,13 @@ class StepsAgain(PassingSimulation):
             fixed = ends_in_event or not self.is_ahead(self._until)
             longer = np.append(-self._later if fixed else np.zeros_like(self._later), 1.0)
             by = Directions(*(_with_motion(x) for x in (self.slopes, self._later, self._modes)))
-            after = self._stages.through(Step(self._first, h, by, longer), self.state)
+            after = self._stages.through(DifferentiatedStep(self._first, h, by, longer), self.state)
             self.slopes, self._motion = after[:, :-1], after[:, -1]
             if fixed:
                 self._later[:] = 0.0
         self._begin()
 
-    def passed(self, passage: Passage) -> None:
+    def passed(self, passage: RunPassage) -> None:
         """Take the directions through a passage, whose events give directions to the time from then on."""
         self._follow(bool(passage.numbers))
         self.slopes, self._modes, later = self.transfer.at_event(passage, self.slopes, self._modes, self._motion)

@@ -41,6 +41,8 @@ _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int
 _NOTHING = 1e-12
 #: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
 _LOW, _LOST = 1e-6, 0.1
+#: Changes of a gap below this part of the mechanism's length are rounding.
+_RESOLVED = 2e-15
 #: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
 #: the last two, the least change of the latter, and the end behind it.
 _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
@@ -190,6 +192,16 @@ def follow_series(c: Any, s: Any, t: float, count: int) -> float:
 
 
 @exact()
+def end_of_flights(t: float, c: Any, s: Any) -> float:
+    """Return the end of the series of flights that `follow_series` has followed up to now; without any, the time."""
+    for i in range(c.count):
+        at = OF_SERIES * i
+        if s.active[i] != 0 and s.series[at + _COUNT] > 0.0:
+            return float(s.series[at + _BEST] if s.series[at + _COUNT] > 2.0 else s.series[at + _LAST])
+    return t
+
+
+@exact()
 def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
     """Bring the gaps that push to rest: what is left of their rates is taken by another impact."""
     choose_events(c, s, False)
@@ -264,8 +276,8 @@ def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     """Bring the gaps of the latest impact to rest where an importer's tolerance loses their flights.
 
     A low flight takes twice the rate at its end over the acceleration. Where an importer finds another duration, its
-    errors are as large as the flight, and the next ones, which are lower, would be errors alone. `gather` has written
-    the accelerations. Returns as `gather` does.
+    errors are as large as the flight, and the next ones, which are lower, would be errors alone: how long they would
+    have lasted follows from those before. `gather` has written the accelerations. Returns as `gather` does.
     """
     lost = False
     for i in range(c.dry, c.count):
@@ -279,7 +291,43 @@ def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     if not lost:
         return SAME
     put_off(c, w)
-    return OTHERS if come_to_rest(t, c, s, t, Instant(y, p, w)) == SAME else NOT_APPLIED
+    end = end_of_flights(t, c, s)
+    return OTHERS if come_to_rest(t, c, s, end, Instant(y, p, w)) == SAME else NOT_APPLIED
+
+
+@exact()
+def find_lost(t: float, c: Any, s: Any, w: Any) -> bool:
+    """Find the open gaps that are 0 again on the way up, while their flight is low: an importer has lost it.
+
+    Since the impact a gap has grown by more than its rate times the time, as rates fall in a flight; where less than
+    half of that is left, the height of the flight is below the importer's tolerance.
+    """
+    lost = False
+    for i in range(c.dry, c.count):
+        pull, rate, k = -c.out[i], c.speed[i], s.events[i]
+        s.active[i] = 0
+        if s.past.counts[k] > 0 and not is_held(c, w, i) and pull > 0.0 and rate > 0.0:
+            length = row_scale(c, w, i, abi.LENGTH)
+            risen = rate * (t - s.past.times[OF_EVENT * k + s.past.counts[k] - 1])
+            low = 0.5 * rate * rate <= _LOW * length * pull
+            if low and risen > _RESOLVED * length and c.value[i] < 0.5 * risen:
+                s.active[i], s.before[i], lost = 1, -rate, True
+    return lost
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K))
+def end_lost_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any) -> int:
+    """Bring gaps to rest whose flight an importer has lost, see `find_lost`; rows have been read.
+
+    Returns as `gather` does.
+    """
+    now = Instant(y, p, w)
+    accelerate_in_force(t, c, now, iw)
+    if not find_lost(t, c, s, w):
+        return SAME
+    end = end_of_flights(t, c, s)
+    put_off(c, w)
+    return OTHERS if come_to_rest(t, c, s, end, now) == SAME else NOT_APPLIED
 
 
 @exact()

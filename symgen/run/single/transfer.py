@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 from symgen.describe.bounds.modes import HIT
 from symgen.run.layout import abi
 from symgen.run.single.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
-from symgen.run.single.free_directions import TOGETHER, Free, jacobian
+from symgen.run.single.free_directions import TOGETHER, Free, constraint_directions
 from symgen.run.single.moments import Directions, Moment, Moments, modes_of
 from symgen.run.single.reset_directions import ResetDirections
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.run_spec import RunSpec, Watched
-    from symgen.run.single.passages import Passage
+    from symgen.run.single.passages import RunPassage
 
 Array = NDArray[np.float64]
 
@@ -62,7 +62,7 @@ class Transfer:
     spec: RunSpec
     consistent: bool = True
     doubts: list[str] = field(default_factory=list)
-    _last: tuple[Passage, Array] | None = None
+    _last: tuple[RunPassage, Array] | None = None
 
     def begin_anew(self) -> None:
         """Forget the last passage and all doubts."""
@@ -79,7 +79,7 @@ class Transfer:
         """The model."""
         return self.moments.compiled
 
-    def through(self, passage: Passage, y: Array, modes: Array) -> tuple[Array, Array]:
+    def through(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
         """Return the directions of state and modes behind a passage from those before it.
 
         Parameters
@@ -95,7 +95,7 @@ class Transfer:
             y = y - np.outer(self.moments.rates(self._plain(passage.after)), later)
         return y, modes
 
-    def at_event(self, passage: Passage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
+    def at_event(self, passage: RunPassage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
         """Return the directions of state, modes and time of a passage behind it, at its own time.
 
         Parameters
@@ -130,7 +130,7 @@ class Transfer:
 
     # -- the time of events --------------------------------------------------------------------------------------------
 
-    def _later(self, passage: Passage, now: Moment, y: Array, modes: Array, rate: Array, free: Free) -> Array:
+    def _later(self, passage: RunPassage, now: Moment, y: Array, modes: Array, rate: Array, free: Free) -> Array:
         """Return the directions of the time of events, shape (k,)."""
         watched, numbers = self.watched, list(passage.numbers)
         assert watched is not None, "the run has events"
@@ -160,7 +160,7 @@ class Transfer:
         near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(t))
         return any(abs(seam.t - t) <= near and seam.t > 0.0 for seam in self.spec.seams)
 
-    def _named(self, passage: Passage) -> str:
+    def _named(self, passage: RunPassage) -> str:
         assert self.watched is not None, "the run has events"
         return " and ".join(f"'{self.watched.names[k]}'" for k in passage.numbers)
 
@@ -175,7 +175,7 @@ class Transfer:
             np.any(np.abs(rows) > np.maximum(TOGETHER * size, _LEAST * max(1.0, t, float(size.max(initial=0.0)))))
         )
 
-    def _compare(self, passage: Passage, later: Array, free: Free) -> None:
+    def _compare(self, passage: RunPassage, later: Array, free: Free) -> None:
         """Doubt directions where the passage before is at the same time for these numbers only."""
         near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(passage.before.t))
         last, self._last = self._last, (passage, later)
@@ -228,7 +228,7 @@ class Transfer:
 
     # -- modes ---------------------------------------------------------------------------------------------------------
 
-    def _modes(self, passage: Passage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
+    def _modes(self, passage: RunPassage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
         """Return the directions of the numbers of modes behind a passage."""
         rows = None if self.watched is None else self.watched.bounded
         kept = by.modes[:, :-1]
@@ -262,7 +262,7 @@ class Transfer:
 
     def _check_rest(
         self,
-        passage: Passage,
+        passage: RunPassage,
         names: tuple[str, ...],
         rests: NDArray[np.bool_],
         directions: Array,
@@ -318,7 +318,7 @@ class Transfer:
             )
         if not carried:
             return
-        d, by_d, *_ = jacobian(self.moments, after, by)
+        d, by_d, *_ = constraint_directions(self.moments, after, by)
         force = [i for i in range(info.m) if i not in info.bounded]
         force += [info.bounded[j] for j in range(k) if new[j, HELD] != 0.0]
         base, by_base = d[force], by_d[force]

@@ -21,7 +21,14 @@ from symgen.run.starts import decisions
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.held import Held
 from symgen.run.starts.joint_starts import joint_values
-from symgen.run.starts.start_words import Change, changes_of, notes_of, start_refusal, warnings_of, without_derivative
+from symgen.run.starts.start_words import (
+    StartChange,
+    changes_of,
+    notes_of,
+    start_refusal,
+    warnings_of,
+    without_derivative,
+)
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -49,7 +56,7 @@ class Start:
         Rows that depend on others at the start and near it.
     notes : tuple of str
         Changes that made the start consistent, one sentence each.
-    changes : tuple of Change
+    changes : tuple of StartChange
         The same as data, positions before velocities.
     light : bool
         Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where unexamined.
@@ -71,7 +78,7 @@ class Start:
     rank: int
     redundant_rows: tuple[str, ...]
     notes: tuple[str, ...]
-    changes: tuple[Change, ...] = ()
+    changes: tuple[StartChange, ...] = ()
     light: bool = False
     warnings: tuple[str, ...] = ()
     t: float = 0.0
@@ -236,7 +243,7 @@ def moved_far(
     y: Array,
     p: Array,
     w: Array,
-    changes: Sequence[Change],
+    changes: Sequence[StartChange],
     moved: Moved | None = None,
 ) -> tuple[str, ...]:
     """Return a warning if closing moved bodies far, unless a held quantity is far from its described value.
@@ -251,7 +258,7 @@ def moved_far(
         Coordinates as described, and the consistent state.
     p, w : Array
         Parameters, and the scratch after closing.
-    changes : sequence of Change
+    changes : sequence of StartChange
         Changed coordinates and velocities.
     moved : callable, optional
         As for `assemble`.

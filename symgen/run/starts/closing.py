@@ -43,7 +43,7 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
     y, p, w, right, x = now.y, now.p, now.w, work.right, work.x
     best, stalled = math.inf, 0
     for _ in range(decisions.POSITION_STEPS):
-        place(closing, layout, now, work, further)
+        place_constraints(closing, layout, now, work, further)
         square = 0.0
         for i in range(layout.m):
             right[i] = -w[layout.residual + i]
@@ -64,12 +64,12 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
         longest = size_of_change(layout, w, x)
         # far from closed, a full Newton step can turn bodies by several radians
         _shift(closing, layout, y, w, x, decisions.LONGEST_STEP / larger(longest, decisions.LONGEST_STEP))
-    place(closing, layout, now, work, further)
+    place_constraints(closing, layout, now, work, further)
     return False
 
 
 @exact()
-def place(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> None:
+def place_constraints(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> None:
     """Fill Phi, D and nu at a position, including the rows of held joint coordinates."""
     closing.geometry(layout.t, now.y, now.p, now.w)
     if further.held.shape[0] > 0:

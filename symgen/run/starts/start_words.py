@@ -33,7 +33,7 @@ OTHER_WAYS = (
 
 
 @dataclass(frozen=True)
-class Change:
+class StartChange:
     """A coordinate or set velocity changed to make a start consistent: as described, and at the start."""
 
     name: str
@@ -42,23 +42,23 @@ class Change:
     after: float
 
 
-def changes_of(info: ModelInfo, described: Array, y: Array, scales: Array) -> tuple[Change, ...]:
+def changes_of(info: ModelInfo, described: Array, y: Array, scales: Array) -> tuple[StartChange, ...]:
     """Return the noticeable differences from the description, whose free velocities are nan."""
     quantities = (*info.coordinates, *info.velocities)
     return tuple(
-        Change(quantities[i].name, quantities[i].unit, float(described[i]), float(y[i]))
+        StartChange(quantities[i].name, quantities[i].unit, float(described[i]), float(y[i]))
         for i in np.flatnonzero(np.abs(y[: len(scales)] - described) > decisions.MOVED * scales)
     )
 
 
 def warnings_of(
-    changes: Sequence[Change], info: ModelInfo, length: float, moved: Iterable[tuple[str, float, str]] = ()
+    changes: Sequence[StartChange], info: ModelInfo, length: float, moved: Iterable[tuple[str, float, str]] = ()
 ) -> tuple[str, ...]:
     """Return a sentence if closing moved bodies by a large part of the mechanism, or turned them far.
 
     Parameters
     ----------
-    changes : sequence of Change
+    changes : sequence of StartChange
         Of the coordinates.
     info : ModelInfo
         The model.
@@ -80,7 +80,7 @@ def warnings_of(
     return (f"closing the initial positions moved bodies far from where they are described: {'; '.join(moves)}",)
 
 
-def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
+def notes_of(held: Held, summary: Array, changes: Sequence[StartChange], info: ModelInfo) -> tuple[str, ...]:
     """Return the changes, one sentence each; held coordinates have another sentence."""
     notes = list[str]()
     names = {quantity.name for quantity in info.coordinates}
@@ -106,14 +106,14 @@ def opposite(joint: str) -> str:
     return f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line"
 
 
-def _listed(changes: Sequence[Change]) -> str:
+def _listed(changes: Sequence[StartChange]) -> str:
     """Return the first changes one by one, and the number of others."""
     first = fitting(len(changes), _LISTED)
     words = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:first])
     return words + (f"; and {len(changes) - first} more" if len(changes) > first else "")
 
 
-def _from_to(change: Change) -> str:
+def _from_to(change: StartChange) -> str:
     """Return both values with enough digits to distinguish them."""
     for digits in range(6, 18):
         before, after = f"{change.before:.{digits}g}", f"{change.after:.{digits}g}"

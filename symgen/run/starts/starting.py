@@ -32,7 +32,7 @@ from symgen.run.starts.closing import (
     find_undetermined,
     is_light,
     mask_redundant,
-    place,
+    place_constraints,
 )
 from symgen.run.starts.joint_starts import JOINTS, Further, fill_further
 
@@ -214,7 +214,7 @@ def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: A
     state = Instant(now.y, now.p, joints.w)
     copy_numbers(now.w, joints.w, now.w.shape[0])
     further = Further(observe, of, goals, joints.out, layout.residual, layout.nu)
-    place(closing, joints.rates, state, work, further)
+    place_constraints(closing, joints.rates, state, work, further)
     return int(complete_velocities(closing, joints.rates, state, work, goal.velocities))
 
 

@@ -94,7 +94,7 @@ def resting(rates: Array, scales: Array) -> NDArray[np.bool_]:
 
 
 @dataclass(frozen=True)
-class Contact:
+class BoundedRowMeasures:
     """Measures of a run with rows with bounds.
 
     Attributes
@@ -110,7 +110,7 @@ class Contact:
     dissipated: float | None
 
 
-def contact_of(mechanism: Mechanism, outcome: Outcome) -> Contact | None:
+def contact_of(mechanism: Mechanism, outcome: Outcome) -> BoundedRowMeasures | None:
     """Return these measures of a run of a comparison; None where its mechanism has no rows with bounds."""
     loss = next((output.value for output in mechanism.outputs if output.name == LOSS), None)
     if loss is None:
@@ -120,7 +120,7 @@ def contact_of(mechanism: Mechanism, outcome: Outcome) -> Contact | None:
     if len(outcome.times):
         side = compile_side(mechanism, outcome.compiled, "losses", "Energy lost", [(LOSS, loss)])
         dissipated = float(outcome.observed(side.function, 1)[-1, 0])
-    return Contact(len(names) - impacts, impacts, dissipated)
+    return BoundedRowMeasures(len(names) - impacts, impacts, dissipated)
 
 
 def _names_of_modes(outcome: Outcome) -> Iterator[str]:

@@ -198,7 +198,13 @@ class LoopRuns:
         return Kept(new_outputs(info, times), observed)
 
     def _in_lanes(
-        self, lanes: CompiledModel, observers: tuple[Any, ...], span: Span, chunk: RowChunk, state: State, series: Kept
+        self,
+        lanes: CompiledModel,
+        observers: tuple[Any, ...],
+        span: Span,
+        chunk: RowChunk,
+        state: State,
+        series: Kept,
     ) -> int:
         """Run selected rows several at once; those that single runs have to do get the code `LEFT` in the summary.
 

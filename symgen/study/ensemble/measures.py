@@ -77,7 +77,7 @@ def stored(folder: str, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) ->
 
 
 @dataclass(frozen=True)
-class Place:
+class JointPlace:
     """Where a joint acts: its first body, and which formulas are its point there and that body's centre of mass."""
 
     body: str
@@ -132,7 +132,7 @@ class Measures:
     length: int
     reads: tuple[Signal, ...]
     places: tuple[int, ...]
-    joints: Mapping[str, Place]
+    joints: Mapping[str, JointPlace]
 
     @property
     def described(self) -> list[Any]:
@@ -273,9 +273,9 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     )
 
 
-def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str, Place]:
+def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str, JointPlace]:
     """Return where reactions act, after adding what that depends on to the formulas."""
-    markers, places = dict(mechanism.seats), dict[str, Place]()
+    markers, places = dict(mechanism.seats), dict[str, JointPlace]()
 
     def add(label: str, expressions: Sequence[Expr]) -> tuple[int, ...]:
         first = len(formulas)
@@ -290,5 +290,5 @@ def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str,
             point = add(f"point of {name}", markers[name].point)
             if body != GROUND:
                 centre = add(f"centre of {body}", mechanism.body(body).centre_of_mass)
-        places[name] = Place(body, point, centre)
+        places[name] = JointPlace(body, point, centre)
     return places

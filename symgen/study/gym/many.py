@@ -27,7 +27,7 @@ from symgen.run.loops.seams import preparing
 from symgen.run.planning.prepare import prepare
 from symgen.run.planning.restarts import Restarts
 from symgen.run.rows.stepped_rows import Stepped, over_stepped
-from symgen.run.single.changes import begin
+from symgen.run.single.changes import begin_stepping
 from symgen.run.single.run import reason_of
 
 if TYPE_CHECKING:
@@ -195,7 +195,7 @@ class _Rows:
             if now is None:
                 raise InputError("reset", "a start that the code of the environment serves", "one with lighter bodies")
             state.y[: len(now.y)], state.w[:] = now.y, now.w
-        if (code := begin(own)) != abi.DONE:
+        if (code := begin_stepping(own)) != abi.DONE:
             raise StepError(reason_of(own, code, own.start.t), own.start.t)
         return own.snapshot.front.copy()
 

@@ -11,7 +11,7 @@ from symgen.study.comparison.comparison_study import BEYOND, FRONT, ONE_RUN, Stu
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.report import words
 from symgen.study.report.comparison_findings import costs, findings_of_rows, methods, representatives, settings_text
-from symgen.study.report.document import Document, DocumentTable, Section, TableCell
+from symgen.study.report.document import DocumentTable, ReportDocument, Section, TableCell
 from symgen.study.report.figures import pictures
 from symgen.study.report.picture import sketched
 from symgen.study.report.source import beside_the_source
@@ -34,7 +34,7 @@ def comparison(
     command: str = "",
     settings: Sequence[tuple[str, str]] = (),
     sketches: Mapping[str, str] | None = None,
-) -> Document:
+) -> ReportDocument:
     """Return the report of studies.
 
     Parameters
@@ -63,7 +63,7 @@ def comparison(
     if source is not None:
         sections.append(source)
     title = f"Error against run time: {words.enumeration(names)}"
-    return Document(title, tuple(lead), tuple(facts), command, tuple(sections))
+    return ReportDocument(title, tuple(lead), tuple(facts), command, tuple(sections))
 
 
 def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:

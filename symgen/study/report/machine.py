@@ -19,7 +19,7 @@ from symgen.result.labelled import Labelled, columns_at
 from symgen.result.plots import drawing
 from symgen.result.summary import lines
 from symgen.study.machine_class import machine_class, version_list
-from symgen.study.report.document import Document, DocumentTable, Picture, Section, TableCell
+from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
 from symgen.study.report.key_numbers import key_numbers
 from symgen.study.report.picture import MOST_BODIES, of_figure
 from symgen.study.report.words import engineering, rounded
@@ -38,7 +38,7 @@ LOADS = {"N m": "Torques and moments", "N": "Forces", "W": "Powers"}
 _RATE = ".rate"
 
 
-def machine(model: Model, result: Result, command: str = "", over: str = "t", page: str = "") -> Document:
+def machine(model: Model, result: Result, command: str = "", over: str = "t", page: str = "") -> ReportDocument:
     """Return the report of a machine.
 
     Parameters
@@ -77,7 +77,7 @@ def machine(model: Model, result: Result, command: str = "", over: str = "t", pa
         _at_rest(model, result),
     ]
     title = model.mechanism.title or model.name
-    return Document(title, (_lead(result),), tuple(facts), command, tuple(sections), quote(page))
+    return ReportDocument(title, (_lead(result),), tuple(facts), command, tuple(sections), quote(page))
 
 
 def _origin(model: Model) -> Iterator[tuple[str, str]]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from symgen.base.files import need
-from symgen.study.report.document import Document, DocumentTable, Picture, Section, TableCell
+from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,7 +24,7 @@ _HEADINGS, _TEXT, _LARGE, _TINY = (16.0, 12.5, 10.5), 9.0, 8.0, 3.5
 _LINE, _GAP = 1.35, 0.2
 
 
-def plain_pdf(document: Document) -> bytes:
+def plain_pdf(document: ReportDocument) -> bytes:
     """Return a document as a PDF file."""
     need("report", "matplotlib", extra="plot")
     paper = _Paper()

@@ -10,7 +10,7 @@ from symgen.run.planning.automatic import AUTO
 from symgen.study.machine_class import machine_class, version_list
 from symgen.study.references.effort import IMPLICIT_BUDGET, explicit_limits
 from symgen.study.report import words
-from symgen.study.report.document import Document, DocumentTable, Section, TableCell
+from symgen.study.report.document import DocumentTable, ReportDocument, Section, TableCell
 from symgen.study.report.picture import sketched
 from symgen.study.report.stress_figures import maps, overview, regions
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES
@@ -42,7 +42,7 @@ _MEANINGS = {
 }
 
 
-def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] | None = None) -> Document:
+def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] | None = None) -> ReportDocument:
     """Return the report of a stress study.
 
     Parameters
@@ -72,7 +72,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         _cells_section(study),
     ]
     title = f"Stiff and extreme cases: {words.enumeration([Path(model).stem for model in study.models])}"
-    return Document(title, tuple(lead), facts, command, tuple(sections))
+    return ReportDocument(title, tuple(lead), facts, command, tuple(sections))
 
 
 def _map_section(study: Stress) -> Section:

@@ -17,7 +17,7 @@ from symgen.base.errors import InputError
 from symgen.base.escapes import markdown_text
 from symgen.base.files import Content, check_path, templates_folder, why, write_all, write_whole
 from symgen.study.comparison.comparison_study import Study
-from symgen.study.report.document import Document, DocumentTable, Picture, Section, TableCell
+from symgen.study.report.document import DocumentTable, Picture, ReportDocument, Section, TableCell
 from symgen.study.report.paper import browser, print_pdf
 from symgen.study.report.plain_pdf import plain_pdf
 from symgen.study.saving import REPORTS
@@ -44,12 +44,12 @@ def check_report(where: str, path: Path) -> None:
         raise InputError(where, f"'{_folder(path)}' to be a folder, for the pictures", "a file of that name")
 
 
-def write(document: Document, path: Path) -> Path:
+def write(document: ReportDocument, path: Path) -> Path:
     """Write a document; the page appears whole or not at all.
 
     Parameters
     ----------
-    document : Document
+    document : ReportDocument
         The report.
     path : Path
         ``.html``: one file that opens without a network; ``.pdf``: the same, printed by a browser, or drawn by
@@ -133,7 +133,7 @@ def _embedded(picture: Picture) -> str:
     return f"data:{kind};base64,{base64.b64encode(picture.data).decode()}"
 
 
-def html(document: Document) -> str:
+def html(document: ReportDocument) -> str:
     """Return a document as one HTML page: style and pictures inside, no scripts, no other files."""
     return _templates().get_template("page.html.j2").render(document=document)
 
@@ -141,7 +141,7 @@ def html(document: Document) -> str:
 # -- Markdown ----------------------------------------------------------------------------------------------------------
 
 
-def markdown(document: Document, folder: str) -> str:
+def markdown(document: ReportDocument, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
     lines = [f"# {markdown_text(document.title)}", ""]
     lines += [x for text in document.lead for x in (markdown_text(text), "")]

@@ -14,7 +14,7 @@ from support.emitted import Emitted, mechanism_of
 from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import Block, ModelLayout, Target
+from symgen.base.ir.program import Block, ModelLayout, OutputSlot
 from symgen.base.vocabulary.expressions import Expr, Name, Number
 from symgen.derive.emit.printer import ElementAccess, Printer
 from symgen.derive.formulate.translate import Translator, to_sympy
@@ -100,7 +100,7 @@ def meant(e: Expr, values: dict[str, float]) -> Any:
 def compiled(graph: Graph, nodes: list[int]) -> Any:
     """The printed code of nodes as emitted functions are compiled."""
     layout = ModelLayout(2, 0, 0, 0, {"result": (0, len(nodes))})
-    block = Block("f", "test", graph, tuple((Target("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
+    block = Block("f", "test", graph, tuple((OutputSlot("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
     lines = Printer(block, ElementAccess(layout, {})).lines()
     body = "\n    ".join([*lines.inputs, *lines.terms, *lines.outputs])
     namespace: dict[str, Any] = {"math": math}

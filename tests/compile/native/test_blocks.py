@@ -58,7 +58,7 @@ def block_lengths(text: str) -> list[int]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("terms", [600, pytest.param(3000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("terms", [600, 1500])
 def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms):
     text = long_function(terms, terms)
     monkeypatch.setattr(machine, "LARGEST_BLOCK", 300)

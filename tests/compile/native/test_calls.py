@@ -19,7 +19,7 @@ from symgen.compile.native.calls import (
     slots,
     trampoline,
 )
-from symgen.compile.native.machine import compiled, load
+from symgen.compile.native.machine import compiled, load_machine_code
 from symgen.compile.native.types import ArrayType, FunctionType, RecordType, boolean, float64, int64, uint32, void
 
 Pair = namedtuple("Pair", "one other")
@@ -39,7 +39,7 @@ SIGNATURE = float64(float64, float64[::1], boolean)
 
 @pytest.fixture(scope="module")
 def address():
-    return load(compiled(TEXT, "symgen.test_calls"), "symgen.test_calls")
+    return load_machine_code(compiled(TEXT, "symgen.test_calls"), "symgen.test_calls")
 
 
 def test_types_are_written_as_numba_writes_them():

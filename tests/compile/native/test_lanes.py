@@ -146,6 +146,7 @@ def test_lengths_of_arguments():
     assert f.body[0].value.arguments[0] == ArrayLength("z") and isinstance(f.body[1], Return)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "method"), [("pendulum", "direct-correction"), ("heavy-top", "lagrange")])
 def test_lanes_are_those_of_numba(model, method):

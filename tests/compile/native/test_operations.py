@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from symgen.base.ir.graph import FUNCTIONS, Graph
-from symgen.base.ir.program import Block, ModelLayout, Target
+from symgen.base.ir.program import Block, ModelLayout, OutputSlot
 from symgen.compile.store.modules import load_module
 from symgen.derive.emit.printer import ElementAccess, Printer
 
@@ -80,7 +80,9 @@ _counter = itertools.count()
 
 def printed(graph: Graph, outputs: list[int], flag: int | None) -> str:
     """Return nodes as an emitted function."""
-    block = Block("f", "test", graph, tuple((Target("out", i), n) for i, n in enumerate(outputs)), ("y", "out"), flag)
+    block = Block(
+        "f", "test", graph, tuple((OutputSlot("out", i), n) for i, n in enumerate(outputs)), ("y", "out"), flag
+    )
     layout = ModelLayout(nq=INPUTS, nv=0, m=0, parameters=0, sections={})
     lines = Printer(block, ElementAccess(layout, {})).lines()
     body = [*lines.inputs, *lines.terms, *lines.outputs, f"return {f'int({lines.flag})' if lines.flag else 0}"]
@@ -145,7 +147,7 @@ def test_random_programs(tmp_path_factory, program):
 
 @pytest.mark.slow
 @given(program=programs())
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck), database=None)
+@settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck), database=None)
 def test_more_random_programs(tmp_path_factory, program):
     assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
 

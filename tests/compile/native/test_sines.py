@@ -10,8 +10,7 @@ import pytest
 
 from symgen.api import load
 from symgen.compile.native import machine, sines
-from symgen.compile.native.machine import compiled
-from symgen.compile.native.machine import load as load_code
+from symgen.compile.native.machine import compiled, load_machine_code
 from symgen.compile.store.modules import load_module
 
 from .twofold import arguments_of, by, for_avx512, written
@@ -42,7 +41,7 @@ def both(request):
     """The function for vectors of one length: takes angles, returns their sines and cosines."""
     n = request.param
     symbol = f"try_sines{n}"
-    address = load_code(compiled(caller_of(n), symbol), symbol)
+    address = load_machine_code(compiled(caller_of(n), symbol), symbol)
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(address)
 
     def call(angles):

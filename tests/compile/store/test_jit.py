@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.compile.native.machine import load
+from symgen.compile.native.machine import load_machine_code
 from symgen.compile.native.types import FunctionType, float64, int64
 from symgen.compile.store import jit, private
 from symgen.compile.store.stats import cache_stats
@@ -222,7 +222,7 @@ class TestMade:
         code = jit.object_file(self.TEXT.format(name=name, more=3), name)
         monkeypatch.setattr("symgen.compile.native.machine.compiled", lambda text, symbol: pytest.fail("made twice"))
         assert jit.object_file(self.TEXT.format(name=name, more=3), name) == code
-        call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load(code, name))
+        call = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64)(load_machine_code(code, name))
         assert call(39) == 42
         assert len(compiled(cache)) == 1
 

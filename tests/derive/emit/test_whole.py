@@ -59,6 +59,7 @@ def modules_of(stem, modules):
     return found
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("slider-crank", "driven-four-bar", "four-bar joint")
 @pytest.mark.parametrize("model", MODELS)
 def test_functions_of_straight_code_are_those_that_run(model):

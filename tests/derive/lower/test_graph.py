@@ -8,7 +8,7 @@ from support.checks import RANDOM
 from support.graph_values import node_values
 
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import Block, ModelLayout, Target
+from symgen.base.ir.program import Block, ModelLayout, OutputSlot
 from symgen.derive.emit.printer import ElementAccess, Printer
 
 X = (0.7, -1.3, 2.1)
@@ -79,7 +79,7 @@ def test_simplification_keeps_values(steps):
 def test_printed_code_is_what_was_built(steps):
     graph, nodes, _ = run(steps)
     layout = ModelLayout(nq=len(X), nv=0, m=0, parameters=0, sections={"result": (0, len(nodes))})
-    block = Block("f", "test", graph, tuple((Target("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
+    block = Block("f", "test", graph, tuple((OutputSlot("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
     lines = Printer(block, ElementAccess(layout, {})).lines()
     w = [0.0] * len(nodes)
     exec("\n".join([*lines.inputs, *lines.terms, *lines.outputs]), {"math": math, "y": list(X), "w": w})

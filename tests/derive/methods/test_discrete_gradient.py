@@ -63,14 +63,14 @@ def test_energy_changes_by_rounding_alone(name, step):
 
 
 @pytest.mark.slow
-def test_energy_changes_by_rounding_alone_in_a_hundred_thousand_swings():
-    """10^7 steps: less than one rounding of the energy in each, and many orders below what the scheme is off by."""
-    swings = {"until": 2e5, "step": 2e-2, "output_step": 50.0, "max_energy_error": 1e9}
+def test_energy_changes_by_rounding_alone_in_ten_thousand_swings():
+    """10^6 steps: less than one rounding of the energy in each, and many orders below what the scheme is off by."""
+    swings = {"until": 2e4, "step": 2e-2, "output_step": 5.0, "max_energy_error": 1e9}
     result = load("pendulum").simulate(method="discrete-gradient", **swings)
-    assert result.steps == 10_000_000
+    assert result.steps == 1_000_000
     assert (
         energy_errors(result).max()
-        < 1e-8
+        < 1e-9
         < 1e-3
         < energy_errors(
             load("pendulum").simulate(method="rattle", **swings | {"until": 20.0, "output_step": 0.02})

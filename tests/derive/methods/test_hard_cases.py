@@ -118,9 +118,9 @@ def test_singular_positions(method):
         assert set(found.statuses) == {"ok"} and np.median(found.errors) < 1e-6
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
-@pytest.mark.parametrize("windows", [1, 2])
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize(("method", "windows"), [(method, 1 + i % 2) for i, method in enumerate(METHODS.names)])
 def test_singular_positions_by_every_method(method, windows):
     check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
 

@@ -80,6 +80,7 @@ class Stage:
         return by[:, :n], by[:, n:]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "case",

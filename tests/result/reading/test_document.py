@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import pytest
+from support.rotation import of_turn
 
 import symgen
 from symgen.cli import main
@@ -190,7 +191,7 @@ TURNS = [(name, ("absolute", "joint")[i % 2]) for i, name in enumerate(sorted(ca
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "coordinates"), TURNS)
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(TURNS, 3))
 def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordinates, tmp_path, capsys):
     symbols = ["--symbols"] if coordinates == "joint" else []
     log = set_by_an_engine(document(capsys, name, "--coordinates", coordinates, *symbols), tmp_path)

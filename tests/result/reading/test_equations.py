@@ -2,12 +2,14 @@
 
 import pickle
 from functools import partial
+from itertools import product
 
 import numpy as np
 import pytest
 import sympy as sp
 from support.emitted import Emitted, mechanism_of
 from support.models import EVERYTHING, ROUGH
+from support.rotation import of_turn
 
 import symgen
 from symgen.base.errors import InputError
@@ -97,8 +99,7 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", catalogue.all_names())
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(product(catalogue.all_names(), ("absolute", "joint")), 3))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
     mechanism = load(name)
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)

@@ -3,12 +3,14 @@
 import os
 import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
 from support.emitted import mechanism_of
 from support.locks import LOCKED, parts
+from support.rotation import of_turn
 from support.switching import with_switchable
 
 from symgen import Settings, load
@@ -76,8 +78,7 @@ def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "coordinates"), of_turn(product(NAMES, ("absolute", "joint")), 3))
 def test_the_whole_catalogue(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
     # strains of a stiff beam are small differences of positions

@@ -57,6 +57,7 @@ def test_c_functions_of_a_loop(tmp_path):
     assert library.call("forward_dynamics", (3,), [flat, flat, flat, np.zeros(4)])[1] == 1  # without masses
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), MECHANISMS)
 def test_c_functions_are_the_compiled_ones(name, coordinates, tmp_path):

@@ -26,6 +26,7 @@ def made(request, kind, tmp_path_factory):
     return path, mechanism
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast(
     "(3, 'absolute')-light body-model exchange",
     "(3, 'joint')-massless body-model exchange",

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import zipfile
 from collections import Counter
+from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
@@ -22,6 +23,7 @@ import fmpy
 import pytest
 import xarray as xr
 from support.emitted import mechanism_of
+from support.rotation import of_turn
 
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
@@ -101,9 +103,20 @@ def described(folder: Path, title: str, notes: tuple[str, ...]) -> Path:
     return path
 
 
-def pair(folder: Path, title: str) -> tuple[Path, Path]:
-    """Write two files that differ in their texts alone: an honest one and a hostile one."""
-    return described(folder / "a", "A swing", ("",) * len(WAYS)), described(folder / "b", title, WAYS)
+def hostile_file(folder: Path, title: str) -> Path:
+    """Write the file with hostile texts."""
+    return described(folder / "b", title, WAYS)
+
+
+@pytest.fixture(scope="module")
+def honest(tmp_path_factory):
+    """What commands write of the file that differs in its texts alone, each once."""
+
+    @cache
+    def output(*words: str) -> Path:
+        return written(described(tmp_path_factory.mktemp("honest") / "a", "A swing", ("",) * len(WAYS)), *words)
+
+    return output
 
 
 @pytest.mark.parametrize("text", TEXTS)
@@ -131,6 +144,7 @@ def python_code(source: str) -> str:
     return re.sub(r"_[0-9a-f]{16}", "", ast.unparse(tree))
 
 
+@cache  # of the honest one, which is compared with all others
 def c_code(path: Path) -> str:
     """Everything that a compiler sees; the identity of an FMU is made of its texts."""
     done = subprocess.run(["cc", "-E", "-P", str(path)], capture_output=True, text=True, check=True)
@@ -182,67 +196,79 @@ def same_xml(one: str, other: str) -> ElementTree.Element:
 
 
 def titles(*few: str):
-    """Parameters of a test: some titles, and the others in the slow run."""
+    """Parameters of a test: some titles, and in the slow run the others, a third of them in a turn."""
+    others = of_turn((title for title in TITLES if title not in few), 3)
     return [
         *(pytest.param(title, id=f"title{TITLES.index(title)}") for title in few),
-        *(pytest.param(t, id=f"title{i}", marks=pytest.mark.slow) for i, t in enumerate(TITLES) if t not in few),
+        *(pytest.param(title, id=f"title{TITLES.index(title)}", marks=pytest.mark.slow) for title in others),
     ]
 
 
 @pytest.mark.parametrize("title", titles(FEW[0]))
-def test_packages(title, tmp_path):
-    assert_same_packages((), title, tmp_path)
+def test_packages(title, honest, tmp_path):
+    assert_same_packages((), title, honest, tmp_path)
 
 
 @pytest.mark.parametrize("options", [("--target", "cuda"), ("--target", "lanes"), ("--shape", "looped")])
-def test_packages_of_other_code_have_the_same_comments(options, tmp_path):
-    assert_same_packages(options, FEW[0], tmp_path)
+def test_packages_of_other_code_have_the_same_comments(options, honest, tmp_path):
+    assert_same_packages(options, FEW[0], honest, tmp_path)
 
 
-def assert_same_packages(options, title, tmp_path):
-    folders = [written(path, "generate", *options, "code") for path in pair(tmp_path, title)]
-    honest, hostile = ({p.name: p.read_text(encoding="utf-8") for p in folder.iterdir()} for folder in folders)
-    assert hostile.keys() == honest.keys()
+def assert_same_packages(options, title, honest, tmp_path):
+    words = ("generate", *options, "code")
+    folders = [honest(*words), written(hostile_file(tmp_path, title), *words)]
+    usual, hostile = (
+        {p.name: p.read_text(encoding="utf-8") for p in folder.iterdir() if p.is_file()} for folder in folders
+    )
+    assert hostile.keys() == usual.keys()
     for name, text in hostile.items():
         if name.endswith(".py"):
-            assert python_code(text) == python_code(honest[name])
+            assert python_code(text) == python_code(usual[name])
         elif name.endswith(".json"):
-            assert json.loads(text).keys() == json.loads(honest[name]).keys()
+            assert json.loads(text).keys() == json.loads(usual[name]).keys()
         else:
-            assert not re.search(r"(?<!\\)<|(?<!\\)\](?=[(\[:])", text) and text.count("\n") == honest[name].count("\n")
+            assert not re.search(r"(?<!\\)<|(?<!\\)\](?=[(\[:])", text) and text.count("\n") == usual[name].count("\n")
     if not options:
-        words = [sys.executable, "simulate.py", "direct_correction", "0.002"]
-        environment = {"NUMBA_DISABLE_JIT": "1", "PATH": ""}
-        runs = [subprocess.run(words, cwd=f, env=environment, capture_output=True, text=True) for f in folders]
-        assert runs[0].stdout == runs[1].stdout != "" and runs[1].returncode == 0, runs[1].stderr
+        assert printed_by_package(folders[0]) == printed_by_package(folders[1]) != ""
+
+
+@cache
+def printed_by_package(folder: Path) -> str:
+    """Run a package as it was written."""
+    words = [sys.executable, "-B", "simulate.py", "direct_correction", "0.002"]
+    environment = {"NUMBA_DISABLE_JIT": "1", "PATH": ""}
+    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("title", titles(*FEW))
-def test_c(title, tmp_path):
-    folders, programs = [written(path, "generate", "--target", "c", "code") for path in pair(tmp_path, title)], []
-    for folder in folders:
-        texts = [str(path) for path in sorted(folder.glob("*.c"))]
-        options = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-trigraphs"]
-        subprocess.run(["cc", *options, *texts, "-lm", "-o", str(folder / "sim")], check=True)
-        programs.append(subprocess.run([str(folder / "sim")], capture_output=True, check=True).stdout)
-    assert programs[0] == programs[1] != b""
+def test_c(title, honest, tmp_path):
+    words = ("generate", "--target", "c", "code")
+    folders = [honest(*words), written(hostile_file(tmp_path, title), *words)]
+    assert printed_by_c(folders[0]) == printed_by_c(folders[1]) != b""
     for name in ("swing.c", "main.c", "swing.h"):
         assert c_code(folders[0] / name) == c_code(folders[1] / name)
     page = (folders[1] / "README.md").read_text(encoding="utf-8")
     assert not re.search(r"(?<!\\)<|(?<!\\)\](?=[(\[:])", page)
 
 
+@cache
+def printed_by_c(folder: Path) -> bytes:
+    """Compile and run a program."""
+    texts = [str(path) for path in sorted(folder.glob("*.c"))]
+    options = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-trigraphs"]
+    subprocess.run(["cc", *options, *texts, "-lm", "-o", str(folder / "sim")], check=True)
+    return subprocess.run([str(folder / "sim")], capture_output=True, check=True).stdout
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("title", titles(FEW[0]))
-@pytest.mark.parametrize("fmi", ["2", "3"])
-def test_fmu(fmi, title, tmp_path):
-    files, folders = [], []
-    for path in pair(tmp_path, title):
-        files.append(written(path, "generate", "--target", "fmu", "--fmi", fmi, "swing.fmu"))
-        folders.append(path.parent / "unpacked")
-        with zipfile.ZipFile(files[-1]) as archive:
-            archive.extractall(folders[-1])
+@pytest.mark.parametrize(("title", "fmi"), of_turn([(title, str(2 + i % 2)) for i, title in enumerate(TITLES)], 3))
+def test_fmu(title, fmi, honest, tmp_path):
+    words = ("generate", "--target", "fmu", "--fmi", fmi, "swing.fmu")
+    files = [honest(*words), written(hostile_file(tmp_path, title), *words)]
+    folders = list(map(unpacked, files))
     root = same_xml(*((f / "modelDescription.xml").read_text(encoding="utf-8") for f in folders))
     assert sorted(unit.get("name") for unit in root.iter("Unit")) == ["m", "m/s", "rad", "rad/s"]
     for name in ("swing.c", "fmu.c", "swing.h"):
@@ -253,11 +279,21 @@ def test_fmu(fmi, title, tmp_path):
     assert len(fmpy.simulate_fmu(str(files[1]), stop_time=0.01)) > 1
 
 
+@cache
+def unpacked(file: Path) -> Path:
+    """Unpack an FMU beside it."""
+    folder = file.with_name("unpacked")
+    with zipfile.ZipFile(file) as archive:
+        archive.extractall(folder)
+    return folder
+
+
 @pytest.mark.parametrize("title", titles(FEW[1]))
-def test_javascript(title, tmp_path):
-    honest, hostile = (written(path, "generate", "--target", "javascript", "code") for path in pair(tmp_path, title))
+def test_javascript(title, honest, tmp_path):
+    words = ("generate", "--target", "javascript", "code")
+    folders = [honest(*words), written(hostile_file(tmp_path, title), *words)]
     node = shutil.which("node")
-    lines = [(folder / "swing.mjs").read_text(encoding="utf-8").splitlines() for folder in (honest, hostile)]
+    lines = [(folder / "swing.mjs").read_text(encoding="utf-8").splitlines() for folder in folders]
     changed = [mine for text, mine in zip(*lines, strict=True) if mine != text]
     assert all(line.startswith("export const model = makeLive({") for line in changed)
     if node is None:
@@ -266,25 +302,26 @@ def test_javascript(title, tmp_path):
     script += "console.log(Object.keys(globalThis).length, typeof planted)"
     said = [
         subprocess.run([node, "--input-type=module", "-e", script], cwd=f, capture_output=True, text=True, check=True)
-        for f in (honest, hostile)
+        for f in folders
     ]
     assert said[0].stdout == said[1].stdout and said[1].stdout.endswith("undefined\n")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[1]))
-def test_pages_and_pictures(title, tmp_path):
-    files = pair(tmp_path, title)
-    same_elements(*(written(path, "view", "page.html") for path in files))
-    same_elements(*(written(path, "inspect", "equations.html") for path in files))
-    root = same_xml(*(written(path, "draw", "drawing.svg").read_text(encoding="utf-8") for path in files))
+def test_pages_and_pictures(title, honest, tmp_path):
+    path = hostile_file(tmp_path, title)
+    same_elements(honest("view", "page.html"), written(path, "view", "page.html"))
+    same_elements(honest("inspect", "equations.html"), written(path, "inspect", "equations.html"))
+    drawings = honest("draw", "drawing.svg"), written(path, "draw", "drawing.svg")
+    root = same_xml(*(drawing.read_text(encoding="utf-8") for drawing in drawings))
     assert root.tag.endswith("svg")
 
 
 @pytest.mark.parametrize("title", titles(FEW[2]))
 def test_latex(title, tmp_path, capsys):
     documents = []
-    for path in pair(tmp_path, title):
+    for path in (described(tmp_path / "a", "A swing", ("",) * len(WAYS)), hostile_file(tmp_path, title)):
         capsys.readouterr()
         assert main(["inspect", str(path), "--format", "latex", "--document"]) == 0
         documents.append(capsys.readouterr().out)
@@ -299,7 +336,7 @@ def test_latex(title, tmp_path, capsys):
 
 @pytest.mark.parametrize("title", titles(FEW[2]))
 def test_saved_runs_and_terminals(title, tmp_path, capsys):
-    path = pair(tmp_path, title)[1]
+    path = hostile_file(tmp_path, title)
     for words in (["check"], ["inspect"], ["run", "--save", "run.nc"], ["run", "--save", "run.csv"], ["run", "--json"]):
         saved = [str(tmp_path / word) if word.startswith("run.") else word for word in words[1:]]
         assert main([words[0], str(path), *saved]) in (0, 3)
@@ -317,7 +354,7 @@ def test_saved_runs_and_terminals(title, tmp_path, capsys):
 @pytest.mark.slow
 def test_reports():
     """Titles, reasons and notes: a journal may be of somebody else."""
-    texts = [" ".join(TEXTS), *TITLES]
+    texts = [" ".join(TEXTS), *of_turn(TITLES, 5)]
     made = [
         comparison(
             [

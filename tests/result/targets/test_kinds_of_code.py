@@ -16,7 +16,7 @@ from symgen.result.player.motion_page import model_script
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._c_names import defined_names
-from symgen.result.targets.fmu import files_of
+from symgen.result.targets.fmu import fmu_files
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 from tests.result.targets.compilers import STRICT
@@ -31,6 +31,7 @@ def model_of(kind, coordinates, folder, target):
     return CModel.of(Request(mechanism_of(kind), folder, coordinates=coordinates), target)
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.fast("plain-joint", "light body-absolute")
 @pytest.mark.parametrize("coordinates", COORDINATES)
 @pytest.mark.parametrize("kind", FILES)
@@ -38,7 +39,7 @@ def test_c_and_fmus_compile_without_a_warning(kind, coordinates, tmp_path):
     model = model_of(kind, coordinates, tmp_path, "fmu")
     texts = {"c": sources(model.values) | {"main.c": render("c/main.c.j2", model.values)}}
     for fmi in (2, 3):
-        files = {name.removeprefix("sources/"): text.decode() for name, text in files_of(model, fmi).items()}
+        files = {name.removeprefix("sources/"): text.decode() for name, text in fmu_files(model, fmi).items()}
         texts[f"fmu{fmi}"] = {name: text for name, text in files.items() if name.endswith((".c", ".h"))}
     compiled = []
     for folder, files in texts.items():
@@ -68,7 +69,7 @@ def test_names_of_templates_are_those_that_compilers_see(tmp_path):
     model = model_of("everything", "absolute", tmp_path, "fmu")
     printed = {*_FUNCTION.findall(model.text)}
     for fmi in (2, 3):
-        files = {name.removeprefix("sources/"): text for name, text in files_of(model, fmi).items()}
+        files = {name.removeprefix("sources/"): text for name, text in fmu_files(model, fmi).items()}
         for name, text in files.items():
             (tmp_path / name).write_bytes(text)
         done = subprocess.run(

@@ -50,3 +50,35 @@ def test_an_iteration_ends_where_only_rounding_of_a_stiff_force_is_left(integrat
     result = symgen.load(mechanism_of(FOLLOWER)).simulate(parameters={"k": k}, **settings)
     assert result.status == "ok" and result.steps == 100
     np.testing.assert_allclose(result["p.x"], 1.0 + k * np.sin(result.t) / (k - 1.0), rtol=0.0, atol=1e-7)
+
+
+def with_states(rows):
+    """Return a model with a state b that decays by its cube, between two that stay at their size, and some rows."""
+    rest = {"rate": "0.0*t", "start": "size"}
+    description = {
+        "mechanism": {"name": f"decay{rows}"},
+        "parameters": {"size": 0.0},
+        "bodies": {"p": {"type": "point", "mass": 1.0}},
+        "states": {"a": rest, "b": {"rate": "-b**3", "start": 10.0}, "c": rest},
+    }
+    if rows:
+        lines = [{"position": f"p.{x}", "label": x} for x in "xy"[:rows]]
+        description["joints"] = {"line": {"type": "rows", "rows": lines}}
+    return symgen.load(mechanism_of(description))
+
+
+@pytest.mark.fast("trapezoidal-0", "sdirk-2")
+@pytest.mark.parametrize("rows", [0, 1, 2])
+@pytest.mark.parametrize("integrator", ["radau5", "sdirk", "trapezoidal"])
+def test_large_states_make_no_residual_of_another_one_rounding(integrator, rows):
+    """Steps of 1 s are too long for an iteration on b' = -1000: it has to fail, whatever other states are."""
+    model, options = with_states(rows), {} if integrator == "trapezoidal" else CONSTANT
+    settings = {"integrator": integrator, "until": 2.0, "options": options}
+    for step, status in ((1.0, "failed"), (1e-2, "ok")):
+        small, *others = (
+            model.simulate(parameters={"size": size}, step=step, **settings) for size in (0.0, 1.0, 1e9, 1e15, 1e20)
+        )
+        assert small.status == status
+        for other in others:
+            assert other.status == small.status
+            np.testing.assert_array_equal(other["b"], small["b"])

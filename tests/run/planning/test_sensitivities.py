@@ -6,6 +6,7 @@ import sys
 
 import numpy as np
 import pytest
+from support.rotation import of_turn
 
 import symgen
 from symgen import InputError
@@ -313,6 +314,7 @@ def test_a_length_that_destroys_mobility_is_refused(tmp_path):
 ODE = [name for name in METHODS.names if {"ode", "one-step"} & set(METHODS.get(name, "method").forms)]
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
@@ -334,7 +336,7 @@ def test_mechanisms_of_the_catalogue(name, number, quantity, settings, coordinat
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", ODE)
+@pytest.mark.parametrize("method", of_turn(ODE, 3))
 def test_every_method_that_explicit_schemes_solve(method):
     four_bar = symgen.load("four-bar")
     limits = {"max_violation": 1.0, "max_energy_error": 1e3}

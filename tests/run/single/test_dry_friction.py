@@ -409,6 +409,7 @@ def test_every_integrator_turns_round(integrator: str) -> None:
     np.testing.assert_allclose(at_events, (signs * TURNS[:3])[:2], rtol=0, atol=3e-2)
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
@@ -420,6 +421,7 @@ def test_rows_of_a_sweep_have_the_bits_of_single_runs(coordinates: str) -> None:
     assert rows.tolist() == alone
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["dop853", "picard"])
 def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None:

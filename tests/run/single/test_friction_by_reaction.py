@@ -50,6 +50,7 @@ def slider_crank(friction: dict[str, Any]) -> Mechanism:
     return validate(raw, "slider.toml")
 
 
+@pytest.mark.slow_cases("dop853-absolute")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "absolute"), ("dop853", "joint")]
 )
@@ -263,6 +264,7 @@ def test_four_pins_rub_by_their_reactions() -> None:
 # -- rows of sweeps ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "joint")])
 def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coordinates: str) -> None:

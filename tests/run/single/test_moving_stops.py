@@ -191,6 +191,7 @@ def test_a_wall_meets_a_block_that_comes_to_rest(part: float, steps: dict[str, A
     assert result.energy_drift_max < 1e-10
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("steps", [{"integrator": "dop853", "rtol": 1e-10}, {"integrator": "rk4", "step": 1e-2}, {}])
 @pytest.mark.parametrize("text", [FLOOR, WALL])

@@ -16,7 +16,7 @@ from symgen.describe.facts.lengths import datum_of
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
-from symgen.run.starts.start_words import Change, _from_to
+from symgen.run.starts.start_words import StartChange, _from_to
 
 #: sin(pi) in double precision: a place that is 0 but for rounding.
 NEARLY_ZERO = 1.2246467991473532e-16
@@ -216,7 +216,7 @@ def test_what_coordinates_are_measured_from(name, place):
 
 def test_euler_parameters_have_no_unit():
     """Notes on moved bodies printed them with a unit "1"."""
-    moved = Change("top.e0", "1", 1.0, 0.5), Change("top.x", "m", 1.0, 0.5)
+    moved = StartChange("top.e0", "1", 1.0, 0.5), StartChange("top.x", "m", 1.0, 0.5)
     assert [_from_to(change) for change in moved] == ["1 to 0.5", "1 to 0.5 m"]
 
 

@@ -87,6 +87,7 @@ def ended(mechanism, scheme, coordinates, **settings):
     return result.reason if result.status == "failed" else None
 
 
+@pytest.mark.by_turns(2)
 @pytest.mark.fast("rk4-absolute")
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordinates):
@@ -96,7 +97,7 @@ def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordina
         assert "row wire.row1 jumps: its" in sentence or "joints.wire.rows[0].position: expected a motion" in sentence
 
 
-@pytest.mark.fast("dop853-absolute", "rk4-absolute")
+@pytest.mark.fast("rk4-absolute")
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_change_smoothly_are_followed(scheme, coordinates):
     for wire, slope in SMOOTH.items():

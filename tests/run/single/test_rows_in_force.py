@@ -41,6 +41,10 @@ LAWS = (
 )
 
 
+#: Pairs of a kind each, tried on several loops as well.
+SEVERAL = (("direct-correction", "picard"), ("lagrange", "dop853"), ("ggl", "radau5"), ("null-space", "dop853"))
+
+
 @cache
 def catalogued(name: str) -> tuple[Mechanism, Mechanism, str]:
     """Return a mechanism of the catalogue, the one without its last joint, and the name of that joint."""
@@ -82,7 +86,14 @@ def released(run: Prepared, until: float, times=NOTHING):
     return simulation, outputs, before, simulation.state.y[:n].copy()
 
 
-# well before 0.71 s: there the loops left in n-four-bar:3 pass a singular position, which amplifies rounding
+#: All laws with a loop, and some with three, well before 0.71 s: there the loops that are left pass a singular
+#: position, which amplifies rounding.
+RELEASES = [
+    *((*law, "four-bar", 0.8) for law in LAWS),
+    *((*law, "n-four-bar:3", 0.65) for law in LAWS if law[:2] in SEVERAL),
+]
+
+
 @pytest.mark.fast(
     "baumgarte-dop853-1e-12-four-bar-0.8",
     "direct-correction-picard-1e-12-n-four-bar:3-0.65",
@@ -92,8 +103,7 @@ def released(run: Prepared, until: float, times=NOTHING):
     "penalty-rk4-1e-06-four-bar-0.8",
     "generalized-alpha-generalized-alpha-1e-09-four-bar-0.8",
 )
-@pytest.mark.parametrize(("name", "until"), [("four-bar", 0.8), ("n-four-bar:3", 0.65)])
-@pytest.mark.parametrize(("method", "integrator", "most"), LAWS)
+@pytest.mark.parametrize(("method", "integrator", "most", "name", "until"), RELEASES)
 def test_the_motion_is_that_without_the_joint(name, until, method, integrator, most) -> None:
     whole, less, joint = catalogued(name)
     run = ready(with_switchable(whole, joint), 1.0, method, integrator)

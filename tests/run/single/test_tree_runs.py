@@ -81,6 +81,7 @@ OTHERS = [name for name in INTEGRATORS.names if name not in ("euler", "symplecti
 ALL = {*pairs(METHODS.names, ("rk4", "radau5")), *pairs(("lagrange", "generalized-alpha"), OTHERS)}
 
 
+@pytest.mark.by_turns(3)
 @pytest.mark.parametrize(
     ("name", "method", "integrator"),
     [

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.base.errors import InputError, SimulationError
+from symgen.base.errors import InputError
 from symgen.compile.store.paths import cache_root
 from symgen.study.ensemble.cluster import connect
 
@@ -75,30 +75,6 @@ def test_an_address_will_do_and_rows_that_fail_are_rows(cluster, tmp_path):
     np.testing.assert_array_equal(there.status, here.status)
     assert list(there["light"].ravel()) == [0, 1, 0, 0, 0, 1]
     assert [path.name for path in tmp_path.iterdir()] == ["there.nc"]
-
-
-@pytest.mark.slow
-def test_what_a_scheduler_computed_before_it_went_is_kept(tmp_path):
-    distributed = pytest.importorskip("distributed")
-    made = distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=50
-    )
-    client = distributed.Client(made)
-    reached: list[float] = []
-
-    def progress(done, total):
-        reached.append(done)
-        if len(reached) == 3:
-            made.close(timeout=10)
-
-    try:
-        with pytest.raises(SimulationError, match="the cluster could not compute chunk"):
-            symgen.sweep("four-bar", **MANY, scheduler=client, output=tmp_path / "kept", progress=progress)
-    finally:
-        client.close(timeout=5)
-    assert 3 <= len(reached) < 16
-    found = symgen.sweep("four-bar", **MANY, output=tmp_path / "kept", resume=True)
-    np.testing.assert_array_equal(found.values, symgen.sweep("four-bar", **MANY).values)
 
 
 def test_an_address_where_nothing_is_gets_one_sentence(monkeypatch):

@@ -9,7 +9,7 @@ import pytest
 import symgen
 from symgen.base.errors import InputError
 from symgen.study.report import paper
-from symgen.study.report.document import Document, DocumentTable, Section
+from symgen.study.report.document import DocumentTable, ReportDocument, Section
 from symgen.study.report.machine import machine
 from symgen.study.report.plain_pdf import plain_pdf
 from symgen.study.report.write import html, markdown, write
@@ -80,7 +80,7 @@ def test_a_pdf_is_drawn_where_no_browser_is(driven, tmp_path):
 def test_long_words_and_wide_tables_stay_on_the_paper(tmp_path):
     wide = DocumentTable("a table", tuple(f"column {i}" for i in range(40)), (("x" * 30,) * 40,) * 200)
     hostile = Section("$\\frac{$ & <b>", ("word " * 3000, "y" * 900), ("finding",), (wide,), parts=(Section("part"),))
-    pages = len(re.findall(rb"/Type /Page\b", plain_pdf(Document("t", (), (), "c" * 700, (hostile,)))))
+    pages = len(re.findall(rb"/Type /Page\b", plain_pdf(ReportDocument("t", (), (), "c" * 700, (hostile,)))))
     assert pages > 3
 
 

@@ -16,7 +16,7 @@ import msgspec
 
 from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import Block, ElementProgram, Target
+from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.record import BEHIND, EQUATIONS
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.scalar import ScalarNodes
@@ -136,12 +136,12 @@ def lower_form(
         for space, index in sorted(derivatives):
             entries.append((group, i, space, index))
             slopes.append(derivatives[space, index])
-    residual = [(Target(group, i), n) for group, i, n in rows]
-    residual += [(Target("power", 0), n) for group, n in groups if group == "power" and n != g.zero]
+    residual = [(OutputSlot(group, i), n) for group, i, n in rows]
+    residual += [(OutputSlot("power", 0), n) for group, n in groups if group == "power" and n != g.zero]
     blocks = []
     for name, purpose, outputs in (
         ("residual", "its part of F(t, y, k) of the descriptor form, and of the power", residual),
-        ("tangent", "its entries of dF/dk and dF/dy", [(Target("entry", i), n) for i, n in enumerate(slopes)]),
+        ("tangent", "its entries of dF/dk and dF/dy", [(OutputSlot("entry", i), n) for i, n in enumerate(slopes)]),
     ):
         if outputs:
             graph = Graph()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.program import Block, ElementProgram, Target
+from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.manifold import manifold_blocks
 from symgen.derive.lower.scalar import ScalarNodes
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
     from symgen.derive.lower.looped.instances import Instance
 
-Outputs = list[tuple[Target, int]]
+Outputs = list[tuple[OutputSlot, int]]
 
 
 class RowShape(msgspec.Struct, frozen=True):
@@ -187,16 +187,16 @@ class _Kernel:
         for b in self.e.mass:
             n = len(b.columns)
             for k, j in enumerate(b.columns):
-                outputs.append((Target("mass_diagonal", j), moved(b.entries[k][k])))
+                outputs.append((OutputSlot("mass_diagonal", j), moved(b.entries[k][k])))
                 # a massless body has no inverse: methods that use it are refused
                 massless = system.graph.value(b.entries[k][k]) == 0.0
                 inverse = system.graph.zero if massless else system.inverse_mass[j].get(j, system.graph.zero)
-                outputs.append((Target("inverse_mass", j), moved(inverse)))
+                outputs.append((OutputSlot("inverse_mass", j), moved(inverse)))
                 if n > 1:
                     for i, column in enumerate(b.columns):
                         entry = system.inverse_mass[j].get(column, system.graph.zero)
-                        outputs.append((Target("p", first + n * k + i), moved(b.entries[k][i])))
-                        outputs.append((Target("p", first + n * n + n * k + i), moved(entry)))
+                        outputs.append((OutputSlot("p", first + n * k + i), moved(b.entries[k][i])))
+                        outputs.append((OutputSlot("p", first + n * n + n * k + i), moved(entry)))
             first += 2 * n * n if n > 1 else 0
         return Block("prepare", block.purpose, block.graph, (*block.outputs, *outputs), ())
 
@@ -208,18 +208,18 @@ class _Kernel:
         nq, nv = len(frame.q), len(frame.v)
         plain = {("q", i): g.input("q", i) for i in range(nq)} | {("v", i): g.input("v", i) for i in range(nv)}
         slots = g.inline(e.graph, frame.slots, plain)
-        speeds: Outputs = [(Target("record", nq + i), g.input("v", i)) for i in range(nv)]
-        record: Outputs = [(Target("record", i), g.input("q", i)) for i in range(nq)] + speeds
-        record += [(Target("record", nq + nv + i), n) for i, n in enumerate(slots)]
+        speeds: Outputs = [(OutputSlot("record", nq + i), g.input("v", i)) for i in range(nv)]
+        record: Outputs = [(OutputSlot("record", i), g.input("q", i)) for i in range(nq)] + speeds
+        record += [(OutputSlot("record", nq + nv + i), n) for i, n in enumerate(slots)]
         steps = [g.add(g.input("q", i), g.input("change", i)) for i in range(nv)] if not e.spins else []
         kinetic, potential, *forces = self.copied([e.kinetic, e.potential, *e.forces])
         return {
             "frame": record,
             "speeds": speeds,
-            "rates": [(Target("ydot", i), n) for i, n in enumerate(self.copied(e.q_rates))],
-            "move": [(Target("y", i), n) for i, n in enumerate(steps)],
-            "motion": [(Target("force=", i), n) for i, n in enumerate(forces)],
-            "energy": [(Target("kinetic", 0), kinetic), (Target("potential", 0), potential)],
+            "rates": [(OutputSlot("ydot", i), n) for i, n in enumerate(self.copied(e.q_rates))],
+            "move": [(OutputSlot("y", i), n) for i, n in enumerate(steps)],
+            "motion": [(OutputSlot("force=", i), n) for i, n in enumerate(forces)],
+            "energy": [(OutputSlot("kinetic", 0), kinetic), (OutputSlot("potential", 0), potential)],
         }
 
     def joint(self) -> dict[str, Outputs]:
@@ -229,16 +229,16 @@ class _Kernel:
         phi = self.copied([r.phi for r in rows if r.phi is not None])
         holonomic = [i for i, r in enumerate(rows) if r.phi is not None]
         nu, gamma = self.copied([r.nu for r in rows]), self.copied([r.gamma for r in rows])
-        position: Outputs = [(Target("residual", i), n) for i, n in zip(holonomic, phi, strict=True)]
-        other: Outputs = [(Target("phi", i), n) for i, n in zip(holonomic, phi, strict=True)]
-        common: Outputs = [(Target("nu", i), n) for i, n in enumerate(nu) if n != g.zero]
+        position: Outputs = [(OutputSlot("residual", i), n) for i, n in zip(holonomic, phi, strict=True)]
+        other: Outputs = [(OutputSlot("phi", i), n) for i, n in zip(holonomic, phi, strict=True)]
+        common: Outputs = [(OutputSlot("nu", i), n) for i, n in enumerate(nu) if n != g.zero]
         for slot, node in zip(self.slots(), self.copied([n for r in rows for _, n in r.entries]), strict=True):
-            common.append((Target("jacobian", slot), node))
-        quadratic: Outputs = [(Target("gamma", i), n) for i, n in enumerate(gamma) if n != g.zero]
+            common.append((OutputSlot("jacobian", slot), node))
+        quadratic: Outputs = [(OutputSlot("gamma", i), n) for i, n in enumerate(gamma) if n != g.zero]
         report: Outputs = []
         for i, c in enumerate(e.joint_coordinates):
             value, rate = self.copied([c.value, c.rate])
-            report += [(Target("report", 2 * i), value), (Target("report", 2 * i + 1), rate)]
+            report += [(OutputSlot("report", 2 * i), value), (OutputSlot("report", 2 * i + 1), rate)]
         return {
             "geometry": position + common,
             "motion": common + quadratic,
@@ -261,18 +261,18 @@ class _Kernel:
             [row.held, row.phi, row.nu, row.gamma, *(n for _, n in row.entries)]
         )
         slots, first = self.slots(), self.row_width
-        common: Outputs = [] if nu == g.zero else [(Target("nu", 0), g.mul(held, nu))]
-        common += [(Target("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
-        common += [(Target("jacobian", first + i), n) for i, n in enumerate(entries)]
+        common: Outputs = [] if nu == g.zero else [(OutputSlot("nu", 0), g.mul(held, nu))]
+        common += [(OutputSlot("jacobian", slot), g.mul(held, n)) for slot, n in zip(slots, entries, strict=True)]
+        common += [(OutputSlot("jacobian", first + i), n) for i, n in enumerate(entries)]
         size = g.call("sqrt", g.total(g.mul(n, n) for n in entries))
         idle = g.mul(g.sub(g.one, held), size)
-        common += [(Target(section, first + len(entries)), idle) for section in ("jacobian", "left")]
-        quadratic: Outputs = [] if gamma == g.zero else [(Target("gamma", 0), g.mul(held, gamma))]
+        common += [(OutputSlot(section, first + len(entries)), idle) for section in ("jacobian", "left")]
+        quadratic: Outputs = [] if gamma == g.zero else [(OutputSlot("gamma", 0), g.mul(held, gamma))]
         force = quadratic + self.force()["motion"]
         return {
-            "geometry": [(Target("residual", 0), phi), *common],
+            "geometry": [(OutputSlot("residual", 0), phi), *common],
             "motion": common + force,
-            "full": [(Target("phi", 0), phi), *common, *force],
+            "full": [(OutputSlot("phi", 0), phi), *common, *force],
         }
 
     @property
@@ -284,19 +284,19 @@ class _Kernel:
         """Return the outputs of a force's functions."""
         e, g = self.e, self.graph
         power, potential, *forces = self.copied([e.power, e.potential, *e.forces])
-        motion: Outputs = [(Target("force+", i), n) for i, n in enumerate(forces) if n != g.zero]
+        motion: Outputs = [(OutputSlot("force+", i), n) for i, n in enumerate(forces) if n != g.zero]
         if power != g.zero:
-            motion.append((Target("power", 0), power))
-        energy: Outputs = [(Target("potential", 0), potential)] if potential != g.zero else []
+            motion.append((OutputSlot("power", 0), power))
+        energy: Outputs = [(OutputSlot("potential", 0), potential)] if potential != g.zero else []
         return {"motion": motion, "energy": energy, "wind": self.winding()}
 
     def state(self) -> dict[str, Outputs]:
         """Return the outputs of a state's functions; joints count the turns of angles that it reads."""
-        return {"rates": [(Target("own", 0), self.copied(self.e.state_rates[:1])[0])]}
+        return {"rates": [(OutputSlot("own", 0), self.copied(self.e.state_rates[:1])[0])]}
 
     def winding(self) -> Outputs:
         """Return the angles whose turns are counted."""
-        return [(Target("winding", i), n) for i, n in enumerate(self.copied(self.e.windings))]
+        return [(OutputSlot("winding", i), n) for i, n in enumerate(self.copied(self.e.windings))]
 
     # -- shapes --------------------------------------------------------------------------------------------------------
 

@@ -83,7 +83,7 @@ def record_size(width: int, stages: int) -> int:
     return HEAD + (1 + stages) * width
 
 
-def keep(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any) -> None:
+def keep_forward(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any) -> None:
     """Keep an accepted step."""
     width, count = system.sizes.width, int(run.memory[memory + RECORDS])
     size = HEAD + (1 + scheme.stages) * width
@@ -116,12 +116,12 @@ def attempt_adaptive(
 
 def renew_constant(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Keep a constant step."""
-    keep(system, scheme, run, t, 0, run.room)
+    keep_forward(system, scheme, run, t, 0, run.room)
 
 
 def renew_adaptive(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Keep an adaptive step, and set the first stage of the next one."""
-    keep(system, scheme, run, t, scheme.nodes.shape[0] * system.sizes.width, run.memory)
+    keep_forward(system, scheme, run, t, scheme.nodes.shape[0] * system.sizes.width, run.memory)
     set_first_stage(system, scheme, span, run, t, changed)
 
 
@@ -129,7 +129,7 @@ def prepare_adaptive(system: Any, scheme: Any, span: Any, run: Any) -> None:
     """Keep a step that ends where rates have a kink, and set the first stage of the next one."""
     memory = scheme.nodes.shape[0] * system.sizes.width
     if run.control[abi.STEPS] > run.memory[memory + KEPT_STEPS]:
-        keep(system, scheme, run, run.clock[abi.TIME], memory, run.memory)
+        keep_forward(system, scheme, run, run.clock[abi.TIME], memory, run.memory)
     begin_scheme(system, scheme, span, run)
 
 

@@ -93,13 +93,16 @@ def is_rounding(
 ) -> bool:
     """Return whether the residuals `right` of some stages are rounding of their terms, as with stiff forces."""
     n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
+    # columns behind those of q and v are the file's own states, which stand behind the work in a state
+    first, tail = system.sizes.nq + system.sizes.nv, n - system.sizes.states
     for s in range(low, high):
         stage_state(system, scheme, run, h, s, k, rates)
         for i in range(n):
             terms[i] = 0.0
         for e in range(count):
             j = scheme.entries[count + e]
-            number = k[s * n + j] if j < n else run.trial[j - n]
+            at = j - n if j < n + tail else j - n - tail + first + 1
+            number = k[s * n + j] if j < n else run.trial[at]
             terms[scheme.entries[e]] += abs(scheme.slopes[(s - low) * count + e] * number)
         for i in range(n):
             if abs(right[(s - low) * n + i]) > _GRAIN * terms[i]:

@@ -137,7 +137,7 @@ def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: A
             weights[rows[c]] += 0.25 * h * h * weights[rows[c + count]]
 
 
-def rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
+def step_rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
     """Return whether no velocity is more than its tolerance at the beginning and at the end of a step."""
     share, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
@@ -157,7 +157,7 @@ def attempt(
     states, buffers = part(run.room, _WIDE + _STATES * width, size), _WIDE + _BUFFERS * width
     old = part(run.room, buffers, size)
     if head[STALE] != 0.0:
-        begin(system, run, t)
+        begin_polynomial(system, run, t)
     last = head[STEP]
     if last > 0.0:
         coefficients = part(run.memory, NODES + width, 2 * size)
@@ -181,7 +181,7 @@ def attempt(
         place(h, rows, run.y, first, before, table, states)
         if iterations == 0:
             weigh_rates(system, scheme, span, run, h, states, weights)
-        elif iterations == 1 and ADAPTIVE and rests(sizes, span, run, states):
+        elif iterations == 1 and ADAPTIVE and step_rests(sizes, span, run, states):
             weights[sizes.nq + sizes.nv] = 0.0  # the work of what rests is rounding
         odd = 0
         if alone:
@@ -263,7 +263,7 @@ def attempt(
 def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> float:
     """Try a step across a singular position, where iterations diverge, by `dop853`; return its error."""
     width, tableau = system.sizes.width, scheme.tableau
-    begin(system, run, t)
+    begin_polynomial(system, run, t)
     one = as_one_step(system, tableau, run)
     copied(width, part(run.memory, NODES, width), one.memory)
     error = one_step(system, tableau, span, one, t, following, h, False)
@@ -299,7 +299,7 @@ def grown(span: Any, run: Any, h: float, error: float) -> float:
 
 
 @called
-def begin(system: Any, run: Any, t: float) -> None:
+def begin_polynomial(system: Any, run: Any, t: float) -> None:
     """Clear the polynomial; evaluate the rates at the start of a step."""
     evaluate(system, run, t, run.y, part(run.memory, NODES, system.sizes.width))
     run.control[abi.EVALUATIONS] += 1
@@ -310,7 +310,7 @@ def begin(system: Any, run: Any, t: float) -> None:
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     """Initialise the memory, and choose a first step."""
     sizes, first, t = system.sizes, part(run.memory, NODES, system.sizes.width), run.clock[abi.TIME]
-    begin(system, run, t)
+    begin_polynomial(system, run, t)
     run.control[abi.ORDER] = NODES
     if not ADAPTIVE or span.step > 0.0:
         return
@@ -328,7 +328,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Store the rates at the end of the step, and its polynomial, where the iteration has converged."""
     if run.room[ADRIFT] != 0.0:
-        begin(system, run, t)
+        begin_polynomial(system, run, t)
         return
     run.control[abi.POINTS] += int(run.room[SLOW])
     width, size, rows = system.sizes.width, NODES * system.sizes.width, scheme.rows

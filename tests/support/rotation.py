@@ -1,0 +1,30 @@
+"""Long lists of cases that prove the same of many mechanisms: a share of them in a turn, and all of them on request."""
+
+import os
+from collections.abc import Iterable
+from typing import TypeVar
+
+Case = TypeVar("Case")
+
+#: Names the turn for all workers of a session: a number, 0 unless given, or `all`.
+TURN = "SYMGEN_TEST_TURN"
+
+
+def of_turn(cases: Iterable[Case], turns: int) -> list[Case]:
+    """Return the cases of the turn.
+
+    Parameters
+    ----------
+    cases : iterable
+        All cases, in an order that does not change.
+    turns : int
+        In so many turns each case has its own.
+    """
+    listed, turn = list(cases), os.environ[TURN]
+    return listed if turn == "all" else listed[number_of_turn() % turns :: turns]
+
+
+def number_of_turn() -> int:
+    """Return the number of the turn, 0 where all cases are asked for."""
+    turn = os.environ[TURN]
+    return 0 if turn == "all" else int(turn)
