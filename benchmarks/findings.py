@@ -29,6 +29,7 @@ from benchmarks import (
     statistics,
     stiff,
     stress_cells,
+    stress_quick,
 )
 from benchmarks.page_tables import ROOT, PageTable, missing, written
 
@@ -41,6 +42,7 @@ def measured_tables(times: bool = False) -> tuple[PageTable, ...]:
         *(coordinates.table(times), picard.work_table(times), picard.hard_table(times), space.methods(times)),
         *all_methods.tables().values(),
         *stress_cells.tables().values(),
+        *(stress_quick.tables().values() if stress_quick.RECORD.lines() else ()),
         *(equal_error.page_table(), statistics.page_table(), identification.page_table(), *beside_tools.tables()),
         *functions.tables(),
     )

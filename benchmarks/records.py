@@ -26,7 +26,16 @@ from benchmarks.verification.workers import answers
 
 FOLDER = Path(__file__).with_name("records")
 #: Modules that have a record, by its name.
-NAMES = ("statistics", "equal_error", "all_methods", "beside_tools", "stress_cells", "identification", "functions")
+NAMES = (
+    "statistics",
+    "equal_error",
+    "all_methods",
+    "beside_tools",
+    "stress_cells",
+    "stress_quick",
+    "identification",
+    "functions",
+)
 #: Digits of stored numbers.
 DIGITS = 3
 

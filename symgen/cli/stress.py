@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,9 +23,13 @@ if TYPE_CHECKING:
     epilog=examples("symgen stress four-bar --quick", "symgen stress --cases mass-ratio,stiffness -o stress.html"),
 )
 @click.argument("models", metavar="[MODEL...]", nargs=-1)
-@click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all by default.")
+@click.option(
+    "--cases",
+    metavar="A,B",
+    help="Families of cases, such as stiffness,mass-ratio; by default all, with --quick no mechanisms of their own.",
+)
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto by default.")
-@click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
+@click.option("--quick", is_flag=True, help="A look in a minute: fewer cases, one integrator a method.")
 @click.option("--catalogue", is_flag=True, help="Include every studied model of the catalogue.")
 @click.option("--compilation", type=float, metavar="SECONDS", help="Omit pairs that would take longer to compile.")
 @study_files("cell")
@@ -70,8 +73,7 @@ def command(
             lines.say(f"{what}: {status.done} of {status.total} cells", status.share)
 
         requested = dict.fromkeys((*models, *(names() if catalogue else ())))
-        seconds = math.inf if compilation is None else compilation
-        work = journal, jobs or processors(), progress, seconds
+        work = journal, jobs or processors(), progress, compilation
         study = stress(tuple(requested), case_list, method_list, quick, *work, **limits)
     if as_json:
         write_json(study.to_json())

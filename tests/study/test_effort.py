@@ -50,6 +50,16 @@ def test_budgets_go_by_what_a_run_evaluates():
     assert effort.budget_of(dry, bounded) == effort.BUDGET // effort.BOUNDED
 
 
+def test_explicit_runs_of_a_quick_study_have_less_and_implicit_ones_as_much():
+    plans = [plan_of("four-bar", "lagrange", name) for name in ("rk4", "dop853")]
+    for searched in (False, True):
+        budgets = {effort.budget_of(plan, mechanism, searched, quick=True) for plan, mechanism in plans}
+        assert budgets == {effort.QUICK_BUDGET} == set(effort.explicit_limits(quick=True))
+    dry = effort.budget_of(*plan_of("dry-four-bar", "lagrange", "rk4"), quick=True)
+    assert dry == effort.QUICK_BUDGET // effort.QUICK_BOUNDED
+    assert effort.budget_of(*plan_of("four-bar", "ggl", "radau5"), quick=True) == effort.IMPLICIT_BUDGET
+
+
 def test_a_run_off_its_constraints_does_not_go_on_for_ever():
     assert effort.further_budget(5_000_000, 79) == effort.LEAST_FURTHER
     assert effort.further_budget(5_000_000, 20_000) == 2_000_000

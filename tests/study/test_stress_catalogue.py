@@ -6,6 +6,7 @@ import pytest
 
 from study.report.made import stress_row
 from symgen.study.report import stress as report
+from symgen.study.report import stress_figures
 from symgen.study.report.stress import FEW_MODELS
 from symgen.study.stress.findings import cause, findings
 from symgen.study.stress.stress_rows import Limit, Stress, outcomes_of_models, shares_of_models
@@ -116,6 +117,14 @@ def test_the_report_shows_all_models_at_once(monkeypatch):
     first = section.tables[0]
     assert [r[0] for r in first.rows] == ["mechanisms of families", *MODELS]
     assert sum(int(str(r[1])) for r in first.rows) == len(ROWS)
+
+
+def test_a_map_has_no_columns_for_a_single_pair():
+    """They would be empty but for one field; a study of that pair alone has them."""
+    shared = [row("model-0", name, "ok", family="gravity") for name in ("lagrange", "penalty")]
+    single = [row("model-0", "baumgarte", "ok", family="gain", values=(x,), case=f"{x}") for x in (0.1, 1.0)]
+    assert stress_figures._of_many_pairs([*shared, *single]) == shared
+    assert stress_figures._of_many_pairs(single) == single
 
 
 def test_too_many_cells_are_not_listed(monkeypatch):

@@ -39,6 +39,7 @@ _NAME = re.compile(rb"(\w+)(?: as \w+)?")
 _COMMENT = re.compile(rb"#[^\n]*")
 
 
+@functools.cache
 def package_digest() -> str:
     """Return the digest of all sources of symgen and of all templates: what results of runs depend on."""
     return combined_digest(*(part for name, (digest, _) in sorted(source_table().items()) for part in (name, digest)))

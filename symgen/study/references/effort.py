@@ -24,8 +24,11 @@ if TYPE_CHECKING:
 #: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
 #: residuals of implicit stages, which come with Newton's matrices.
 BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
-#: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many.
-BOUNDED = 20
+#: The same of explicit runs of a quick study, at constant and at adaptive steps: ten times what its longest needs.
+QUICK_BUDGET = 500_000
+#: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many; a quick study counts
+#: fewer, as its budget is near what some runs need.
+BOUNDED, QUICK_BOUNDED = 20, 5
 #: A search for a limit takes some ten runs, each by explicit steps within this part of the budget of a run alone.
 SEARCHED = 2
 #: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
@@ -52,13 +55,19 @@ def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
     return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
 
 
-def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False) -> int:
-    """Return the evaluation limit of a run, or of one of the many of a search."""
+def explicit_limits(quick: bool) -> tuple[int, int]:
+    """Return the evaluation limits of a small mechanism at constant and at adaptive steps."""
+    return (QUICK_BUDGET, QUICK_BUDGET) if quick else (BUDGET, ADAPTIVE_BUDGET)
+
+
+def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: bool = False) -> int:
+    """Return the evaluation limit of a run, or of one of the many of a search; less in a quick study."""
     if is_implicit(plan):
         return implicit_budget(mechanism)
-    most = ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET
-    most //= (BOUNDED if mechanism.bounded else 1) * (SEARCHED if searched else 1)
-    return explicit_budget(mechanism, most)
+    most = explicit_limits(quick)[plan.spec.adaptive]
+    if mechanism.bounded:
+        most //= QUICK_BOUNDED if quick else BOUNDED
+    return explicit_budget(mechanism, most // (SEARCHED if searched and not quick else 1))
 
 
 def further_budget(budget: int, used: int) -> int:

@@ -165,6 +165,16 @@ class CompiledEquations(IndependentEquations):
 
     def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
         """Return the outputs as a compiled function (t, q, v, p, out)."""
+        text, space = self._text(formulas, outputs)
+        signature = EQUATIONS.signature
+        make = numba.njit(signature, error_model="numpy", nogil=True)
+        identity = "\n".join((text, *map(repr, self.mechanism.tables)))
+        self._result = machine_code("equations", signature, identity, lambda: make(space["equations"]))
+        function: Callable[..., Any] = self._result.entry_point
+        return function
+
+    def _text(self, formulas: ReferenceFormulas, outputs: list[Any]) -> tuple[str, dict[str, Any]]:
+        """Return the text of a function `equations`, and the names with which it has been executed."""
         shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
         names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]
         names += [f"{z} = v[{self.n + i}]" for i, z in enumerate(formulas.z)]
@@ -177,13 +187,26 @@ class CompiledEquations(IndependentEquations):
         space["__name__"] = __name__  # where a process that loads the code looks for names
         lines += [f"{symbol} = {sp.pycode(e, user_functions=own)}" for symbol, e in shared]
         lines += [f"out[{i}] = {sp.pycode(e, user_functions=own)}" for i, e in enumerate(results)]
-        text, signature = "\n    ".join([*lines, "return 0"]), EQUATIONS.signature
+        text = "\n    ".join([*lines, "return 0"])
         exec(text, space)  # SymPy's own printing of a checked mechanism
-        make = numba.njit(signature, error_model="numpy", nogil=True)
-        identity = "\n".join((text, *map(repr, self.mechanism.tables)))
-        self._result = machine_code("equations", signature, identity, lambda: make(space["equations"]))
-        function: Callable[..., Any] = self._result.entry_point
-        return function
+        return text, space
+
+
+class InterpretedEquations(CompiledEquations):
+    """The same equations where they are evaluated some thousand times at most: compilation would take longer."""
+
+    def _compile(self, formulas: ReferenceFormulas, outputs: list[Any]) -> Callable[..., Any]:
+        """Return the outputs as a function (t, q, v, p, out) that sets what is undefined to not a number."""
+        function = self._text(formulas, outputs)[1]["equations"]
+
+        def evaluated(t: float, q: Array, v: Array, p: Array, out: Array) -> None:
+            try:
+                with np.errstate(all="ignore"):
+                    function(t, q, v, p, out)
+            except (ArithmeticError, ValueError):
+                out[:] = np.nan
+
+        return evaluated
 
 
 @cache

@@ -165,6 +165,7 @@ def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...]
                 raise KeyboardInterrupt
             if outcome.code != abi.STOPPED or most == budget:
                 break
+            straight = True  # what is long by one route is long by the other
         if outcome.code != abi.DONE:
             reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")

@@ -8,7 +8,7 @@ from pathlib import Path
 from symgen.base.errors import counted
 from symgen.run.planning.automatic import AUTO
 from symgen.study.machine_class import machine_class, version_list
-from symgen.study.references.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
+from symgen.study.references.effort import IMPLICIT_BUDGET, explicit_limits
 from symgen.study.report import words
 from symgen.study.report.document import DocumentTable, ReportDocument, Section, TableCell
 from symgen.study.report.picture import sketched
@@ -35,8 +35,8 @@ _MEANINGS = {
     "wrong branch": "the error arose near a singular position, and the mechanism moves on, closed, on another branch",
     "singular": "the run ended at a position where the independent constraint rows are almost dependent",
     "diverged": "the run ended early or left the constraints",
-    "too slow": f"more than {BUDGET:g} evaluations at constant and {ADAPTIVE_BUDGET:g} at adaptive steps, or "
-    f"{IMPLICIT_BUDGET:g} of implicit stages, fewer on large mechanisms; predicted or counted",
+    "too slow": f"more than {{:g}} evaluations at constant and {{:g}} at adaptive steps, or {IMPLICIT_BUDGET:g} of "
+    "implicit stages, fewer on large mechanisms; predicted or counted",
     "refused": "the pair or the case is refused with a sentence",
     "unjudged": "the reference itself is not known well enough",
 }
@@ -59,7 +59,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         ("Versions", version_list()),
         ("Machine", machine_class()),
         ("Cells", f"{len(study.rows)}, and {words.counted(len(study.limits), 'search', 'searches')} for largest steps"),
-        ("Extent", "quick: fewer cases, one integrator a method" if study.quick else "all cases"),
+        ("Extent", "quick: fewer cases, one integrator a method, shorter searches" if study.quick else "all cases"),
     )
     sections = [
         _map_section(study),
@@ -87,7 +87,8 @@ def _map_section(study: Stress) -> Section:
     )
     headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families), "all")
     table = DocumentTable("Accurate cells of those judged.", headings, rows, words=2, notes=(f"{LEGEND}.",))
-    meanings = DocumentTable("Outcomes.", ("outcome", "meaning"), tuple((n, _MEANINGS[n]) for n in OUTCOMES), words=2)
+    outcomes = tuple((name, _MEANINGS[name].format(*explicit_limits(study.quick))) for name in OUTCOMES)
+    meanings = DocumentTable("Outcomes.", ("outcome", "meaning"), outcomes, words=2)
     tables: tuple[DocumentTable, ...] = (table, meanings)
     pictures = maps(study)
     if len(study.models) > FEW_MODELS:
@@ -122,9 +123,9 @@ def _limits_section(study: Stress) -> list[Section]:
         for limit in study.limits
     )
     text = (
-        "Found by bisection to about 1 percent, with runs that do not watch themselves: the largest constant step up "
-        "to which a run stays within a tenth of the mechanism's length of the reference, and the largest one up to "
-        f"which its error stays below {ACCURATE:g} of it. Methods with their own integrator."
+        f"Found by bisection to about {9 if study.quick else 1} percent, with runs that do not watch themselves: the "
+        "largest constant step up to which a run stays within a tenth of the mechanism's length of the reference, and "
+        f"the largest one up to which its error stays below {ACCURATE:g} of it. Methods with their own integrator."
     )
     headings = ("model", "case", "method", "integrator", "stable up to [s]", "accurate up to [s]")
     return [Section("Largest steps", (text,), tables=(DocumentTable("", headings, rows, words=4),))]

@@ -39,7 +39,7 @@ def maps(study: Stress) -> tuple[Picture, ...]:
 
 
 def _map(shown: Map, model: str) -> Picture:
-    rows = [row for row in shown.rows if row.model == model]
+    rows = _of_many_pairs([row for row in shown.rows if row.model == model])
     cases = list(dict.fromkeys((row.family, row.case) for row in rows))
     lines = [line for line in shown.lines if any((row.method, row.integrator) == line for row in rows)]
     column = {case: i for i, case in enumerate(cases)}
@@ -63,22 +63,31 @@ def _map(shown: Map, model: str) -> Picture:
             ax.axvline(i - 0.5, color=GREY, linewidth=0.8)
             ax.text(
                 *((i + end - 1) / 2, -0.7, cases[i][0].replace("-", " ")),
-                ha="center" if end - i > 1 else "left",
+                ha="left",
                 va="bottom",
                 fontsize=7.0,
                 rotation=35,
+                rotation_mode="anchor",
             )
         _legend(figure, ax, rows)
 
     name = "mechanisms of their own" if model == "-" else model
     caption = (
         f"Outcomes on {name}, a row for each pair of method and integrator, a column for each case. A frame marks runs "
-        "that report success although their error exceeds 1e-3 of the length."
+        "that report success although their error exceeds 1e-3 of the length. The table has families of one pair too."
     )
     alternative = f"Map of outcomes on {name} by method and case; the tables below say the same."
     return drawn(
         f"map-{anchor(name)}", caption, alternative, draw, height=2.6 + 0.17 * len(lines), wide=len(cases) > 12
     )
+
+
+def _of_many_pairs(rows: list[StressRow]) -> list[StressRow]:
+    """Return the rows of families that are run with several pairs, whose columns are not empty but for one field."""
+    pairs: dict[str, set[tuple[str, str]]] = {}
+    for row in rows:
+        pairs.setdefault(row.family, set()).add((row.method, row.integrator))
+    return [row for row in rows if len(pairs[row.family]) > 1] or rows
 
 
 def overview(study: Stress) -> Picture:

@@ -117,20 +117,23 @@ def geometry_of(level: Level, parameters: Mapping[str, float], compiled: Compile
     """Return what has Phi, D and nu of a case: its independent equations, or in space its emitted functions."""
     mechanism = derivable(level.mechanism)
     if mechanism.space == "planar":
-        return equations_of(mechanism, parameters)
+        return equations_of(mechanism, parameters, interpreted=mechanism is not level.mechanism)
     if mechanism is not level.mechanism:  # rows that are off are in neither
         own = prepare(mechanism, Settings("lagrange", "rk4", level.step, parameters=parameters), Purpose.STATE)
         compiled, start = own.compiled, own.start
     return EmittedGeometry(compiled, start)
 
 
-def equations_of(mechanism: Mechanism, parameters: Mapping[str, float]) -> Any:
-    """Return the independent equations of a case; compiled once a process for all cases with the same equations."""
-    from symgen.study.references.motion import CompiledEquations
+def equations_of(mechanism: Mechanism, parameters: Mapping[str, float], interpreted: bool = False) -> Any:
+    """Return the independent equations of a case, once a process for all cases with the same equations.
+
+    They are compiled unless nothing but their geometry is asked for: no reference integrates what they lack.
+    """
+    from symgen.study.references.motion import CompiledEquations, InterpretedEquations
 
     key = digest(mechanism)
     if key not in _COMPILED:
-        _COMPILED[key] = CompiledEquations(mechanism, parameters)
+        _COMPILED[key] = (InterpretedEquations if interpreted else CompiledEquations)(mechanism, parameters)
     equations = _COMPILED[key]
     equations.mechanism = mechanism
     equations.set_parameters(parameters)

@@ -39,7 +39,7 @@ from symgen.study.stress import kept
 from symgen.study.stress.bench import Level
 from symgen.study.stress.cell_outcome import Run, classify, largest_error
 from symgen.study.stress.cell_references import geometry_of, reference_of, times_of, without_reference
-from symgen.study.stress.searches import HALVINGS, largest_steps
+from symgen.study.stress.searches import HALVINGS, QUICK_HALVINGS, largest_steps
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -57,6 +57,7 @@ class RunTask:
     """Run a case with a method and an integrator; `reference` is the outcome of its `CellReference`.
 
     `common` holds the common settings of all runs: coordinates of the state, and limits of a run that watches itself.
+    In a quick study a run has fewer evaluations.
     """
 
     level: Level
@@ -64,13 +65,17 @@ class RunTask:
     integrator: str
     reference: Fields
     common: Settings = field(default_factory=Settings)
+    quick: bool = False
 
 
 @dataclass(frozen=True)
 class LimitTask(RunTask):
-    """Find the largest constant step of a method and an integrator for a case, by so many halvings."""
+    """Find the largest constant step of a method and an integrator for a case."""
 
-    halvings: int = HALVINGS
+    @property
+    def halvings(self) -> int:
+        """Halvings of the search."""
+        return QUICK_HALVINGS if self.quick else HALVINGS
 
 
 def compute_cell(task: CellReference | RunTask) -> Fields:
@@ -114,7 +119,7 @@ def _run(task: RunTask, searched: bool = False) -> Fields:
         why = without_reference(motion)
         if why is not None:
             return _not_run(judged.UNJUDGED, why)
-        budget = budget_of(plan, mechanism, searched)
+        budget = budget_of(plan, mechanism, searched, task.quick)
         chosen = f"{plan.choice.method.name}, {plan.integrator.name}" if method == AUTO else ""
         least = predicted(plan, motion["decay"])
         if least > budget:
@@ -224,7 +229,8 @@ def _limit(task: LimitTask) -> Fields:
             return False, False
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            fields = _run(RunTask(level, task.method, task.integrator, task.reference, task.common), searched=True)
+            one = RunTask(level, task.method, task.integrator, task.reference, task.common, task.quick)
+            fields = _run(one, searched=True)
             slow = step if fields["outcome"] == judged.TOO_SLOW else slow
             length = task.reference["length"]
             error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf

@@ -303,8 +303,10 @@ def quadrilateral(
 
 # -- all of them -------------------------------------------------------------------------------------------------------
 
-_SPRINGS, _QUICK_SPRINGS = (1e2, 1e4, 1e6, 1e8, 1e10), (1e2, 1e6)
-_GRID, _QUICK_GRID = (np.geomspace(0.05, 12.8, points).tolist() for points in (15, 7))
+# a quick study has the spring of the searches and a stiffer one
+_SPRINGS, _QUICK_SPRINGS = (1e2, 1e4, 1e6, 1e8, 1e10), (1e4, 1e6)
+# five gains tell the limit of stability to a factor of 4
+_GRID, _QUICK_GRID = (np.geomspace(0.05, 12.8, points).tolist() for points in (15, 5))
 
 FAMILIES: Mapping[str, Family] = {
     "alpha-beta": Family(alpha_beta, tuple(product(_GRID, _GRID)), tuple(product(_QUICK_GRID, _QUICK_GRID))),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from symgen.base.files import check_writable, headed, need, write_csv
 from symgen.result.contract import json_value
-from symgen.study.references.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
+from symgen.study.references.effort import IMPLICIT_BUDGET, explicit_limits
 from symgen.study.saving import save_study
 from symgen.study.stress.cell_outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, counts, false_success
 
@@ -148,13 +148,14 @@ class Stress:
         """Return the contract of ``symgen stress --json``."""
         from symgen.study.stress.findings import explained, findings
 
+        constant, adaptive = explicit_limits(self.quick)
         contract = {
             "models": list(self.models),
             "coordinates": self.coordinates,
             "quick": self.quick,
             "interrupted": self.interrupted,
             "accurate": ACCURATE,
-            "budget": {"explicit": BUDGET, "adaptive": ADAPTIVE_BUDGET, "implicit": IMPLICIT_BUDGET},
+            "budget": {"explicit": constant, "adaptive": adaptive, "implicit": IMPLICIT_BUDGET},
             "cells": len(self.rows),
             "outcomes": counts([row.outcome for row in self.rows]),
             "rows": [asdict(row) for row in self.rows],

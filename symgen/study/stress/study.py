@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -32,7 +32,6 @@ from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute
 from symgen.study.stress.families import FAMILIES, levels_of
 from symgen.study.stress.kept import identity_of
 from symgen.study.stress.progress import Progress, Whole
-from symgen.study.stress.searches import HALVINGS, QUICK_HALVINGS
 from symgen.study.stress.stress_rows import Limit, Stress, StressRow
 
 #: Integrators of each method besides its own default: an explicit adaptive one and an implicit one.
@@ -41,8 +40,11 @@ FURTHER = ("dop853", "picard", "radau5")
 DEFAULT_MODEL = "four-bar"
 #: Work of a reference in steps of a run, its compilation included; runs that a search for the largest step takes.
 REFERENCE, SEARCH = 2e4, 15.0
-#: Families with a search for the largest step of each method, in the case nearest to a value.
-LIMITED = ("duration", "stiffness", "damping")
+#: Expected seconds of compilation in a quick study: all methods of small mechanisms, some of large ones.
+QUICK_COMPILATION = 7.0
+#: Families with a search for the largest step of each method, in the case nearest to a value: for stiffer springs
+#: explicit steps are so small that a search takes most of a study.
+LIMITED: Mapping[str, float] = {"duration": 0.0, "stiffness": 1e4, "damping": 1e4}
 
 Motions = Sequence[tuple[CellReference, Outcome]]
 Task = TypeVar("Task", bound=CellReference | RunTask)
@@ -74,7 +76,7 @@ def stress(
     journal: Journal | None = None,
     jobs: int = 1,
     progress: Progress | None = None,
-    compilation: float = math.inf,
+    compilation: float | None = None,
     max_violation: float = default("max_violation"),
     max_energy_error: float = default("max_energy_error"),
     max_attempts: float | None = None,
@@ -88,20 +90,21 @@ def stress(
     models : sequence of str or path
         Base models: catalogue entries or files; `DEFAULT_MODEL` by default.
     cases : sequence of str
-        Families (`symgen.study.stress.families.FAMILIES`); all by default.
+        Families (`symgen.study.stress.families.FAMILIES`); by default all, in a quick study without families that have
+        mechanisms of their own.
     methods : sequence of str
         Methods, ``auto`` among them; all and ``auto`` by default.
     quick : bool
-        Fewer cases, and each method with its own integrator only.
+        Fewer cases, each method with its own integrator only, and a tenth of the evaluations for explicit runs.
     journal : Journal, optional
         Stores finished cells; cells that it holds are not computed again.
     jobs : int
         Processes to compute on. With more than one, a script needs the usual ``if __name__ == "__main__":``.
     progress : callable, optional
         Called with the current activity and the progress.
-    compilation : float
+    compilation : float, optional
         Expected seconds of compilation that a model's pairs without a looped shape may take together [s]; pairs beyond
-        are left out and listed.
+        are left out and listed. By default without a limit, in a quick study `QUICK_COMPILATION`.
     max_violation, max_energy_error, max_attempts : float
         As for `symgen.Settings`; the first two are of the cases whose runs watch themselves.
     coordinates : {"absolute", "joint", "auto"}
@@ -128,7 +131,9 @@ def stress(
     )
     cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
     quick, jobs = arguments.switch("quick", quick), arguments.whole("jobs", jobs, 1, 4096)
-    if compilation != math.inf:
+    if compilation is None:
+        compilation = QUICK_COMPILATION if quick else math.inf
+    elif compilation != math.inf:
         arguments.number("compilation", compilation, positive=True)
     arguments.function("progress", progress)
     if journal is not None:
@@ -139,7 +144,9 @@ def stress(
         refuse_ends("stress", base.mechanism, common)
         refuse_weightless(base.mechanism)
     bases = [base.without_events(but=(RESET,)) for base in bases]
-    chosen = tuple(dict.fromkeys(arguments.one_of("cases", name, FAMILIES) for name in cases or FAMILIES))
+    # mechanisms of families are the same whatever the models: a quick look at a model has them where they are named
+    offered = [name for name in FAMILIES if not (quick and FAMILIES[name].own)]
+    chosen = tuple(dict.fromkeys(arguments.one_of("cases", name, FAMILIES) for name in cases or offered))
     names = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in names:
         if name != AUTO:
@@ -241,7 +248,7 @@ class _Study:
         for task, motion in motions:
             for pair in self._pairs(task.level):
                 if self._is_compiled(task.level, pair):
-                    yield RunTask(task.level, *pair, motion, self.common)
+                    yield RunTask(task.level, *pair, motion, self.common, self.quick)
 
     def _pairs(self, level: Level) -> tuple[tuple[str, str], ...]:
         if level.pairs is not None:
@@ -257,10 +264,10 @@ class _Study:
             if task.level.family in LIMITED:
                 cases.setdefault((task.level.model, task.level.family), []).append((task.level, motion))
         for (_, family), own in cases.items():
-            level, motion = own[0 if family == "duration" else min(1, len(own) - 1)]
+            level, motion = min(own, key=lambda case: abs(case[0].values[0] - LIMITED[family]))
             for pair in ((name, constant_integrator(name)) for name in self.methods if name != AUTO):
                 if self._is_compiled(level, pair):
-                    yield LimitTask(level, *pair, motion, self.common, QUICK_HALVINGS if self.quick else HALVINGS)
+                    yield LimitTask(level, *pair, motion, self.common, self.quick)
 
     def _is_compiled(self, level: Level, pair: tuple[str, str]) -> bool:
         return (level.mechanism.name, *pair) not in [out[:3] for out in self.left_out]
@@ -285,11 +292,12 @@ def _cell(task: CellReference | RunTask) -> Cell:
         return Cell(cell_key(**parts), name, task, REFERENCE + steps, check_motion)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
     parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.common.coordinates}
+    parts["quick"] = task.quick
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
     # roughly how long a run takes, in steps
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
     if isinstance(task, LimitTask):
-        parts, cost = parts | {"halvings": task.halvings}, SEARCH * cost
+        cost *= SEARCH
     check = _check_limit if isinstance(task, LimitTask) else _check_run
     return Cell(cell_key(**parts, limits=limits), f"{name} {task.method}", task, cost, check)
 

@@ -53,7 +53,7 @@ def unchanged(copied):
 
 def forget():
     """Forget what has been read: as in another process."""
-    for kept in (sources.source_table, sources.reached_digest, sources._stamp_of):
+    for kept in (sources.source_table, sources.package_digest, sources.reached_digest, sources._stamp_of):
         kept.cache_clear()
 
 

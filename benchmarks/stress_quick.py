@@ -1,0 +1,116 @@
+"""Quick stress studies of the whole catalogue: what `symgen stress NAME --quick` costs, and how its cells end.
+
+    python -m benchmarks.stress_quick                                   prints the table of docs/stress.md
+    python -m benchmarks.records stress_quick [--workers N]             measures what the record lacks
+
+A line has the processor time of the command, its processes included: `first` with loops in the cache and nothing of the
+mechanism, `warm` with everything there. A worker has the cache of SYMGEN_CACHE_DIR, or one of its own, in which it
+studies the four-bar beforehand.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import resource
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from functools import partial
+from typing import Any, NamedTuple
+
+from benchmarks.page_tables import PageTable, list_of, print_tables
+from benchmarks.records import Line, Pair, Record
+from symgen.describe.catalogue import all_names, names
+from symgen.study.stress.cell_outcome import OUTCOMES, REFUSED
+
+PAGE = "docs/stress.md"
+#: Time of a study at most, however busy the machine is [s].
+LONGEST = 1200.0
+#: Fills a cache with the loops.
+FILLS = "four-bar"
+
+
+class Job(NamedTuple):
+    """A mechanism of the catalogue."""
+
+    model: str
+
+
+def jobs() -> Iterator[Job]:
+    """Yield all mechanisms, studied ones first."""
+    yield from map(Job, dict.fromkeys((*names(), *all_names())))
+
+
+def examine(job: Job) -> dict[str, Any]:
+    """Return processor times of two studies in a row, the number of cells, searches and outcomes."""
+    if not os.environ.get("SYMGEN_CACHE_DIR"):
+        os.environ["SYMGEN_CACHE_DIR"] = tempfile.mkdtemp(prefix="symgen-stress-quick-")
+        if job.model != FILLS:
+            study(FILLS)
+    first, found = study(job.model)
+    if "says" in found:
+        return {"first": first, **found}
+    return {"first": first, "warm": study(job.model)[0], **found}
+
+
+def study(model: str) -> tuple[float, dict[str, Any]]:
+    """Return the processor time of the command [s], and what its JSON says."""
+    command = [sys.executable, "-m", "symgen", "stress", model, "--quick", "--json"]
+    before = _of_children()
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST)
+    seconds = _of_children() - before
+    if not done.stdout:
+        return seconds, {"says": done.stderr.strip().splitlines()[-1]}
+    found = json.loads(done.stdout)
+    outcomes = {name: count for name, count in found["outcomes"].items() if count}
+    left_out = len({pair["method"] for pair in found["left_out"]})
+    return seconds, {"cells": found["cells"], "searches": len(found["limits"]), "left": left_out, "outcomes": outcomes}
+
+
+def _of_children() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
+    """Yield the outcomes of a mechanism beside those measured again."""
+    if "outcomes" in stored:
+        yield Pair(stored["model"], stored["outcomes"], examine(Job(stored["model"]))["outcomes"])
+
+
+def costs() -> PageTable:
+    """Return seconds of the processor, cells, and how they ended, of each mechanism in the record."""
+    lines = {line["model"]: line for line in RECORD.lines() if "outcomes" in line}
+    shown = [name for name in OUTCOMES if name != REFUSED]
+
+    def cells(model: str) -> Iterator[str]:
+        line = lines[model]
+        yield from (f"{line['first']:.0f}", f"{line['warm']:.0f}", str(line["cells"]), str(line["searches"]))
+        yield from (str(line["outcomes"].get(name, 0)) for name in shown)
+
+    rows = tuple(((f"`{job.model}`",), partial(list_of, cells, job.model)) for job in jobs() if job.model in lines)
+    headings = ("model", "first [s]", "warm [s]", "cells", "searches", *shown)
+    return PageTable("stress_quick", PAGE, headings, rows, stored=True, claims=missing)
+
+
+def missing() -> Iterator[str]:
+    """Yield the mechanisms of which the record has nothing."""
+    done = {line["model"] for line in RECORD.lines() if "outcomes" in line}
+    left = [f"`{job.model}`" for job in jobs() if job.model not in done]
+    if left:
+        yield f"Without figures: {', '.join(left)}."
+
+
+def tables() -> dict[str, PageTable]:
+    """Return the table by its name."""
+    return {"": costs()}
+
+
+RECORD = Record("stress_quick", jobs, examine, again, float("inf"))
+
+
+if __name__ == "__main__":
+    sys.exit(print_tables(tables(), [""]))
