@@ -266,7 +266,7 @@ def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | No
     from symgen.run.planning.plan import Purpose
     from symgen.run.planning.prepare import prepare
     from symgen.run.planning.start_lines import exported_start
-    from symgen.run.planning.tree import begin_on_tree, carried_of
+    from symgen.run.planning.tree_starts import begin_on_tree, carried_of
 
     mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
     values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info

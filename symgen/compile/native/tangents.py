@@ -14,11 +14,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from symgen.base.ir.graph import CARRIED
-from symgen.base.vocabulary.functions import ELEMENTARY, steepest
+from symgen.base.vocabulary.functions import ELEMENTARY
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
 from symgen.compile.native.llvm import LlvmPrinter, declarations, head, taken
 from symgen.compile.native.llvm_values import TYPES, literal, slot
+from symgen.compile.native.printed_numbers import PrintedNumbers, steepest_text
 from symgen.compile.native.read_values import Foreign
 
 #: A float and its directions, None where these are 0.
@@ -303,7 +304,7 @@ class TangentPrinter(LlvmPrinter):
 
     def differentiated(self, e: lang.ScalarOperation) -> Dual:
         """Print an operation by its rule."""
-        name, g = e.name.removeprefix("math."), _Numbers(self)
+        name, g = e.name.removeprefix("math."), PrintedNumbers(self)
         if any(a.type != "float" for a in e.arguments):
             return self.power(e) if name == "pow" else (super().value(e), None)
         if name in ("sin", "cos"):
@@ -332,7 +333,7 @@ class TangentPrinter(LlvmPrinter):
 
     def arithmetic(self, name: str, a: str, b: str, da: str | None, db: str | None) -> Dual:
         """Print a sum, a product or a quotient."""
-        g = _Numbers(self)
+        g = PrintedNumbers(self)
         if name == "add":
             return g.add(a, b), self.sum(da, db)
         if name == "sub":
@@ -361,12 +362,12 @@ class TangentPrinter(LlvmPrinter):
         n, (base, directions) = int(exponent.value), self.dual(e.arguments[0])
         if n == 0:
             return literal(1.0), None
-        g, lower = _Numbers(self), self.product(base, n - 1)
+        g, lower = PrintedNumbers(self), self.product(base, n - 1)
         return g.mul(lower, base), self.times(directions, lambda: g.mul(literal(float(n)), lower))
 
     def raised(self, e: lang.ScalarOperation, base: Dual, exponent: Dual) -> Dual:
         """Print a power with any exponent; at 0 raised to less than 1 its slope rises without bound."""
-        g, (a, da), (b, db), constant = _Numbers(self), base, exponent, e.arguments[1]
+        g, (a, da), (b, db), constant = PrintedNumbers(self), base, exponent, e.arguments[1]
         value = g.call("pow", a, b)
         if isinstance(constant, lang.Constant) and 0.0 < constant.value < 1.0:
             rest = literal(1.0 - constant.value)
@@ -377,7 +378,7 @@ class TangentPrinter(LlvmPrinter):
 
     def turned(self, name: str, angle: lang.Expression) -> Dual:
         """Print a sine or cosine; the other one is its slope."""
-        g, (a, da) = _Numbers(self), self.dual(angle)
+        g, (a, da) = PrintedNumbers(self), self.dual(angle)
         values = [self.sines.get((f"math.{own}", angle)) if sines.is_simple(angle) else None for own in ("sin", "cos")]
         sine, cosine = (v or g.call(own, a) for v, own in zip(values, ("sin", "cos"), strict=True))
         if name == "sin":
@@ -413,55 +414,6 @@ class TangentPrinter(LlvmPrinter):
             vector = f"shufflevector {self.kind} {one}, {self.kind} poison, <{self.lanes} x i32> zeroinitializer"
             self.printed["spread", number] = self.put(vector)
         return self.printed["spread", number]
-
-
-class _Numbers:
-    """Prints operations on numbers, under the names that slopes of elementary functions use on a graph."""
-
-    one = literal(1.0)
-
-    def __init__(self, printer: TangentPrinter) -> None:
-        self.printer = printer
-
-    def constant(self, value: float) -> str:
-        """Return a number."""
-        return literal(value)
-
-    def add(self, a: str, b: str) -> str:
-        """Print a sum."""
-        return self._put("fadd", a, b)
-
-    def sub(self, a: str, b: str) -> str:
-        """Print a difference."""
-        return self._put("fsub", a, b)
-
-    def mul(self, a: str, b: str) -> str:
-        """Print a product."""
-        return self._put("fmul", a, b)
-
-    def div(self, a: str, b: str) -> str:
-        """Print a quotient."""
-        return self._put("fdiv", a, b)
-
-    def neg(self, a: str) -> str:
-        """Print the opposite."""
-        return self._put("fsub", literal(-0.0), a)
-
-    def call(self, name: str, *values: str) -> str:
-        """Print a function; once in a block."""
-        key = (name, *values)
-        if key not in self.printer.printed:
-            self.printer.printed[key] = self.printer.function_of_math(name, list(values))
-        return self.printer.printed[key]
-
-    def _put(self, name: str, a: str, b: str) -> str:
-        return self.printer.put(f"{name}{self.printer.flag} double {a}, {b}")
-
-
-def steepest_text(g: Any, a: str, part: float = 1e-100) -> str:
-    """Return the divisor of a slope that is unbounded at the end of a function's range, see `steepest`."""
-    own: Any = a
-    return str(steepest(g, own, part))
 
 
 def _full(directions: str | None) -> str:

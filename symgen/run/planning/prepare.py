@@ -33,7 +33,8 @@ from symgen.run.planning.continuation import continued
 from symgen.run.planning.inputs import put_inputs
 from symgen.run.planning.plan import Plan, Purpose, resolved
 from symgen.run.planning.starts import Code, begun, compiled_for, open_start
-from symgen.run.planning.tree import TreeRun, on_tree_of, tree_taken_up
+from symgen.run.planning.tree import TreeRun
+from symgen.run.planning.tree_starts import on_tree_of, tree_taken_up
 from symgen.run.single.run import integrate
 from symgen.run.single.simulation import Simulation
 

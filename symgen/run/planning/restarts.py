@@ -12,7 +12,7 @@ from symgen.describe.parts.holds import hold_name, holds_of
 from symgen.run.layout.start_records import Instant
 from symgen.run.planning.prepare import Assembled, noted
 from symgen.run.planning.starts import Again, DescribedStart
-from symgen.run.planning.tree import begin_on_tree, carried_of, over_of
+from symgen.run.planning.tree_starts import begin_on_tree, carried_of, over_of
 from symgen.run.starts.kept import KeptTree
 from symgen.run.starts.start_words import turned_over
 

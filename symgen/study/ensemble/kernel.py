@@ -18,7 +18,8 @@ from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.model_arrays import joints_of
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.loops.integrator import Integrator
-from symgen.run.planning.tree import carried_of, places_of_turns
+from symgen.run.planning.tree import places_of_turns
+from symgen.run.planning.tree_starts import carried_of
 from symgen.run.single.new_state import span_of
 from symgen.run.starts.assembler import Assembly
 from symgen.study.ensemble.chunks import Chunk, Results, Rows

@@ -34,7 +34,7 @@ from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, CONSTANT, EXPLICIT
 from symgen.run.planning.plan import Plan, Purpose, refuse_events
 from symgen.run.planning.prepare import make_plan
-from symgen.run.planning.tree import tree_code
+from symgen.run.planning.tree_starts import tree_code
 from symgen.study.ensemble.axes import Grid, make_grid
 from symgen.study.ensemble.chunks import Rows, make_rows
 from symgen.study.ensemble.driving import Driving, read_by_motions

@@ -16,7 +16,7 @@ from symgen.compile.loopcode.exact import plain_form
 from symgen.describe import MechanismBuilder
 from symgen.run.layout.redundancy import choose_rows, farthest
 from symgen.run.planning.prepare import prepare
-from symgen.run.planning.tree import carried_of
+from symgen.run.planning.tree_starts import carried_of
 from symgen.run.starts.assembler import ALONE, one_row
 from tests.verification.running import DEFECTS, off, raw, reference
 

@@ -1,0 +1,60 @@
+"""Operations on numbers as text for LLVM, under the names that slopes of elementary functions use on a graph."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from symgen.base.vocabulary.functions import steepest
+from symgen.compile.native.llvm_values import literal
+
+if TYPE_CHECKING:
+    from symgen.compile.native.tangents import TangentPrinter
+
+
+class PrintedNumbers:
+    """Prints operations on numbers, under the names that slopes of elementary functions use on a graph."""
+
+    one = literal(1.0)
+
+    def __init__(self, printer: TangentPrinter) -> None:
+        self.printer = printer
+
+    def constant(self, value: float) -> str:
+        """Return a number."""
+        return literal(value)
+
+    def add(self, a: str, b: str) -> str:
+        """Print a sum."""
+        return self._put("fadd", a, b)
+
+    def sub(self, a: str, b: str) -> str:
+        """Print a difference."""
+        return self._put("fsub", a, b)
+
+    def mul(self, a: str, b: str) -> str:
+        """Print a product."""
+        return self._put("fmul", a, b)
+
+    def div(self, a: str, b: str) -> str:
+        """Print a quotient."""
+        return self._put("fdiv", a, b)
+
+    def neg(self, a: str) -> str:
+        """Print the opposite."""
+        return self._put("fsub", literal(-0.0), a)
+
+    def call(self, name: str, *values: str) -> str:
+        """Print a function; once in a block."""
+        key = (name, *values)
+        if key not in self.printer.printed:
+            self.printer.printed[key] = self.printer.function_of_math(name, list(values))
+        return self.printer.printed[key]
+
+    def _put(self, name: str, a: str, b: str) -> str:
+        return self.printer.put(f"{name}{self.printer.flag} double {a}, {b}")
+
+
+def steepest_text(g: Any, a: str, part: float = 1e-100) -> str:
+    """Return the divisor of a slope that is unbounded at the end of a function's range, see `steepest`."""
+    own: Any = a
+    return str(steepest(g, own, part))
