@@ -82,7 +82,7 @@ MACHINES = {
         FOLDER / "press.toml", "lower", "m", (4.0, 6.0), 0.25, 0.15, 1e-2, "guide.lower.leave", (0.0, 1e-3)
     ),
     "bucket": Machine(
-        FOLDER / "bucket.toml", "rocker", "dig", (17e3, 23e3), 0.25, 0.2, 2e-3, "cylinder.lower.leave", (0.0, 1.0)
+        FOLDER / "bucket.toml", "rocker", "dig", (17e3, 23e3), 0.25, 0.2, 5e-3, "cylinder.lower.leave", (0.0, 1.0)
     ),
     "wiper": Machine(CATALOGUE / "wiper.toml", "arm", "arm_mass", (0.2, 0.8), 0.2, 0.01, 1e-4),
     "leg": Machine(None, "thigh", "load", (0.3, 1.2), 0.1, 0.01, 1e-3),
@@ -153,7 +153,7 @@ def _distance(own: Array, of: Callable[[float], Array], h: float) -> float:
 
 
 def stepped(machine: Machine, model: Model, value: float, coordinates: str) -> tuple[Array, float, Sequence[str]]:
-    """Return A beside B of a step, how far they are from differences, and what is wrong."""
+    """Return A along the rows beside B of a step, how far they are from differences, and what is wrong."""
     run = model.start(
         parameters={machine.parameter: value},
         coordinates=coordinates,
@@ -178,14 +178,15 @@ def stepped(machine: Machine, model: Model, value: float, coordinates: str) -> t
         return np.array(run.state)
 
     distances, still = list[float](), np.zeros(n)
+    ways = allowed(model.functions(coordinates, {machine.parameter: value}), saved.arrays["y"][:n])
     if machine.changes[0]:
-        f = model.functions(coordinates, {machine.parameter: value})
-        for way in allowed(f, saved.arrays["y"][:n]).T:
+        for way in ways.T:
             distances.append(_distance(found.A @ way, _along(after, way, inputs), machine.changes[0]))
     for k, name in enumerate(found.inputs):
         distances.append(_distance(found.B[:, k], _of_input(after, still, inputs, name), machine.changes[1]))
     apart = max(distances)
-    return np.hstack([found.A, found.B]), apart, wrong
+    # off the rows, corrections of one and of two iterations have other derivatives
+    return np.hstack([found.A @ ways @ ways.T, found.B]), apart, wrong
 
 
 def examined(machine: Machine, rows: int, coordinates: str = "joint") -> Found:
