@@ -10,25 +10,34 @@ the other; ratios are those of rounds, as quartiles. MuJoCo and Pinocchio are th
 
 from __future__ import annotations
 
-import ctypes
 import os
 import random
 import re
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from benchmarks.closed_leg import LOOP, MJCF, RELATIVE, URDF, leg
+from benchmarks.closed_leg import MJCF, URDF, leg
 from benchmarks.page_tables import KEPT, PageTable
+from benchmarks.peers.functions_peer import (
+    CALLS,
+    FUNCTIONS,
+    Batch,
+    State,
+    Subject,
+    add_mujoco,
+    add_pinocchio,
+    called,
+    versions,
+)
 from benchmarks.records import Line, Pair, Record, measure
-from symgen.api import Model, load
+from symgen.api import load
 
 #: Files of robots by their names here, from the folder of `example-robot-data`.
 ROBOTS = {
@@ -37,16 +46,8 @@ ROBOTS = {
     "Talos": "talos_data/robots/talos_reduced.urdf",
 }
 LEG = "four-bar leg"
-#: Names of the functions, of Pinocchio's without and with rows, and of MuJoCo's.
-FUNCTIONS = {
-    "mass_matrix": ("crba", "crba", ""),
-    "bias": ("nonLinearEffects", "nonLinearEffects", ""),
-    "forward_dynamics": ("aba", "constraintDynamics", "mj_forward"),
-    "inverse_dynamics": ("rnea", "", "mj_inverse"),
-}
-#: Calls of a batch, coordinates of all states of one call of symgen's, states of one of Pinocchio's, rounds, and the
-#: processor time of a robot [s].
-CALLS, COORDINATES, STATES, ROUNDS, PATIENCE = 100, 24_000, 300, 300, 900.0
+#: Coordinates of all states of one call of symgen's, rounds, and the processor time of a robot [s].
+COORDINATES, ROUNDS, PATIENCE = 24_000, 300, 900.0
 HEADINGS = (
     *("model", "velocities", "function", "symgen: called, alone [us]", "Pinocchio", "over symgen's: called, alone"),
     *("MuJoCo", "over symgen's: called, alone"),
@@ -55,46 +56,12 @@ HEADINGS = (
 _PARTS = re.compile(r"<(visual|collision|mimic)\b(?:[^>]*/>|.*?</\1>)", re.DOTALL)
 _COMPILER = '<mujoco><compiler fusestatic="true" boundmass="0"/>{}</mujoco></robot>'
 _FLAGS = '<option><flag contact="disable" constraint="disable"/></option>'
-_LOOP = """typedef void (*function)(const void *, void *);
-void repeat(function f, const void *m, void *d, long n) { for (long k = 0; k < n; k++) f(m, d); }
-"""
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-#: What makes evaluations, and how many.
-Batch = tuple[Callable[[], object], int]
 
 
 class Job(NamedTuple):
     """What is measured."""
 
     model: str
-
-
-class Subject(NamedTuple):
-    """A robot in three programs, and how their velocities follow from those of symgen."""
-
-    model: Model
-    urdf: str
-    mjcf: str
-    loop: bool
-
-
-class State(NamedTuple):
-    """Coordinates, velocities, accelerations and efforts."""
-
-    q: Array
-    v: Array
-    a: Array
-    effort: Array
-
-    def along(self, ways: Array) -> State:
-        """Return the state along other velocities, which are the product of a matrix with these."""
-        return State(
-            ways @ self.q,
-            ways @ self.v,
-            ways @ self.a,
-            np.asarray(np.linalg.solve(ways.T, self.effort), dtype=np.float64),
-        )
 
 
 def folder() -> Path:
@@ -134,121 +101,28 @@ def batches(name: str) -> tuple[int, dict[str, dict[str, Batch]], dict[str, floa
         function, given = getattr(f, key), arguments[key]
         states = COORDINATES // n
         many = [np.tile(x, (states, 1)) for x in given]
-        row["symgen"] = _called(function, *given), CALLS
-        row["symgen, alone"] = _called(function, *many, count=1), states
+        row["symgen"] = called(function, *given), CALLS
+        row["symgen, alone"] = called(function, *many, count=1), states
     names = [x.name.partition(".")[0] for x in f.velocities]
     apart = dict[str, float]()
     still = state._replace(v=0.0 * v)  # files have dampers, which Pinocchio does not read
     wanted = f.forward_dynamics(still.q, still.v, still.effort)
-    for tool, add in (("pinocchio", _pinocchio), ("mujoco", _mujoco)):
+    for tool, add in (("pinocchio", add_pinocchio), ("mujoco", add_mujoco)):
         accelerations, ways = add(own, names, state, table)
         other = accelerations(still.along(ways))
         apart[tool] = float(np.abs(other - ways @ wanted).max() / np.abs(wanted).max())
     return n, table, apart
 
 
-def _called(function: Callable[..., object], *arguments: object, count: int = CALLS) -> Callable[[], object]:
-    """Return a batch of calls."""
-
-    def batch() -> None:
-        for _ in range(count):
-            function(*arguments)
-
-    return batch
-
-
-Added = tuple[Callable[[State], Array], Array]
-
-
-def _pinocchio(own: Subject, names: list[str], state: State, table: dict[str, dict[str, Batch]]) -> Added:
-    """Add batches of Pinocchio; return its accelerations, and the matrix of its velocities by those of symgen."""
-    import pinocchio as pin
-
-    model = pin.buildModelFromXML(own.urdf)
-    if own.loop:
-        model.gravity.linear = np.array([0.0, -9.81, 0.0])
-    data = model.createData()
-    places = {joint: model.joints[model.getJointId(joint)].idx_v for joint in names}
-    ways = _ways(own, names, places)
-    q, v, a, effort = state.along(ways)
-    forward: Callable[..., Any] = pin.aba
-    more: tuple[Any, ...] = ()
-    if own.loop:
-        (one, at), (other, there) = ((model.getJointId(x), pin.SE3(np.eye(3), np.array(y))) for x, y in LOOP)
-        closures = [pin.RigidConstraintModel(pin.ContactType.CONTACT_3D, model, one, at, other, there, pin.LOCAL)]
-        memory = [closure.createData() for closure in closures]
-        pin.initConstraintDynamics(model, data, closures, memory)
-        forward, more = pin.constraintDynamics, (closures, memory, pin.ProximalSettings(1e-12, 1e-8, 5))
-    row, tool = table, "pinocchio"
-    row["mass_matrix"][tool] = _called(pin.crba, model, data, q), CALLS
-    row["bias"][tool] = _called(pin.nonLinearEffects, model, data, q, v), CALLS
-    row["forward_dynamics"][tool] = _called(forward, model, data, q, v, effort, *more), CALLS
-    if not own.loop:
-        row["inverse_dynamics"][tool] = _called(pin.rnea, model, data, q, v, a), CALLS
-        pool, alone = pin.ModelPool(model, 1), f"{tool}, alone"
-        many = [np.asfortranarray(np.tile(x, (STATES, 1)).T) for x in (q, v, a, effort)]
-        out = np.asfortranarray(np.zeros_like(many[0]))
-        along = *many[:2], many[3], out
-        row["forward_dynamics"][alone] = _called(pin.abaInParallel, 1, pool, *along, count=1), STATES
-        row["inverse_dynamics"][alone] = _called(pin.rneaInParallel, 1, pool, *many[:3], out, count=1), STATES
-    return lambda x: np.array(forward(model, data, x.q, x.v, x.effort, *more)), ways
-
-
-def _mujoco(own: Subject, names: list[str], state: State, table: dict[str, dict[str, Batch]]) -> Added:
-    """Add batches of MuJoCo, as `_pinocchio` does."""
-    import mujoco
-
-    model = mujoco.MjModel.from_xml_string(own.mjcf)
-    data = mujoco.MjData(model)
-    places = {joint: int(model.joint(joint).dofadr[0]) for joint in names}
-    ways = _ways(own, names, places)
-
-    def put(x: State) -> None:
-        data.qpos[:], data.qvel[:], data.qacc[:], data.qfrc_applied[:] = x
-
-    def accelerations(x: State) -> Array:
-        put(x)
-        mujoco.mj_forward(model, data)
-        return np.array(data.qacc)
-
-    put(state.along(ways))
-    library, loop = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.so*")))), _c_loop()
-    for key, row in table.items():
-        if name := FUNCTIONS[key][2]:
-            row["mujoco"] = _called(getattr(mujoco, name), model, data), CALLS
-            pointers = ctypes.cast(getattr(library, name), ctypes.c_void_p), model._address, data._address
-            numbers = pointers[0], *(ctypes.c_void_p(x) for x in pointers[1:]), ctypes.c_long(CALLS)
-            row["mujoco, alone"] = _called(loop.repeat, *numbers, count=1), CALLS
-    return accelerations, ways
-
-
-def _c_loop() -> ctypes.CDLL:
-    """Return a loop over calls in C."""
-    with tempfile.TemporaryDirectory() as place:
-        source, library = Path(place) / "loop.c", Path(place) / "loop.so"
-        source.write_text(_LOOP, encoding="utf-8")
-        subprocess.run(["gcc", "-O2", "-shared", "-fPIC", str(source), "-o", str(library)], check=True)
-        return ctypes.CDLL(str(library))
-
-
-def _ways(own: Subject, names: list[str], places: dict[str, int]) -> Array:
-    """Return the matrix of another program's velocities by those of symgen, which has angles of bodies in the leg."""
-    ways = np.zeros((len(names), len(names)))
-    for k, name in enumerate(names):
-        ways[places[name], k] = 1.0
-        if own.loop and name in RELATIVE:
-            ways[places[name], names.index(RELATIVE[name])] = -1.0
-    return ways
-
-
 def examine(job: Job) -> dict[str, Any]:
     """Return times [us] and quartiles of ratios by function and tool."""
-    import mujoco
-    import pinocchio as pin
-
     n, table, apart = batches(job.model)
-    versions = {"pinocchio": pin.__version__, "mujoco": mujoco.__version__}
-    return {"velocities": n, "versions": versions, "apart": apart, "functions": {k: timed(x) for k, x in table.items()}}
+    return {
+        "velocities": n,
+        "versions": versions(),
+        "apart": apart,
+        "functions": {k: timed(x) for k, x in table.items()},
+    }
 
 
 def timed(row: dict[str, Batch], rounds: int = ROUNDS) -> dict[str, dict[str, Any]]:

@@ -93,7 +93,7 @@ def test_no_call_hides_its_arguments(call: Any) -> None:
 def test_keywords_are_the_settings_of_the_table() -> None:
     """Names and types; a start may be a result as well, times an array, and a condition one text."""
     assert keywords.keyword_names(keywords.RunKeywords) == settings.setting_names()
-    wider = {"start": " | Ended", "times": "", "stop_when": "str | ", "record_when": "str | "}
+    wider = {"start": " | EndedRun", "times": "", "stop_when": "str | ", "record_when": "str | "}
     own = inspect.get_annotations(symgen.Settings)
     for kind in (keywords.DrivenKeywords, keywords.StateKeywords, keywords.PlaceKeywords, keywords.RunKeywords):
         for name, forward in kind.__annotations__.items():

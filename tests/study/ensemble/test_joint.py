@@ -10,7 +10,7 @@ from study.ensemble.single_runs import assert_row, assert_rows, column_of
 from symgen.base.errors import InputError
 from symgen.describe.catalogue import raw
 from symgen.run.compiling import events
-from symgen.run.planning import tree
+from symgen.run.planning import tree_starts
 from symgen.study.ensemble import kernel
 
 #: Model, what varies, how it is said of a single run, and whether rows of loops depend on others: those run apart.
@@ -124,7 +124,7 @@ def test_targets_without_joint_coordinates_say_so():
 def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
     """Events are compiled, effects for bodies as well, and a start is carried once and not for each row."""
     calls = []
-    for module, name in ((events, "effects_of"), (kernel, "compile_events"), (tree, "carrying_of")):
+    for module, name in ((events, "effects_of"), (kernel, "compile_events"), (tree_starts, "carrying_of")):
         original = getattr(module, name)
 
         def counted(*arguments, name=name, original=original):
