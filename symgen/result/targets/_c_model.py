@@ -261,7 +261,7 @@ class CModel:
         """Whether events of the file change a state."""
         if self.printed_run is None:
             return self.events.effects is not None
-        return any(event.reset is not None for event in self.mechanism.events)
+        return any(event.reset for event in self.mechanism.events)
 
     @property
     def exchanges(self) -> bool:
