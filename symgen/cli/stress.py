@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     help="Families of cases, such as stiffness,mass-ratio; by default all, with --quick no mechanisms of their own.",
 )
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto by default.")
-@click.option("--quick", is_flag=True, help="A look in a minute: fewer cases, one integrator a method.")
+@click.option("--quick", is_flag=True, help="A short look: fewer cases, one integrator a method.")
 @click.option("--catalogue", is_flag=True, help="Include every studied model of the catalogue.")
 @click.option("--compilation", type=float, metavar="SECONDS", help="Omit pairs that would take longer to compile.")
 @study_files("cell")

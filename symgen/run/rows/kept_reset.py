@@ -19,13 +19,13 @@ _F, _A, _K = types.float64, types.float64[::1], types.int64
 
 @viewing
 def effects_alone(further: Any) -> Any:
-    """Return what events change in a run without rows with bounds."""
+    """Return the effects of events in a run without rows with bounds."""
     return further
 
 
 @viewing
 def effects_beside_modes(further: Any) -> Any:
-    """Return what events change in a run with rows with bounds."""
+    """Return the effects of events in a run with rows with bounds."""
     return further.effects
 
 
@@ -61,11 +61,8 @@ def reset_run(event: int, t: float, y: Any, model: Any, state: Any) -> int:
     for k in range(effects.chosen.shape[0]):
         effects.chosen[k] = 1 if k == event else 0
     leave_alone(further, state.w)
-    return (
-        0
-        if apply_effects(effects.model, t, Instant(y, state.p, state.w), effects.chosen, effects.work) == APPLIED
-        else 1
-    )
+    code = apply_effects(effects.model, t, Instant(y, state.p, state.w), effects.chosen, effects.work)
+    return 0 if code == APPLIED else 1
 
 
 _MODED = {"effects_alone": effects_beside_modes, "leave_alone": open_rows}
