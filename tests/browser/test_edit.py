@@ -115,6 +115,21 @@ def test_a_four_bar_from_a_typed_error_to_a_saved_change(page: Page, file: Path)
     assert page.said() == []
 
 
+def test_the_picture_stays_under_a_hand_that_adds_while_the_live_part_arrives(page: Page) -> None:
+    page.open()
+    page.rested()
+    page.drag("joints.D", 40, 0)
+    page.rested()
+    page.press("[data-tool=bar]")
+    place = page.where("joints.C")
+    page.until("window.symgen.editor.times().lived === window.symgen.editor.version()")
+    assert page.where("joints.C") == place
+    page.click(*place)
+    page.click(place[0] + 60, place[1] + 90)
+    page.until("document.getElementById('text').value.includes('[bodies.bar1]')")
+    assert page.said() == []
+
+
 def test_a_pin_of_two_bodies_follows_the_hand_and_every_step_is_drawn(page: Page) -> None:
     page.open()
     page.rested()

@@ -55,7 +55,7 @@ function display(next, kind, code = NOTHING) {
   show(motion);
   if (fresh) pace();
   if (fresh && tool === "move") fitted();
-  else if (!held) outgrown();
+  else if (!held && kind !== "live") outgrown(); // what a motion shows has its place already: nothing moves under a hand
   fresh = false;
   go(shown);
 }

@@ -43,6 +43,10 @@ function choosing(name) {
   for (const button of bench.querySelectorAll("[data-tool]")) button.setAttribute("aria-pressed", button.dataset.tool === name);
   $("picture").classList.toggle("adding", name !== "move");
   where.hidden = name === "move";
+  if (name !== "move" && movable.length && !view.spatial) {
+    outgrown(); // room for what is added, before the first point is taken
+    wanted = true;
+  }
   layHandles();
   if (name !== "move") say(TOOLS.find((each) => each[0] === name)[3]);
 }
