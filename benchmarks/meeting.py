@@ -285,16 +285,27 @@ def page(table: Table) -> str:
         "Written by `python -m benchmarks.meeting`. Each row is a mechanism file with one feature, each column what is",
         "asked of it: `+` where it is done, else the number of the sentence below that says what is taken instead.",
         "Methods and integrators that fit together are on [a page of their own](pairs.md).",
+        "",
+        f"Features: {'; '.join(FEATURES)}.",
     ]
     for group, places in GROUPS.items():
         refusals = list(dict.fromkeys(table[f][p] for f in FEATURES for p in places if table[f][p] != "+"))
         lines += ["", f"## {group}", "", f"| | {' | '.join(places)} |", "| --- |" + " --- |" * len(places)]
-        for feature in FEATURES:
-            cells = (table[feature][p] for p in places)
-            lines.append(f"| {feature} | {' | '.join(c if c == '+' else str(1 + refusals.index(c)) for c in cells)} |")
+        for cells, features in _equal(table, places).items():
+            name = "all others" if set(cells) == {"+"} else "; ".join(features)
+            shown = (c if c == "+" else str(1 + refusals.index(c)) for c in cells)
+            lines.append(f"| {name} | {' | '.join(shown)} |")
         lines += ["", *(f"{i}. {_shown(sentence)}" for i, sentence in enumerate(refusals, 1))] if refusals else []
     done = sum(c == "+" for row in table.values() for c in row.values())
     return "\n".join([*lines, "", f"{done} of {len(FEATURES) * len(PLACES)} cells are done.", ""])
+
+
+def _equal(table: Table, places: Mapping[str, Place]) -> dict[tuple[str, ...], list[str]]:
+    """Return the features that have the same cells, by these; those that are done everywhere come last."""
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for feature in FEATURES:
+        rows.setdefault(tuple(table[feature][place] for place in places), []).append(feature)
+    return dict(sorted(rows.items(), key=lambda row: set(row[0]) == {"+"}))
 
 
 def _shown(sentence: str) -> str:

@@ -58,7 +58,7 @@ def examine(job: Job) -> dict[str, Any]:
 
 def study(model: str) -> tuple[float, dict[str, Any]]:
     """Return the processor time of the command [s], and what its JSON says."""
-    command = [sys.executable, "-m", "symgen", "stress", model, "--quick", "--json"]
+    command = [sys.executable, "-m", "symgen", "stress", model, "--quick", "--json", "--jobs", "1"]
     before = _of_children()
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST)
     seconds = _of_children() - before
