@@ -3,9 +3,9 @@
     python -m benchmarks.stress_quick                                   prints the table of docs/stress.md
     python -m benchmarks.records stress_quick [--workers N]             measures what the record lacks
 
-A line has the processor time of the command, its processes included: `first` with loops in the cache and nothing of the
-mechanism, `warm` with everything there. A worker has the cache of SYMGEN_CACHE_DIR, or one of its own, in which it
-studies the four-bar beforehand.
+A line has the processor time of the command in one process, `first` with loops in the cache and nothing of the
+mechanism (of the four-bar with an empty cache), `warm` with everything there. A worker has the cache of
+SYMGEN_CACHE_DIR, or one of its own, in which it studies the four-bar beforehand.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from benchmarks.page_tables import PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
 from symgen.describe.catalogue import all_names, names
-from symgen.study.stress.cell_outcome import OUTCOMES, REFUSED
+from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED
 
 PAGE = "docs/stress.md"
 #: Time of a study at most, however busy the machine is [s].
@@ -46,7 +46,7 @@ def jobs() -> Iterator[Job]:
 
 def examine(job: Job) -> dict[str, Any]:
     """Return processor times of two studies in a row, the number of cells, searches and outcomes."""
-    if not os.environ.get("SYMGEN_CACHE_DIR"):
+    if job.model == FILLS or not os.environ.get("SYMGEN_CACHE_DIR"):
         os.environ["SYMGEN_CACHE_DIR"] = tempfile.mkdtemp(prefix="symgen-stress-quick-")
         if job.model != FILLS:
             study(FILLS)
@@ -84,15 +84,17 @@ def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
 def costs() -> PageTable:
     """Return seconds of the processor, cells, and how they ended, of each mechanism in the record."""
     lines = {line["model"]: line for line in RECORD.lines() if "outcomes" in line}
-    shown = [name for name in OUTCOMES if name != REFUSED]
+    shown = [name for name in OUTCOMES if name not in (GOOD, REFUSED)]
 
     def cells(model: str) -> Iterator[str]:
         line = lines[model]
-        yield from (f"{line['first']:.0f}", f"{line['warm']:.0f}", str(line["cells"]), str(line["searches"]))
-        yield from (str(line["outcomes"].get(name, 0)) for name in shown)
+        counts = line["outcomes"]
+        yield from (f"{line['first']:.0f}", f"{line['warm']:.0f}", str(line["cells"]), str(counts.get(GOOD, 0)))
+        yield ", ".join(f"{counts[name]} {name}" for name in shown if name in counts)
+        yield str(line["searches"])
 
     rows = tuple(((f"`{job.model}`",), partial(list_of, cells, job.model)) for job in jobs() if job.model in lines)
-    headings = ("model", "first [s]", "warm [s]", "cells", "searches", *shown)
+    headings = ("model", "first [s]", "warm [s]", "cells", GOOD, "others", "searches")
     return PageTable("stress_quick", PAGE, headings, rows, stored=True, claims=missing)
 
 

@@ -161,7 +161,7 @@ class Base:
 
         return first_rate(self.without_events().mechanism, Settings(until=self.nominal))[0]
 
-    @property
+    @cached_property
     def closed(self) -> str | None:
         """The base's own name if its motion has a closed form."""
         from symgen.study.references.closed_forms import closed_form

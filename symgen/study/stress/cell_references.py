@@ -51,8 +51,6 @@ def reference_of(level: Level) -> Fields:
 
 
 def _moved(level: Level) -> Fields:
-    from symgen.study.references.motion import motion
-
     mechanism, parameters = level.mechanism, parameter_values(level.mechanism, level.parameters)
     shape = "straight" if straight_alone(mechanism) else "looped"
     settings = Settings("lagrange", "rk4", level.step, until=level.until, shape=shape, parameters=parameters)
@@ -75,7 +73,12 @@ def _moved(level: Level) -> Fields:
     falling = fastest_decay(mechanism, compiled, start)
     if closed is None:
         try:
-            reference = motion(equations, q, v, times) if derived else two_routes(mechanism, parameters, times, falling)
+            if derived:
+                from symgen.study.references.motion import motion  # which imports Numba
+
+                reference = motion(equations, q, v, times)
+            else:
+                reference = two_routes(mechanism, parameters, times, falling)
         except SimulationError as error:  # over its budget, or at a singular position
             if not derived:
                 raise
