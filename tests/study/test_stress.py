@@ -14,6 +14,7 @@ import pytest
 import symgen
 from symgen.base.errors import InputError, SimulationError
 from symgen.result.points import Points
+from symgen.run.starts import assembler
 from symgen.study.journal import Journal
 from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.motion import CompiledEquations, InterpretedEquations, motion
@@ -208,6 +209,21 @@ def test_families_say_why_they_do_not_apply():
     study = stress(["pendulum"], ["mass-ratio", "redundancy", "spin-rate"], ["lagrange"], quick=True)
     assert not study.rows
     assert {family for _, family, _ in study.skipped} == {"mass-ratio", "redundancy", "spin-rate"}
+
+
+@pytest.mark.parametrize("model", ["cart-pole", "inverted-pendulum"])
+def test_a_body_that_its_file_holds_is_displaced_all_the_same(model):
+    study = stress([model], ["inconsistent-start"], ["lagrange"], quick=True)
+    assert [row.outcome for row in study.rows] == ["ok"]
+
+
+def test_starts_of_a_study_are_compiled(monkeypatch):
+    """A study closes hundreds: interpreted as a single one is, they take a quarter of its time."""
+    monkeypatch.setattr(assembler, "plain_form", lambda function: pytest.fail(f"{function.__name__} is interpreted"))
+    study = stress(["pendulum"], ["gravity"], ["lagrange"], quick=True)
+    assert {row.outcome for row in study.rows} == {"ok"}
+    with pytest.raises(pytest.fail.Exception):
+        symgen.simulate("pendulum", until=0.1)
 
 
 def test_a_quick_study_is_of_its_models_alone_and_compiles_for_so_long(monkeypatch):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -44,6 +46,18 @@ Integers = NDArray[np.int64]
 Form = Callable[[Any], Any]
 #: Row and control of a single start, which is never stopped.
 ALONE = np.zeros(1, dtype=np.int64), np.zeros(e.N_CONTROL, dtype=np.int64)
+#: Whether single starts are compiled whatever their size.
+_MANY = ContextVar("many_starts", default=False)
+
+
+@contextmanager
+def many_starts() -> Iterator[None]:
+    """Close single starts by compiled code, with the same bits: where many are closed, loading it pays."""
+    before = _MANY.set(True)
+    try:
+        yield
+    finally:
+        _MANY.reset(before)
 
 
 def layout_of(compiled: CompiledModel) -> Layout:
@@ -254,7 +268,8 @@ class Assembly:
             functions = model.prepare, law.prepare, model.masses
             compiled_form(prepare_rows)(*functions, self.compiled.scratch(), flat.p, flat.w, len(now.y), selected)
         n = self.layout.nv
-        if len(now.y) > 1 or self.layout.sparse or m * n * min(m, n) > decisions.LARGEST_INTERPRETED:
+        large = self.layout.sparse or m * n * min(m, n) > decisions.LARGEST_INTERPRETED
+        if len(now.y) > 1 or large or _MANY.get():
             return flat, tuple(compiled_form(f) for f in self.own), compiled_form
         kinds = abi.MEASURE, abi.MEASURE, abi.MOVE, None, None, None, abi.RHS, abi.OBSERVE
         plain = zip(map(plain_form, self.own), kinds, strict=True)

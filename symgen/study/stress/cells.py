@@ -32,6 +32,7 @@ from symgen.run.planning.automatic import AUTO
 from symgen.run.planning.options import split_options
 from symgen.run.planning.prepare import preparation
 from symgen.run.single.outcome import Outcome
+from symgen.run.starts.assembler import many_starts
 from symgen.study.limits import UNWATCHED, WATCHES, unlimited
 from symgen.study.references.effort import budget_of, further_budget, predicted
 from symgen.study.stress import cell_outcome as judged
@@ -81,11 +82,12 @@ class LimitTask(RunTask):
 def compute_cell(task: CellReference | RunTask) -> Fields:
     """Compute a cell; see the classes of tasks."""
     level = replace(task.level, mechanism=kept.only_one(task.level.mechanism))
-    if isinstance(task, CellReference):
-        return reference_of(level)
-    task = replace(task, level=level)
-    fields: Fields = json_value(_limit(task) if isinstance(task, LimitTask) else _run(task))
-    return fields
+    with many_starts():
+        if isinstance(task, CellReference):
+            return reference_of(level)
+        task = replace(task, level=level)
+        fields: Fields = json_value(_limit(task) if isinstance(task, LimitTask) else _run(task))
+        return fields
 
 
 # -- runs --------------------------------------------------------------------------------------------------------------

@@ -114,7 +114,7 @@ def inconsistent_start(base: Base, share: float) -> Level:
         raise NotApplicable("the middle body is a node of a beam, which follows from its ends")
     at = base.raw["bodies"][base.middle].get("position", [0.0] * len(signs))
     position = [f"({x}){sign}{away!r}" for x, sign in zip(at, signs, strict=True)]
-    moved = {"position": position, "velocity": [away] * len(signs)}
+    moved = {"position": position, "velocity": [away] * len(signs), "hold": None}  # it could not be closed
     return base.level(f"{away:g} m away", away, mechanism=base.build({"bodies": {base.middle: moved}}))
 
 
