@@ -64,6 +64,9 @@ def test_a_run_off_its_constraints_does_not_go_on_for_ever():
     assert effort.further_budget(5_000_000, 79) == effort.LEAST_FURTHER
     assert effort.further_budget(5_000_000, 20_000) == 2_000_000
     assert effort.further_budget(3_000, 79) == 3_000
+    assert effort.further_budget(100_000, 20_000, quick=True, done=0.1) == 100_000
+    assert effort.further_budget(100_000, 20_000, quick=True, done=1e-3) == effort.QUICK_FURTHER
+    assert effort.further_budget(100_000, 20_000, done=1e-3) == 100_000
 
 
 def test_what_is_predicted():

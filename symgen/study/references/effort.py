@@ -33,6 +33,8 @@ BOUNDED, QUICK_BOUNDED = 20, 5
 SEARCHED = 2
 #: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
 FURTHER, LEAST_FURTHER = 100, 100_000
+#: A quick study goes on for so many where the pace so far would take this many times the budget to the end.
+QUICK_FURTHER, SLOW_PACE = 20_000, 10.0
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
 SMALL, SMALL_STAGE = 15, 30
 #: No budget of implicit stages is below this: some hundred steps.
@@ -70,11 +72,14 @@ def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: b
     return explicit_budget(mechanism, most // (SEARCHED if searched and not quick else 1))
 
 
-def further_budget(budget: int, used: int) -> int:
+def further_budget(budget: int, used: int, quick: bool = False, done: float = 1.0) -> int:
     """Return the evaluation limit, without its watch, of a run that stopped itself after `used`.
 
-    Off the constraints steps may become tiny, and iterated methods need many iterations.
+    Off the constraints steps may become tiny, and iterated methods need many iterations. `done` is the part of its time
+    that the run has behind it: a quick study does not wait for runs that come to no end.
     """
+    if quick and used > SLOW_PACE * budget * done:
+        return min(budget, QUICK_FURTHER)
     return min(budget, max(LEAST_FURTHER, FURTHER * used))
 
 

@@ -146,12 +146,14 @@ def _run(task: RunTask, searched: bool = False) -> Fields:
         note = f"ended at t = {outcome.end:.4g} s"
     if outcome.code in WATCHES and kind == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
-        most = further_budget(budget, outcome.evaluations)
+        most = further_budget(budget, outcome.evaluations, task.quick, outcome.end / level.until)
         run = unlimited(run).with_spec(max_evaluations=most)
         further = run.integrate()
         if further.interrupted:
             raise KeyboardInterrupt
         compared = _compared(level, plan.parameters, run.of_bodies(further), motion)
+        if further.evaluations > most:  # however late it was stopped: no clock decides
+            compared = replace(compared, finished=False)
         kind = classify(compared)
         if kind == judged.GOOD:
             kind, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
