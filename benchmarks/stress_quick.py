@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from benchmarks.page_tables import PageTable, list_of, print_tables
 from benchmarks.records import Line, Pair, Record
 from symgen.describe.catalogue import all_names, names
-from symgen.study.stress.cell_outcome import GOOD, OUTCOMES, REFUSED
+from symgen.study.stress.cell_outcome import GOOD, OUTCOMES
 
 PAGE = "docs/stress.md"
 #: Time of a study at most, however busy the machine is [s].
@@ -84,7 +84,7 @@ def again(stored: Line, dice: random.Random) -> Iterator[Pair]:
 def costs() -> PageTable:
     """Return seconds of the processor, cells, and how they ended, of each mechanism in the record."""
     lines = {line["model"]: line for line in RECORD.lines() if "outcomes" in line}
-    shown = [name for name in OUTCOMES if name not in (GOOD, REFUSED)]
+    shown = [name for name in OUTCOMES if name != GOOD]
 
     def cells(model: str) -> Iterator[str]:
         line = lines[model]
