@@ -307,7 +307,7 @@ class StepDirections:
 
 
 def _for_slopes(prepared: Prepared) -> CompiledModel:
-    """Return the code of a run with a right-hand side for derivatives, if its scratch is that of the run."""
+    """Return the code of a run with a right-hand side for derivatives, if both have the same scratch."""
     choice, own = replace(prepared.plan.choice, directed=True), prepared.compiled
     compiled = compiled_for(prepared.mechanism, choice)
     same = compiled.info.sections == own.info.sections and compiled.law.nw == own.law.nw
