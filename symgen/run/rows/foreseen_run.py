@@ -70,7 +70,7 @@ def length_of(f: Any) -> float:
 
 @called
 def levels_below(f: Any, j: int, x: float) -> int:
-    """Return the number of levels of formula j below a value; 0 for one that is undefined."""
+    """Return the number of levels of formula j below a value; 0 where the value is undefined."""
     begin, count, period, number = f.first[j], f.first[j + 1] - f.first[j], f.periods[j], 0
     if not math.isfinite(x):
         return 0
@@ -231,7 +231,7 @@ def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, not
 
 @called
 def search(f: Any, state: Any, j: int, start: float, end: float) -> None:
-    """Note the passages of a formula that is no straight line; those of one that changes too often are left out."""
+    """Note the passages of a formula that is no straight line; where they are too many, none is noted."""
     before, count, most = -1, _FIRST, min((end - start) / f.shortest, 0.5 * _MOST)
     while count < most:
         count *= 2
@@ -248,7 +248,7 @@ def search(f: Any, state: Any, j: int, start: float, end: float) -> None:
 
 
 def add_seam(seams: Any, t: float, skips: int) -> None:
-    """Add a seam; one that is not behind the last one is that one."""
+    """Add a seam behind the last one; at the time of the last one there is none to add unless a run skips."""
     n = seams.rows[1]
     before = seams.times[n - 1] if n > 0 else -1.0
     if t <= before and skips == 0 and seams.skips[n - 1] == 0:
