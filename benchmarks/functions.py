@@ -3,9 +3,9 @@
     ROBOTS=FOLDER python -m benchmarks.functions
 
 measures the record anew and prints its table; ``ROBOTS`` is ``robots`` of `example-robot-data`, which is found where
-`pip install example-robot-data` has put it. Evaluations alone are those of one call with many states, for Pinocchio
-`abaInParallel` and `rneaInParallel` with one thread, and for MuJoCo of a loop in C. A round takes all tools one after
-the other; ratios are those of rounds, as quartiles. MuJoCo and Pinocchio are their wheels.
+`pip install example-robot-data` has put it. Evaluations alone are those of one call with many states, and for the
+others those of a loop in C that enters their compiled libraries. A round takes all tools one after the other; ratios
+are those of rounds, as quartiles. MuJoCo and Pinocchio are their wheels.
 """
 
 from __future__ import annotations
@@ -68,10 +68,10 @@ def folder() -> Path:
     """Return the folder of robots."""
     own = os.environ.get("ROBOTS")
     below = "cmeel.prefix/share/example-robot-data/robots"
-    found = next((Path(x) / below for x in sys.path if (Path(x) / below).is_dir()), None)
-    if own is None and found is None:
+    installed = next((Path(x) / below for x in sys.path if (Path(x) / below).is_dir()), None)
+    if own is None and installed is None:
         raise SystemExit("functions: expected files of robots, got none; pip install example-robot-data, or set ROBOTS")
-    return Path(own) if own is not None else found or Path()
+    return Path(own) if own is not None else installed or Path()
 
 
 def subject(name: str) -> Subject:
@@ -163,10 +163,10 @@ def cells(model: str, function: str) -> list[str]:
     theirs = {"pinocchio": FUNCTIONS[function][1 if loop else 0], "mujoco": FUNCTIONS[function][2]}
     own = [f"{row['symgen']['us']:.2g}, {row['symgen, alone']['us']:.2g}"]
     for tool, name in theirs.items():
-        found = [row[key] for key in (tool, f"{tool}, alone") if key in row]
-        numbers = ", ".join(f"{x['us']:.2g}" for x in found)
-        own.append(f"`{name}`: {numbers}" if found else "")
-        own.append(", ".join(_ratio(*x["over"]) for x in found))
+        times = [row[key] for key in (tool, f"{tool}, alone") if key in row]
+        numbers = ", ".join(f"{x['us']:.2g}" for x in times)
+        own.append(f"`{name}`: {numbers}" if times else "")
+        own.append(", ".join(_ratio(*x["over"]) for x in times))
     return own
 
 

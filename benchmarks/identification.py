@@ -199,7 +199,7 @@ class Subject:
         return self.model.identify(data, free=tuple(self.case.true), parameters=self.begun, **self.settings)
 
     def by_differences(self, number: int) -> tuple[Array, int]:
-        """Return what `scipy.optimize.least_squares` finds by differences, and its number of runs."""
+        """Return the fit of a record by `scipy.optimize.least_squares` with differences, and its count of runs."""
         from scipy.optimize import least_squares
 
         names, data, runs = tuple(self.case.true), self.record(number), 0
@@ -213,8 +213,8 @@ class Subject:
             return np.asarray(result[self.case.quantity]) - data
 
         start = np.array([*self.begun.values()])
-        found = least_squares(residuals, start, x_scale=start)
-        return found.x, runs
+        solution = least_squares(residuals, start, x_scale=start)
+        return solution.x, runs
 
 
 @cache
@@ -297,8 +297,8 @@ def fitted(own: Subject, numbers: range) -> Fitted:
 
 def corrections(residuals: Array, slopes: Array) -> Array:
     """Return the corrections of Gauss and Newton's method."""
-    found: Array = np.array([np.linalg.lstsq(j, -r, rcond=None)[0] for r, j in zip(residuals, slopes, strict=True)])
-    return found
+    changes: Array = np.array([np.linalg.lstsq(j, -r, rcond=None)[0] for r, j in zip(residuals, slopes, strict=True)])
+    return changes
 
 
 def standard_errors(residuals: Array, slopes: Array) -> Array:
@@ -318,14 +318,14 @@ def examine(job: Job, fits: int = BATCH, also: int = ALSO) -> dict[str, Any]:
     """
     own, first = subject(job.case), BATCH * job.batch
     true, began = np.array([*own.case.true.values()]), time.process_time()
-    found = fitted(own, range(first, first + fits))
+    batch = fitted(own, range(first, first + fits))
     seconds = time.process_time() - began
-    scaled = (found.x - true) / found.errors
+    scaled = (batch.x - true) / batch.errors
     line: dict[str, Any] = {
-        "inside": np.sum(np.abs(found.x - true) <= found.half, axis=0).tolist(),
+        "inside": np.sum(np.abs(batch.x - true) <= batch.half, axis=0).tolist(),
         "bias": scaled.sum(axis=0).tolist(),
         "square": (scaled**2).sum(axis=0).tolist(),
-        "errors": (found.errors.mean(axis=0) / true).tolist(),
+        "errors": (batch.errors.mean(axis=0) / true).tolist(),
         "seconds": seconds,
         **{"runs": [], "each": [], "differences": [], "apart": 0.0, "ends": 0.0},
     }
@@ -338,9 +338,9 @@ def examine(job: Job, fits: int = BATCH, also: int = ALSO) -> dict[str, Any]:
         line["differences"].append(runs)
         x, ends = np.array([*fit.parameters.values()]), np.array([*fit.intervals.values()])
         for each in (x, other):
-            line["apart"] = max(line["apart"], float(np.abs((each - found.x[k]) / found.errors[k]).max()))
-        own_ends = np.stack([found.x[k] - found.half[k], found.x[k] + found.half[k]], axis=1)
-        line["ends"] = max(line["ends"], float(np.abs((ends - own_ends) / found.errors[k, :, None]).max()))
+            line["apart"] = max(line["apart"], float(np.abs((each - batch.x[k]) / batch.errors[k]).max()))
+        own_ends = np.stack([batch.x[k] - batch.half[k], batch.x[k] + batch.half[k]], axis=1)
+        line["ends"] = max(line["ends"], float(np.abs((ends - own_ends) / batch.errors[k, :, None]).max()))
     return line
 
 
@@ -395,7 +395,7 @@ def digit(x: float) -> str:
 
 
 def page_table() -> PageTable:
-    """Return what was found of each number."""
+    """Return the table of the fits, a row for each number."""
 
     def cells(case: str, k: int) -> list[str]:
         lines, (hits, count) = batches(case), covered(case, k)

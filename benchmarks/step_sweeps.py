@@ -2,8 +2,10 @@
 
     python -m benchmarks.step_sweeps [press] [bucket] [wiper] [leg] [--rows 300]
 
-A press and a bucket leave their stops inside the step, at a time that depends on what varies; nothing but the input
-moves them there. Differences are of sixth order, of the same step from states and inputs nearby.
+A press and a bucket leave their stops inside the step, at a time that depends on what varies. What rests on a stop
+moves with it and with nothing else, so there the derivatives by the state are those along a motion of the stop.
+Differences are of sixth order, of the same step from states and inputs nearby. Where an event passes from one step of
+the scheme to the next the step has a kink, as high as the error of the scheme: there they are of one side.
 """
 
 from __future__ import annotations
@@ -12,8 +14,9 @@ import argparse
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from rich.table import Table
@@ -21,17 +24,22 @@ from rich.table import Table
 from benchmarks.bounded.machines import FOLDER
 from benchmarks.closed_leg import leg
 from benchmarks.show import show
+from symgen.analyses.functions import Functions
 from symgen.api import Model
 from symgen.describe.facts.lifted import lifted
 from symgen.describe.files.validate import validate
+from symgen.result.stepping.run import SteppedRun
 from symgen.run.layout import abi
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 CATALOGUE = Path(__file__).parents[1] / "symgen" / "describe" / "catalogue" / "machines"
-#: Input that turns a body, and weights of differences.
-INPUT, WEIGHTS = "extra", {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
-#: Differences that are farther apart are made again: an event that passes from one step of the scheme to the next has a
-#: kink there, as high as the error of the scheme.
+#: Input that turns a body, and parameter that moves a stop.
+INPUT, SHIFT = "extra", "shift"
+#: Weights of differences by the numbers of their points: central ones, ahead and behind.
+CENTRAL = {1: 3 / 4, -1: -3 / 4, 2: -3 / 20, -2: 3 / 20, 3: 1 / 60, -3: -1 / 60}
+AHEAD = {0: -49 / 20, 1: 6.0, 2: -15 / 2, 3: 20 / 3, 4: -15 / 4, 5: 6 / 5, 6: -1 / 6}
+BEHIND = {-k: -weight for k, weight in AHEAD.items()}
+#: Differences that are farther apart are made again with a tenth and a hundredth of the width.
 NEAR = 1e-9
 
 
@@ -50,7 +58,9 @@ class Machine:
     event : str
         What happens in it, or nothing.
     changes : tuple of float
-        Widths of differences by the state, 0 where a stop holds it, and by the input.
+        Widths of differences by the state, or by the place of the stop [m], and by the input.
+    rests : str
+        The joint that rests on its lower stop where the step begins, or nothing.
     """
 
     file: Path | None
@@ -62,6 +72,7 @@ class Machine:
     step: float
     event: str = ""
     changes: tuple[float, float] = (1e-3, 1e-2)
+    rests: str = ""
 
     def model(self) -> Model:
         """Return the machine with its input."""
@@ -74,29 +85,59 @@ class Machine:
             "body": self.body,
             "torque": f"{INPUT}*(1 + 0.1*{INPUT})",
         }
+        if self.rests:
+            raw["parameters"][SHIFT] = {"value": 0.0, "unit": "m"}
+            joint = raw["joints"][self.rests]
+            for keys, key in ((joint["stop"], "lower"), (joint["start"], "displacement")):
+                keys[key] = f"{keys[key]} + {SHIFT}"
         return Model(validate(raw, self.file.stem))
 
 
 MACHINES = {
     "press": Machine(
-        FOLDER / "press.toml", "lower", "m", (4.0, 6.0), 0.25, 0.15, 1e-2, "guide.lower.leave", (0.0, 1e-3)
+        FOLDER / "press.toml", "lower", "m", (4.0, 6.0), 0.25, 0.15, 1e-2, "guide.lower.leave", (1e-3, 1e-3), "guide"
     ),
     "bucket": Machine(
-        FOLDER / "bucket.toml", "rocker", "dig", (17e3, 23e3), 0.25, 0.2, 5e-3, "cylinder.lower.leave", (0.0, 1.0)
+        *(FOLDER / "bucket.toml", "rocker", "dig", (17e3, 23e3), 0.25, 0.2, 5e-3, "cylinder.lower.leave"),
+        *((1e-4, 1.0), "cylinder"),
     ),
     "wiper": Machine(CATALOGUE / "wiper.toml", "arm", "arm_mass", (0.2, 0.8), 0.2, 0.01, 1e-4),
     "leg": Machine(None, "thigh", "load", (0.3, 1.2), 0.1, 0.01, 1e-3),
 }
 
 
-@dataclass(frozen=True)
-class Found:
-    """What became of the steps of a machine.
+class Ended(NamedTuple):
+    """The state after a step, and the steps of the scheme in which its events were."""
+
+    state: Array
+    steps: tuple[int, ...]
+
+
+class Comparison(NamedTuple):
+    """The derivatives of a step beside differences.
+
+    Attributes
+    ----------
+    matrix : Array
+        A along the changes that rows and stops allow, and B beside it.
+    apart : float
+        Largest distance from differences, over the largest of a column.
+    wrong : sequence of str
+        Doubts, and other events than that of the machine.
+    """
+
+    matrix: Array
+    apart: float
+    wrong: Sequence[str]
+
+
+class Sweep(NamedTuple):
+    """The steps of a machine over the values of a parameter.
 
     Attributes
     ----------
     failed : sequence of str
-        What was said of steps without derivatives, or with doubts, or without the event.
+        Errors, doubts, and steps without the event.
     apart : float
         Largest distance from differences, over the largest of a column.
     bend : float
@@ -110,10 +151,20 @@ class Found:
 
 def difference(of: Callable[[float], Array], h: float) -> Array:
     """Return a derivative at zero."""
-    return np.asarray(sum(w / h * (of(k * h) - of(-k * h)) for k, w in WEIGHTS.items()))
+    return np.asarray(sum(weight / h * of(k * h) for k, weight in CENTRAL.items()))
 
 
-def allowed(f: Any, y: Array) -> Array:
+def slope(of: Callable[[float], Ended], h: float) -> Array | None:
+    """Return the derivative of a state at zero, from a side on which its events stay in their steps; None without."""
+    here = of(0.0).steps
+    for weights in (CENTRAL, AHEAD, BEHIND):
+        points = {k: of(k * h) for k in weights}
+        if all(point.steps == here for point in points.values()):
+            return np.asarray(sum(weight / h * points[k].state for k, weight in weights.items()))
+    return None
+
+
+def allowed(f: Functions, y: Array) -> Array:
     """Return changes of a state that leave rows as they are, one a column."""
     n = len(f.coordinates)
 
@@ -128,88 +179,120 @@ def allowed(f: Any, y: Array) -> Array:
     return np.asarray(ways[np.count_nonzero(sizes > 1e-8 * sizes.max(initial=1.0)) :].T)
 
 
-After = Callable[[Array, Mapping[str, float]], Array]
-
-
-def _along(after: After, way: Array, inputs: Mapping[str, float]) -> Callable[[float], Array]:
-    """Return a step as a function of a change of its state."""
-    return lambda h: after(h * way, inputs)
-
-
-def _of_input(after: After, still: Array, inputs: Mapping[str, float], name: str) -> Callable[[float], Array]:
-    """Return a step as a function of a change of an input."""
-    return lambda h: after(still, {**inputs, name: inputs[name] + h})
-
-
-def _distance(own: Array, of: Callable[[float], Array], h: float) -> float:
-    """Return how far a derivative is from differences, narrower ones where that is far."""
+def _distance(own: Array, of: Callable[[float], Ended], h: float) -> float:
+    """Return how far a derivative is from differences, narrower ones where that is far or a kink is near."""
     apart = np.inf
-    for width in (h, 0.1 * h):
-        slope = difference(of, width)
-        apart = min(apart, float(np.abs(own - slope).max() / np.abs(slope).max()))
+    for width in (h, 0.1 * h, 0.01 * h):
+        by_differences = slope(of, width)
+        if by_differences is None:
+            continue
+        apart = min(apart, float(np.abs(own - by_differences).max() / np.abs(by_differences).max()))
         if apart < NEAR:
             break
     return apart
 
 
-def stepped(machine: Machine, model: Model, value: float, coordinates: str) -> tuple[Array, float, Sequence[str]]:
-    """Return A along the rows beside B of a step, how far they are from differences, and what is wrong."""
-    run = model.start(
-        parameters={machine.parameter: value},
-        coordinates=coordinates,
-        integrator="rk4",
-        step=machine.step,
-        max_violation=1e6,
-        max_energy_error=1e6,
-    )
-    run.step(machine.begin)
-    saved, before = run.save(), len(run.events)
-    run.step(machine.dt)
-    found, events = run.derivatives(), [event.name for event in list(run.events)[before:]]
-    wrong = [*found.doubts, *([f"events {events}"] if events != [machine.event] * bool(machine.event) else [])]
-    n, inputs = len(found.states), {name: run.parameters[name] for name in found.inputs}
+class Step:
+    """The step of a machine at a value of its parameter, in some coordinates."""
 
-    def after(change: Array, given: Mapping[str, float]) -> Array:
-        arrays = {key: x.copy() for key, x in saved.arrays.items()}
-        arrays["y"][:n] += change
+    def __init__(self, machine: Machine, model: Model, value: float, coordinates: str) -> None:
+        self.machine, self.model, self.value, self.coordinates = machine, model, value, coordinates
+        self.run = self._before({})
+        self.saved, self._passed = self.run.save(), len(self.run.events)
+        self.run.step(machine.dt)
+        self.derivatives = self.run.derivatives()
+        self.inputs = {name: self.run.parameters[name] for name in self.derivatives.inputs}
+        self.events = [event.name for event in list(self.run.events)[self._passed :]]
+
+    def _before(self, parameters: Mapping[str, float]) -> SteppedRun:
+        """Return a run up to the step."""
+        run = self.model.start(
+            parameters={self.machine.parameter: self.value, **parameters},
+            coordinates=self.coordinates,
+            integrator="rk4",
+            step=self.machine.step,
+            max_violation=1e6,
+            max_energy_error=1e6,
+        )
+        run.step(self.machine.begin)
+        return run
+
+    def _ended(self, run: SteppedRun) -> Ended:
+        times = [event.t - self.machine.begin for event in list(run.events)[self._passed :]]
+        return Ended(np.array(run.state), tuple(int(t / self.machine.step) for t in times))
+
+    def after(self, change: Array, inputs: Mapping[str, float]) -> Ended:
+        """Return the end of the step from another state, with other inputs."""
+        arrays = {key: x.copy() for key, x in self.saved.arrays.items()}
+        arrays["y"][: len(change)] += change
         arrays["control"][abi.BEGUN] = abi.AFRESH
-        run.restore(replace(saved, arrays=arrays))
-        run.step(machine.dt, dict(given))
-        return np.array(run.state)
+        self.run.restore(replace(self.saved, arrays=arrays))
+        self.run.step(self.machine.dt, {**self.inputs, **inputs})
+        return self._ended(self.run)
 
-    distances, still = list[float](), np.zeros(n)
-    ways = allowed(model.functions(coordinates, {machine.parameter: value}), saved.arrays["y"][:n])
-    if machine.changes[0]:
-        for way in ways.T:
-            distances.append(_distance(found.A @ way, _along(after, way, inputs), machine.changes[0]))
-    for k, name in enumerate(found.inputs):
-        distances.append(_distance(found.B[:, k], _of_input(after, still, inputs, name), machine.changes[1]))
-    apart = max(distances)
-    # off the rows, corrections of one and of two iterations have other derivatives
-    return np.hstack([found.A @ ways @ ways.T, found.B]), apart, wrong
+    def at_rest(self, shift: float) -> tuple[Array, Ended]:
+        """Return the state before and the end of the step where the stop is moved [m]."""
+        run = self._before({SHIFT: shift})
+        before = np.array(run.state)
+        run.step(self.machine.dt)
+        return before, self._ended(run)
+
+    @property
+    def start(self) -> Array:
+        """The state before."""
+        return np.asarray(self.saved.arrays["y"][: len(self.derivatives.states)])
+
+    def ways(self) -> Array:
+        """Return the changes of the state before that rows and stops allow, one a column."""
+        if self.machine.rests:
+            return difference(lambda shift: self.at_rest(shift)[0], self.machine.changes[0])[:, np.newaxis]
+        f = self.model.functions(self.coordinates, {self.machine.parameter: self.value})
+        names = tuple(x.name for x in (*f.coordinates, *f.velocities))
+        assert names == self.derivatives.states, "functions have the states of runs"
+        return allowed(f, self.start)
+
+    def compared(self) -> Comparison:
+        """Return the derivatives beside differences."""
+        derivatives, ways, (width, of_input) = self.derivatives, self.ways(), self.machine.changes
+        still, distances = np.zeros(len(derivatives.states)), list[float]()
+        if self.machine.rests:
+            distances.append(_distance(derivatives.A @ ways[:, 0], lambda shift: self.at_rest(shift)[1], width))
+        for way in () if self.machine.rests else ways.T:
+            of_state = partial(lambda way, h: self.after(h * way, {}), way)
+            distances.append(_distance(derivatives.A @ way, of_state, width))
+        for k, (name, value) in enumerate(self.inputs.items()):
+            by_input = partial(lambda name, value, h: self.after(still, {name: value + h}), name, value)
+            distances.append(_distance(derivatives.B[:, k], by_input, of_input))
+        # off the rows, corrections of one and of two iterations have other derivatives
+        matrix = np.hstack([derivatives.A @ ways @ np.linalg.pinv(ways), derivatives.B])
+        expected = [self.machine.event] if self.machine.event else []
+        wrong = [*derivatives.doubts, *([] if self.events == expected else [f"events {self.events}"])]
+        return Comparison(matrix, max(distances), wrong)
 
 
-def examined(machine: Machine, rows: int, coordinates: str = "joint") -> Found:
-    """Return what became of the steps over the values of a parameter."""
+def examined(machine: Machine, rows: int, coordinates: str = "joint") -> Sweep:
+    """Return the derivatives of steps over the values of a parameter, beside differences."""
     model, matrices, failed, most = machine.model(), list[Array](), list[str](), 0.0
     if machine.file is None:
         own = lifted("load", model.mechanism, ("bodies.shank.mass",))
         machine, model = replace(machine, parameter=own.keys["bodies.shank.mass"]), Model(own.mechanism)
     for value in np.linspace(*machine.values, rows):
         try:
-            matrix, apart, wrong = stepped(machine, model, float(value), coordinates)
+            compared = Step(machine, model, float(value), coordinates).compared()
         except Exception as error:  # counted, and said
             failed.append(f"{value:g}: {error}")
             continue
-        matrices.append(matrix)
-        failed += [f"{value:g}: {x}" for x in wrong]
-        most = max(most, apart)
-    all_of = np.array(matrices)
-    n = all_of.shape[1]
-    bends = [
-        np.abs(np.diff(part, 2, axis=0)).max() / np.abs(part).max() for part in (all_of[:, :, :n], all_of[:, :, n:])
-    ]
-    return Found(failed, most, float(max(bends)))
+        matrices.append(compared.matrix)
+        failed += [f"{value:g}: {x}" for x in compared.wrong]
+        most = max(most, compared.apart)
+    return Sweep(failed, most, bend(np.array(matrices)) if len(matrices) > 2 else np.inf)
+
+
+def bend(matrices: Array) -> float:
+    """Return the largest second difference of A and B along the sweep, over the largest element of each."""
+    n = matrices.shape[1]
+    parts = matrices[:, :, :n], matrices[:, :, n:]
+    return float(max(np.abs(np.diff(part, 2, axis=0)).max() / np.abs(part).max() for part in parts))
 
 
 def main() -> int:
@@ -221,11 +304,11 @@ def main() -> int:
     table, bad = Table("machine", "coordinates", "values", "failed", "apart", "second differences"), False
     for name in options.machines or MACHINES:
         for coordinates in ("joint", "absolute"):
-            found = examined(MACHINES[name], options.rows, coordinates)
-            numbers = str(options.rows), str(len(found.failed)), f"{found.apart:.1e}", f"{found.bend:.1e}"
+            sweep = examined(MACHINES[name], options.rows, coordinates)
+            numbers = str(options.rows), str(len(sweep.failed)), f"{sweep.apart:.1e}", f"{sweep.bend:.1e}"
             table.add_row(name, coordinates, *numbers)
-            print(name, coordinates, *numbers, *found.failed[:3], flush=True)
-            bad = bad or bool(found.failed)
+            print(name, coordinates, *numbers, *sweep.failed[:3], flush=True)
+            bad = bad or bool(sweep.failed)
     show(table)
     return int(bad)
 

@@ -21,11 +21,25 @@ FUNCTIONS = {
     "forward_dynamics": ("aba", "constraintDynamics", "mj_forward"),
     "inverse_dynamics": ("rnea", "", "mj_inverse"),
 }
-#: Calls of a batch, and states of one call of Pinocchio's.
-CALLS, STATES = 100, 300
+#: Calls of a batch.
+CALLS = 100
 _LOOP = """typedef void (*function)(const void *, void *);
 void repeat(function f, const void *m, void *d, long n) { for (long k = 0; k < n; k++) f(m, d); }
+typedef void (*of)(const void *, void *, const void *, const void *, const void *, const void *);
+void evaluate(of f, const void *m, void *d, const void *x, const void *y, const void *z, const void *c, long n)
+{ for (long k = 0; k < n; k++) f(m, d, x, y, z, c); }
 """
+#: Pinocchio's functions in its compiled library: the beginning of a name, arguments behind model and data, and the
+#: result. Numbers are conventions, 0 of the world and 1 local: those that are faster.
+COMPILED: dict[str, tuple[str, tuple[str | int, ...], str]] = {
+    "mass_matrix": ("_ZN9pinocchio4crbaI", ("q", 1), "M"),
+    "bias": ("_ZN9pinocchio4impl16nonLinearEffectsI", ("q", "v"), "nle"),
+    "forward_dynamics": ("_ZN9pinocchio3abaI", ("q", "v", "effort", 0), "ddq"),
+    "inverse_dynamics": ("_ZN9pinocchio4impl4rneaI", ("q", "v", "a"), "tau"),
+}
+_TYPE = "N9pinocchio{}TplIdLi0ENS_25JointCollectionDefaultTplEEE"
+_QUERY = "_ZN5boost6python9converter8registry5queryENS0_9type_infoE"
+_ADDRESS = "_ZN5boost6python9converter22get_lvalue_from_pythonEP7_objectRKNS1_12registrationE"
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 #: What makes evaluations, and how many.
@@ -97,13 +111,79 @@ def add_pinocchio(own: Subject, names: list[str], state: State, table: dict[str,
     row["forward_dynamics"][tool] = called(forward, model, data, q, v, effort, *more), CALLS
     if not own.loop:
         row["inverse_dynamics"][tool] = called(pin.rnea, model, data, q, v, a), CALLS
-        pool, alone = pin.ModelPool(model, 1), f"{tool}, alone"
-        many = [np.asfortranarray(np.tile(x, (STATES, 1)).T) for x in (q, v, a, effort)]
-        out = np.asfortranarray(np.zeros_like(many[0]))
-        along = *many[:2], many[3], out
-        row["forward_dynamics"][alone] = called(pin.abaInParallel, 1, pool, *along, count=1), STATES
-        row["inverse_dynamics"][alone] = called(pin.rneaInParallel, 1, pool, *many[:3], out, count=1), STATES
+    for key, batch in _compiled(model, data, State(q, v, a, effort)).items():
+        if key not in row or (own.loop and key == "forward_dynamics"):  # its rows are objects of Python
+            continue
+        if _differs(row[key][tool][0], batch, data, COMPILED[key][2]):
+            raise ArithmeticError(f"{key}: expected the numbers of the call from Python, got others")
+        row[key][f"{tool}, alone"] = batch, CALLS
     return lambda x: np.array(forward(model, data, x.q, x.v, x.effort, *more)), ways
+
+
+class _Reference(ctypes.Structure):
+    """A vector as the library takes it: ``Eigen::Ref`` begins with the address of the elements and their number."""
+
+    _fields_ = (("elements", ctypes.c_void_p), ("rows", ctypes.c_long), ("rest", ctypes.c_long * 8))
+    numbers: Array  # kept as long as this is
+
+
+def _reference(x: Array) -> _Reference:
+    """Return a vector for the library."""
+    numbers = np.ascontiguousarray(x)
+    reference = _Reference(numbers.ctypes.data, len(numbers))
+    reference.numbers = numbers
+    return reference
+
+
+def _compiled(model: Any, data: Any, state: State) -> dict[str, Callable[[], object]]:
+    """Return batches of Pinocchio's functions by a loop in C, which enters the code that its wheel has of them.
+
+    Headers would take a quarter of an hour to compile. Names of the library and addresses of model and data are enough.
+    """
+    path = next(x for x in _loaded("libpinocchio_default.so"))
+    listed = subprocess.run(["nm", "-D", "--defined-only", path], check=True, capture_output=True, text=True).stdout
+    names = [line.split()[-1] for line in listed.splitlines() if "ForceTpl" not in line]
+    library, loop = ctypes.CDLL(path), _c_loop()
+    objects = [ctypes.c_void_p(_address(x, _TYPE.format(kind))) for x, kind in ((model, "8Model"), (data, "7Data"))]
+
+    def argument(x: str | int) -> Any:
+        if isinstance(x, int):  # it goes through the register of an address
+            return ctypes.c_void_p(x)
+        return ctypes.byref(_reference(getattr(state, x)))
+
+    batches = dict[str, Callable[[], object]]()
+    for key, (begin, wanted, _) in COMPILED.items():
+        name = next(x for x in names if x.startswith(begin))
+        function = ctypes.cast(getattr(library, name), ctypes.c_void_p)
+        arguments = [*map(argument, wanted), *[ctypes.c_void_p(0)] * (4 - len(wanted))]
+        batches[key] = called(loop.evaluate, function, *objects, *arguments, ctypes.c_long(CALLS), count=1)
+    return batches
+
+
+def _loaded(name: str) -> list[str]:
+    """Return the paths of libraries of this process."""
+    lines = Path("/proc/self/maps").read_text(encoding="utf-8").splitlines()
+    return [line.split()[-1] for line in lines if Path(line.split()[-1]).name.startswith(name)]
+
+
+def _address(x: Any, kind: str) -> int:
+    """Return where an object of C++ lies that Python has, by the name of its type."""
+    python = ctypes.PyDLL(_loaded("libboost_python")[0])
+    query, address = getattr(python, _QUERY), getattr(python, _ADDRESS)
+    query.argtypes, address.argtypes = [ctypes.c_char_p], [ctypes.py_object, ctypes.c_void_p]
+    query.restype = address.restype = ctypes.c_void_p
+    return int(address(x, query(kind.encode())))
+
+
+def _differs(one: Callable[[], object], other: Callable[[], object], data: Any, result: str) -> bool:
+    """Whether two batches leave other numbers in Pinocchio's data."""
+    left = list[Array]()
+    for batch in (one, other):
+        getattr(data, result)[:] = 0.0
+        batch()
+        left.append(np.triu(getattr(data, result)) if result == "M" else np.array(getattr(data, result)))
+    own, theirs = left
+    return bool(np.abs(own - theirs).max() > 1e-9 * np.abs(own).max())
 
 
 def add_mujoco(own: Subject, names: list[str], state: State, table: dict[str, dict[str, Batch]]) -> Added:

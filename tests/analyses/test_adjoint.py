@@ -1,5 +1,6 @@
 """Gradients by the adjoint: against models without symgen, forward directions, and what is refused."""
 
+import numpy as np
 import pytest
 from run.planning.lengths import BY_NAME, FOUR_BAR, G_BY, ROD, ROD_BY, SLIDER_CRANK, model
 from support.rotation import of_turn
@@ -130,12 +131,63 @@ def test_what_has_no_adjoint_is_refused(four_bar, settings, expected):
         four_bar.gradient("crank.theta", by=("a", "b"), **usual | settings)
 
 
+#: Rods in space on springs that wind up by some turns: angles of 7 hinges go on beyond pi.
+WOUND = """
+[mechanism]
+name = "wound"
+space = "spatial"
+gravity = [0.0, 0.0, 0.0]
+
+[parameters]
+k = 0.5
+"""
+HINGED = """
+[bodies.rod{i}]
+mass = 1.0
+inertia = [0.1, 0.1, 0.1]
+position = [0.0, 0.0, {i}.0]
+angular_velocity = [0.0, 0.0, {speed}]
+
+[joints.hinge{i}]
+type = "revolute"
+between = ["ground", "rod{i}"]
+at = [[0.0, 0.0, {i}.0], [0.0, 0.0, 0.0]]
+axis = [0.0, 0.0, 1.0]
+
+[forces.spring{i}]
+type = "torsional-spring-damper"
+joint = "hinge{i}"
+stiffness = "k"
+"""
+
+
 @pytest.mark.slow
-def test_many_angles_that_count_turns_are_for_forward_directions():
-    with pytest.raises(InputError, match="adjoint: expected at most 5 angles that count turns, got 7; forward"):
-        symgen.load("chain:8").gradient(
-            "rod8.z", by="bodies.rod8.mass", way="adjoint", until=0.01, integrator="rk4", method="lagrange"
+def test_many_angles_that_count_turns(tmp_path):
+    """Each angle is w/r sin(r t) with r^2 = k/J; 300 values of k, against the derivative in closed form."""
+    speeds = np.linspace(8.0, 20.0, 7)
+    text = WOUND + "".join(HINGED.format(i=i, speed=speed) for i, speed in enumerate(speeds))
+    wound_up = " + ".join(f"{i + 1}*hinge{i}.angle" for i in range(7))
+    (tmp_path / "wound.toml").write_text(text)
+    wound, t, factor = symgen.load(tmp_path / "wound.toml"), 1.5, np.arange(1.0, 8.0) @ speeds
+    most = 0.0
+    for k in np.linspace(0.05, 2.0, 300):
+        found = wound.gradient(
+            wound_up, by=("k",), way="adjoint", until=t, integrator="dop853", rtol=1e-11, parameters={"k": k}
         )
+        rate = np.sqrt(k / 0.1)
+        slope = (t * np.cos(rate * t) - np.sin(rate * t) / rate) / rate / (2.0 * rate * 0.1)
+        assert found.value == pytest.approx(factor * np.sin(rate * t) / rate, abs=1e-7)
+        assert found.by["k"] == pytest.approx(factor * slope, abs=1e-6)
+        most = max(most, speeds.max() / rate)
+    assert most > 2.0 * np.pi
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_loop_of_six_hinges(coordinates):
+    settings = {"until": 0.5, "integrator": "rk4", "step": 5e-3, "coordinates": coordinates}
+    by = ("bodies.rod1.mass", "bodies.rod2.mass", "bodies.rod4.mass")
+    assert largest_difference(symgen.load("bricard"), "rod2.y", by, **settings) < 1e-12
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 import sys
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from symgen.describe.files.builder import MechanismBuilder
 from symgen.describe.files.validate import validate
 from symgen.describe.formats import read_robot
 
+BOUNDED = Path(__file__).resolve().parents[2] / "benchmarks" / "bounded" / "files"
 #: Parents and kinds of joints: a chain, slides, forks.
 ROBOTS = {
     "chain": ([-1, 0, 1], "rrr"),
@@ -275,6 +277,20 @@ def test_states_of_a_stepped_run_are_arguments(monkeypatch):
     assert np.array_equal(f.bias(run.q, run.v), plain) and type(f.bias(run.q, run.v)) is np.ndarray
     with pytest.raises(TypeError):
         f.bias(run.q.tolist(), run.v)
+
+
+@pytest.mark.fast("press")
+@pytest.mark.parametrize("name", ["press", "bucket"])
+def test_functions_have_the_states_of_runs_whose_rows_with_bounds_they_lack(name):
+    model = load(BOUNDED / f"{name}.toml")
+    f, run = model.functions("joint"), model.start(coordinates="joint", integrator="rk4", step=1e-3)
+    run.step(0.2)
+    assert [x.name for x in f.coordinates] == list(run.q.names)
+    assert [x.name for x in f.velocities] == list(run.v.names)
+    assert np.abs(f.violation(run.q)).max() < 1e-12
+    run.step(0.4)  # it moves
+    assert np.abs(run.v).max() > 0.1
+    assert np.abs(f.constraint_jacobian(run.q) @ run.v).max() < 1e-10
 
 
 def test_numbers_are_arguments():

@@ -50,6 +50,15 @@ def block_of(page, beginning):
     return found[0]
 
 
+def files_of(page, folder, *names):
+    """Write files to a folder, each a block of a page behind the line that calls it so."""
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    for name in names:
+        _, found, behind = text.partition(f"s `{name}`:\n\n```")
+        assert found, f"{page} has no file {name}"
+        (folder / name).write_text(behind.partition("\n")[2].partition("```")[0])
+
+
 def chunks(folder):
     """Return the numbers of the chunks that a folder of a sweep has, in the order in which they came."""
     log = folder / DONE

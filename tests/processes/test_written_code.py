@@ -7,7 +7,7 @@ import zipfile
 
 import pytest
 
-from tests.processes.programs import block_of, command_of, shell
+from tests.processes.programs import block_of, command_of, files_of, shell
 
 PAGE = "howto/c-and-fmu.md"
 RUN = "symgen run four-bar --method direct-correction --integrator rk4 --shape straight --no-verify --json"
@@ -66,3 +66,30 @@ def test_an_fmu_by_the_command_and_its_library_by_the_compiler_of_the_page(tmp_p
     (tmp_path / "simulated.py").write_text(script)
     out, _ = shell(f"{sys.executable} simulated.py", tmp_path)
     assert float(out) == pytest.approx(value_of(final("--until 1", tmp_path), "crank.theta"), abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_program_of_the_page_resets_as_an_event_of_a_run_does(tmp_path):
+    """The door is held by friction, is knocked and slides; where it is knocked hard, it strikes both its stops."""
+    files_of(PAGE, tmp_path, "door.toml", "knock.c")
+    shell(command_of(PAGE, "symgen generate door.toml"), tmp_path)
+    _, said = shell(command_of(PAGE, "cc -std=c99 -O2 -Wall -Wextra -Idoor-c"), tmp_path)
+    assert said == ""
+    for strength in (-6.0, -0.8, 0.0, 0.5, 1.5, 2.0, 9.0):
+        out, _ = shell(f"./knock {strength}", tmp_path)
+        t, theta, omega = map(float, out.split())
+        values = f"--set knock_at=0.5 --set strength={strength}"
+        own = json.loads(shell(f"symgen run door.toml --integrator rk4 --no-verify --json {values}", tmp_path)[0])
+        assert own["status"] == "ok"
+        assert t == pytest.approx(own["final"]["t"], abs=1e-12)
+        assert theta == pytest.approx(own["final"]["q"]["leaf.theta"], abs=1e-9)
+        assert omega == pytest.approx(own["final"]["v"]["leaf.omega"], abs=1e-9)
+        assert (theta == 0.0) == (strength == 0.0)
+
+
+@pytest.mark.slow
+def test_a_mechanism_has_the_same_bytes_in_each_process(tmp_path):
+    for seed in ("1", "2"):
+        shell(f"symgen generate toggle-press --target c --output {seed}", tmp_path, PYTHONHASHSEED=seed)
+    first, second = ((tmp_path / seed / "toggle_press.c").read_bytes() for seed in ("1", "2"))
+    assert first == second

@@ -15,7 +15,9 @@ from symgen.compile.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, f
 #: The argument for the number of runs, in functions for several runs at once.
 COUNT_OF_LANES = "lanes"
 #: Attribute of functions for several runs: LLVM halves vectors of 512 bits of processors where they once cost clock.
-_WIDEST = ' "prefer-vector-width"="512"'
+WIDEST = ' "prefer-vector-width"="512"'
+#: Attribute of functions of the runtime whose loops run over the entries of a matrix (`symgen.compile.store.jit.jit`).
+UNROLLED = ' "unrolled"'
 
 
 def llvm_module(
@@ -156,7 +158,8 @@ class LlvmPrinter(ValuePrinter):
         ]
         copied = " alwaysinline" * (f.inlined and bool(self.linkage))
         names = {*f.variables, *(p.name for p in f.parameters)}
-        begin = f"define {self.linkage}{self.head()}{copied}{_WIDEST * (COUNT_OF_LANES in names)} {{"
+        begin = f"define {self.linkage}{self.head()}{copied}{WIDEST * (COUNT_OF_LANES in names)}"
+        begin += f"{UNROLLED * getattr(f.source, 'unrolled', False)} {{"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
 
     def head(self) -> str:

@@ -334,8 +334,7 @@ class LoopReader(LoopValues):
         tree = tree_of(called)
         if len(tree.args.args) != len(arguments) or len(self.copies) > 20:
             raise Foreign(f"the function '{called.__name__}'", node)
-        own = frozenset(called.py_func.__code__.co_varnames)
-        names = {name: self.fresh(name) for name in own}
+        names = {name: self.fresh(name) for name in called.py_func.__code__.co_varnames}  # in an order that stays
         body = [Renamed(names).visit(statement) for statement in body_of(tree)]
         assigned = {x.id for s in body for x in ast.walk(s) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
         for x, value in zip(tree.args.args, arguments, strict=True):

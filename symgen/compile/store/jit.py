@@ -193,6 +193,8 @@ class RuntimeFunction(MachineFunction):
     once : bool
         Whether it is called about once a run: then it is compiled without optimisation; its bits are the same
         unless operations are contracted.
+    unrolled : bool
+        As for `jit`.
     """
 
     def __init__(
@@ -202,9 +204,10 @@ class RuntimeFunction(MachineFunction):
         contracted: bool = True,
         signature: types.Signature | None = None,
         once: bool = False,
+        unrolled: bool = False,
     ) -> None:
         super().__init__(function, inlined, contracted)
-        self.signature, self._once = signature, once
+        self.signature, self._once, self.unrolled = signature, once, unrolled
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the machine code."""
@@ -226,22 +229,23 @@ class RuntimeFunction(MachineFunction):
         """Return the sources and options that machine code depends on."""
         function = self.py_func
         meanings = (f"{name} {_meaning(function.__globals__.get(name))}" for name in function.__code__.co_names)
-        options = f"{self.contracted} {self._once}"
+        options = f"{self.contracted} {self._once} {self.unrolled}"
         return "\n".join((f"{self.__module__}.{self.__qualname__}", options, *meanings, source_stamp(function)))
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.compile.native.llvm import loop_module
+        from symgen.compile.native.llvm import UNROLLED, WIDEST, loop_module
         from symgen.compile.native.loops import read_loop
         from symgen.compile.native.machine import compiled
 
         function = read_loop(self, arguments)
-        code = compiled(loop_module(function, symbol), symbol, once=self._once)
+        text = loop_module(function, symbol)
+        code = compiled(text, symbol, once=self._once, unrolled=WIDEST in text or UNROLLED in text)
         return CacheEntry(function.returned, (), code)
 
 
 def jit(
-    signature: types.Signature | None = None, *, once: bool = False, contracted: bool = True
+    signature: types.Signature | None = None, *, once: bool = False, contracted: bool = True, unrolled: bool = False
 ) -> Callable[[_Function], _Function]:
     """Return a decorator that compiles a function of the runtime at its first call, through the cache.
 
@@ -253,6 +257,8 @@ def jit(
         Whether the function is called about once a run: then it is compiled faster.
     contracted : bool
         Whether multiplication and addition may be fused.
+    unrolled : bool
+        Whether loops run over the entries of a matrix, so that copies of their bodies pay in all loops that call it.
 
     Returns
     -------
@@ -273,7 +279,9 @@ def jit(
     def decorate(function: _Function) -> _Function:
         if interpreted():
             return function
-        compiled: Any = RuntimeFunction(function, contracted=contracted, signature=signature, once=once)
+        compiled: Any = RuntimeFunction(
+            function, contracted=contracted, signature=signature, once=once, unrolled=unrolled
+        )
         return cast("_Function", compiled)
 
     return decorate

@@ -119,7 +119,9 @@ def live_part(
         described = False
     else:
         described = not joint and is_described(mechanism)
-    kept = run_with_modes(acting or mechanism, run, compiled, start.datum or ()) if run is not None else None
+    kept = None
+    if run is not None:
+        kept = run_with_modes(acting or mechanism, run, compiled, start.datum or (), foresees=True)
     try:
         script = _script(mechanism, described)
         code, size = _code(
@@ -161,6 +163,8 @@ def _code(mechanism: Mechanism, compiled: CompiledModel, run: PrintedRun | None,
     printed.add_start(assembly)
     if run is not None:
         printed.add_run(run)
+        if run.passages is not None:
+            printed.add_foresight(run)
     elif events is not None:
         printed.add_steps(compiled, events, ("take_steps",))
     if drivers := _drivers(mechanism):

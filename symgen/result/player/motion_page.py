@@ -194,7 +194,7 @@ def _emitted(live: Live, functions: str, *further: str) -> str:
 def model_script(live: Live) -> str:
     """Return a script that defines ``emitted``, the functions of a mechanism, and ``makeLive``, which runs them."""
     functions = "rhs accept geometry masses prepareModel prepareLaw derive describe confirm move bodies"
-    functions += " begin_row close_row take_steps start_run advance_run find_lock newMemory"
+    functions += " begin_row close_row take_steps start_run foresee_run advance_run find_lock newMemory"
     return f"{_emitted(live, functions)}{_web('live.js')}"
 
 

@@ -6,9 +6,9 @@ have directions behind the state, implicit ones the equations of their stages (`
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -21,11 +21,13 @@ from symgen.result.stepping.horizon import Horizon
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
 from symgen.run.layout.scheme_records import Stages
+from symgen.run.planning.starts import compiled_for
 from symgen.run.single.directed_model import DirectedModel, Seeds, few_passes
 from symgen.run.single.step_directions import StepsAgain
 from symgen.run.single.steps_ahead import DirectedRun, StepsAhead
 
 if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
     from symgen.run.planning.prepare import Prepared
     from symgen.run.single.simulation import Simulation
 
@@ -37,7 +39,7 @@ IMPLICIT = "radau5", "sdirk", "trapezoidal"
 #: Part of the state by which the step with directions may differ, as rounding makes it.
 SAME = 1e-9
 _NO_DOUBTS: tuple[str, ...] = ()
-_TIME, _STEPS = abi.TIME, abi.STEPS  # looked up at every step
+_TIME, _STEPS, _DONE = abi.TIME, abi.STEPS, abi.DONE  # looked up at every step
 
 
 class StepDerivatives(NamedTuple):
@@ -77,6 +79,10 @@ class StepDerivatives(NamedTuple):
         return f"<StepDerivatives from t = {self.t:g} s over {self.dt:g} s: {sizes}>"
 
 
+#: Makes one of these from all its fields, in half the time that its constructor takes.
+_record: Callable[[tuple[Any, ...]], StepDerivatives] = partial(tuple.__new__, StepDerivatives)
+
+
 class StepDirections:
     """The derivatives of the steps of a run.
 
@@ -103,7 +109,7 @@ class StepDirections:
         self.inputs = tuple(name for name in info.inputs if name not in hidden)
         self.input_places = [names.index(name) for name in self.inputs]
         self._n, count = len(self._places), len(self._places) + len(self.inputs)
-        self._model = DirectedModel(prepared.compiled, few_passes(count))
+        self._model = DirectedModel(_for_slopes(prepared) if self.is_straight else prepared.compiled, few_passes(count))
         y, p = (np.zeros((self._model.sizes[name], count)) for name in "yp")
         y[self._places, range(self._n)] = 1.0
         p[self.input_places, range(self._n, count)] = 1.0
@@ -156,7 +162,7 @@ class StepDirections:
             after, n = again.slopes[self._places], self._n
             a, b, c = after[:, :n], after[:, n:], self._outputs_at_state()[taken, :n]
             doubts = tuple(dict.fromkeys(again.transfer.doubts))
-        return StepDerivatives(a, b, c, self.states, self.inputs, outputs, left_out, t, until - t, doubts)
+        return _record((a, b, c, self.states, self.inputs, outputs, left_out, t, until - t, doubts))
 
     def _refuse_jumps(self, t: float, until: float) -> None:
         for seam in self._loop.spec.seams:
@@ -201,33 +207,31 @@ class StepDirections:
         return StepsAhead(self._directed, self._before, end=self._loop.state.y, same=SAME)
 
     @cached_property
-    def _results(self) -> tuple[Array, Array, Array | None]:
-        """Where the call leaves A, B, and C with all outputs."""
+    def _results(self) -> tuple[Array, Array, Array]:
+        """Where the call leaves A, B, and C with all outputs; none where no output has derivatives."""
         one, n = self._one, self._n
-        slopes, taken = one.slopes[0], self.outputs[2]
-        return slopes[:, :n], slopes[:, n : n + len(self.inputs)], one.by_outputs[0][:, :n] if taken else None
+        slopes, outputs = one.slopes[0], one.by_outputs[0] if self.outputs[2] else np.zeros((0, self._n))
+        return slopes[:, :n], slopes[:, n : n + len(self.inputs)], outputs[:, :n]
 
     def _straight(self, until: float, first: Array | None) -> tuple[Array, Array, Array]:
         """Return A, B and C of the last piece, from a first copy where there is one."""
-        one, copy = self._one, self._loop.snapshot.copy
-        latest = None if first is None else copy.copy()
-        if first is not None:
-            copy[:] = first
-        if self._loop.spec.adaptive:
+        loop = self._loop
+        if loop.spec.adaptive:
             self._directed.rescale(self._before)
-        code = one.made(self._loop.span, until)
-        if latest is not None:
-            copy[:] = latest
-        if code != abi.DONE:
+        code = self._one.made(loop.span, until) if first is None else self._made_from(first, until)
+        if code != _DONE:
             raise InputError(WHERE, "a step that is the same once more", "another one")
         (a, b, c), (_, left_out, taken) = self._results, self.outputs
-        if c is None:
-            return a.copy(), b.copy(), self._no_outputs
-        return a.copy(), b.copy(), c[taken] if left_out else c.copy()
+        own_c = c.copy() if taken and not left_out else c[taken] if taken else c  # what is empty never changes
+        return a.copy(), b.copy() if self.inputs else b, own_c
 
-    @cached_property
-    def _no_outputs(self) -> Array:
-        return np.zeros((0, self._n))
+    def _made_from(self, first: Array, until: float) -> int:
+        """Make the last piece from a first copy; return the code of its end."""
+        copy = self._loop.snapshot.copy
+        latest, copy[:] = copy.copy(), first
+        code = self._one.made(self._loop.span, until)
+        copy[:] = latest
+        return code
 
     def straight_ahead(self, values: Array, dt: float) -> Horizon | None:
         """Return steps from the present state in one compiled call; None where that cannot make them.
@@ -300,6 +304,14 @@ class StepDirections:
             call(float(now.clock[abi.TIME]), y, p, w, np.zeros_like(y), out)
             parts.append(out[count:].reshape(count, model.lanes))
         return np.concatenate(parts, axis=1)
+
+
+def _for_slopes(prepared: Prepared) -> CompiledModel:
+    """Return the code of a run with a right-hand side for derivatives, if both have the same scratch."""
+    choice, own = replace(prepared.plan.choice, directed=True), prepared.compiled
+    compiled = compiled_for(prepared.mechanism, choice)
+    same = compiled.info.sections == own.info.sections and compiled.law.nw == own.law.nw
+    return compiled if same and compiled.law.parameters == own.law.parameters else own
 
 
 def _counts(before: Mapping[str, NDArray[Any]]) -> tuple[Any, Any]:

@@ -169,6 +169,7 @@ class CModel:
             "stopping": [i for i in acting if mechanism.events[i].action == STOP],
             "failed": FAILED,
             "effects": self._resets,
+            "foresees": self.foresees,
             "memory": [
                 {"name": name, "is_real": kind == "float", "size": size}
                 for name, (kind, size) in self._memory.items()
@@ -249,7 +250,12 @@ class CModel:
     def printed_run(self) -> PrintedRun | None:
         """The run, where an integrator was named or the mechanism has rows with bounds."""
         printed = whole_run if self.named else run_with_modes
-        return printed(self.mechanism, self.run, self.compiled, self.run.start.datum or ())
+        return printed(self.mechanism, self.run, self.compiled, self.run.start.datum or (), foresees=True)
+
+    @property
+    def foresees(self) -> bool:
+        """Whether the run finds jumps whose times depend on parameters."""
+        return self.printed_run is not None and self.printed_run.passages is not None
 
     @cached_property
     def events(self) -> PrintedEvents:
@@ -285,6 +291,8 @@ class CModel:
                 printed.add_exchange(self.printed_run)
             if self._resets:
                 printed.add_reset(self.printed_run)
+            if self.foresees:
+                printed.add_foresight(self.printed_run)
             printed.add_steps(self.compiled, PrintedEvents(), ("find_rates",))
         else:
             further = ("apply_effects",) if self.events.effects else ()

@@ -32,7 +32,7 @@ SAME = 1e-14
 LEAST_ORDER = 3
 #: Distance from a jump at which a step ends and another begins, as a fraction of the run; and where constant steps do,
 #: between which no step lies: more than the rounding of stages, and of the time of the jump.
-_BESIDE, _NEXT_TO = 1e-12, 4.0 * 2.0**-52
+BESIDE, NEXT_TO = 1e-12, 4.0 * 2.0**-52
 
 
 def seams_of_motion(
@@ -101,7 +101,7 @@ def merged(seams: tuple[Seam, ...], kinks: tuple[Seam, ...]) -> tuple[Seam, ...]
 
 def seams_beside(seams: tuple[Seam, ...], times: Sequence[float], until: float) -> tuple[Seam, ...]:
     """Return seams on both sides of some times, in place of seams at these without changes of numbers."""
-    apart, result = _BESIDE * until, list[Seam]()
+    apart, result = BESIDE * until, list[Seam]()
     for seam in seams:
         if seam.values or seam.t == 0.0 or not any(abs(seam.t - t) < apart for t in times):
             result.append(seam)
@@ -174,8 +174,8 @@ class Foreseen:
             if self.grid is None:
                 # a short part around each: no stage of its neighbours is at the very time, which belongs to one side
                 skipped = {*gaps, *sides} if self.mechanism.bounded else {*gaps}  # where modes are chosen anew
-                beside = (t + way * _BESIDE * until for t in sides if t not in skipped for way in (-1.0, 1.0))
-                times = sorted({*kinks, *(t for t in beside if 0.0 < t < until)})
+                beside = (t + way * BESIDE * until for t in sides if t not in skipped for way in (-1.0, 1.0))
+                times = sorted({*kinks} - skipped | {t for t in beside if 0.0 < t < until})
                 seams = tuple(Seam(t, {}) for t in (0.0, *times)) if times else ()
                 if skipped:
                     seams = merged(seams, skipping(sorted(skipped), gaps, (0.0, 0.0), until))
@@ -213,7 +213,7 @@ def skipping(
     until : float
         End of the run [s].
     """
-    (first, step), apart, result = grid, _NEXT_TO * until, list[Seam]()
+    (first, step), apart, result = grid, NEXT_TO * until, list[Seam]()
     for t, following in pairwise((*times, until)):
         result += [Seam(max(t - apart, 0.0), {}, skips=True, strikes=t in gaps), Seam(t + apart, {})]
         if step > 0.0:

@@ -19,9 +19,17 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import msgspec
+
 from symgen.base.errors import InputError, counted
 from symgen.describe.mechanism import Mechanism, Topology
-from symgen.describe.parts.topology import loops_of, spanning_tree, state_names, with_joint_coordinates
+from symgen.describe.parts.topology import (
+    edges_of,
+    loops_of,
+    spanning_tree,
+    state_names,
+    with_joint_coordinates,
+)
 from symgen.describe.remembered import remembered
 from symgen.run.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops, straight_alone
 from symgen.run.compiling.side import module_beside
@@ -217,6 +225,18 @@ def on_tree(mechanism: Mechanism) -> Mechanism:
         mechanism, "tree", [sorted(mechanism.cuts)], lambda: (text, {"cut": list(_cheapest(mechanism, first))})
     )
     return with_joint_coordinates(mechanism, spanning_tree(mechanism, tuple(metadata["cut"])))
+
+
+def with_tree_of(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
+    """Return a mechanism that takes the tree of another one, which has the same joints and more rows or forces.
+
+    Which tree is the cheapest depends on all that is derived. Where a part is left out, states keep their coordinates
+    by this: all joints outside the other's tree are cut, which leaves nothing to choose.
+    """
+    tree = on_tree(whole).topology
+    assert tree is not None, "it is in joint coordinates"
+    inside = {link.joint for link in tree.links}
+    return msgspec.structs.replace(mechanism, cuts=tuple(name for name in edges_of(mechanism) if name not in inside))
 
 
 def _cheapest(mechanism: Mechanism, first: Topology) -> tuple[str, ...]:

@@ -266,6 +266,10 @@ class Printed:
         """Add ``reset_run(event, t, y)``, the effects of one event in a run, see `symgen.run.rows.kept_reset`."""
         self.entries.update(run.reset_entries(self.emitted))
 
+    def add_foresight(self, run: PrintedRun) -> None:
+        """Add ``foresee_run(is_start, t)``, which finds the jumps of a run, see `symgen.run.rows.foreseen_run`."""
+        self.entries.update(run.foresight_entries(self.emitted))
+
     def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:
         """Add ``find_lock(t, y)``, see `symgen.run.effects.locking`, for these joints."""
         layout, geometry = layout_of(compiled), compiled.model.geometry

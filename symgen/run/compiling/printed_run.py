@@ -21,6 +21,7 @@ from symgen.compile.store.jit import RuntimeFunction
 from symgen.describe.bounds import modes
 from symgen.describe.parts.events import STOP
 from symgen.run.compiling.checked import checked_function
+from symgen.run.compiling.foresight import Passages
 from symgen.run.compiling.printed import meanings_of
 from symgen.run.compiling.run_memory import effects_of_runs, modes_of_runs, new_transitions
 from symgen.run.layout import abi
@@ -34,6 +35,7 @@ from symgen.run.loops.seams import preparing, seams_of
 from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
 from symgen.run.rows.exchanged_run import RESTS, Exchange, exchanged_run
+from symgen.run.rows.foreseen_run import foreseen_run
 from symgen.run.rows.kept_modes import KeptModes
 from symgen.run.rows.kept_reset import kept_reset
 from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
@@ -48,12 +50,13 @@ if TYPE_CHECKING:
     from symgen.run.loops.run_spec import BoundedRows, RunSpec, Seam, Watched
 
 #: Names of emitted functions of a run in the text, by the places where a run has them.
-SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED = (
+SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED, PASSAGES = (
     "formulas_of_events",
     "formulas_of_rows",
     "formulas_of_accelerations",
     "formulas_of_reactions",
     "formulas_of_effects",
+    "formulas_of_passages",
 )
 #: Room for notes of events in a step, beside twice those of all events.
 _NOTES = 8
@@ -69,9 +72,11 @@ _CONSTANT = {
     "effects": frozenset(("resets",)),
     "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves", "resets")),
     "visible": frozenset(("ends",)),
+    "foresight": frozenset(("slots", "straight", "kinds", "first", "levels", "periods")),
+    "seams": frozenset(("head", "changes", "places", "values")),
 }
 #: Arguments of a run, and arrays that callers pass beside them.
-_ARGUMENTS = "model", "scheme", "span", "chunk", "state", "outputs", "visible", "exchange"
+_ARGUMENTS = "seams", "model", "scheme", "span", "chunk", "state", "outputs", "visible", "exchange", "foresight"
 _PASSED = frozenset(("y", "values"))
 #: Beginnings of the names of arrays in the memory; the state, parameters and scratch of the model have their own.
 _OWN = {"visible.y": "y", "visible.clock": "run_shown", "state.p": "p", "state.w": "w", "state.iw": "iw"}
@@ -102,6 +107,8 @@ class PrintedRun:
         What coordinates are measured from.
     seams : tuple of Seam
         Times at which formulas jump or have kinks.
+    passages : Passages, optional
+        What a run finds these times with, where they depend on parameters or lie behind its end.
     """
 
     compiled: CompiledModel
@@ -110,6 +117,7 @@ class PrintedRun:
     watched: Watched | None
     datum: Sequence[float] = ()
     seams: tuple[Seam, ...] = ()
+    passages: Passages | None = None
 
     @cached_property
     def functions(self) -> dict[str, lang.Function]:
@@ -133,6 +141,7 @@ class PrintedRun:
             ACCELERATIONS: None if rows is None else rows.accelerations.function,
             REACTIONS: None if rows is None or rows.reactions is None else rows.reactions.function,
             CHANGED: None if effects is None else effects.formulas,
+            PASSAGES: None if self.passages is None else self.passages.lines.function,
         }
 
     def emitted(self, named: Mapping[str, lang.Function]) -> dict[int, lang.Function]:
@@ -185,6 +194,14 @@ class PrintedRun:
         functions = {"reset_run": (kept_reset(*self._recipe), (None, None, visible.y.copy(), model, state))}
         return self._read(functions, self.emitted(named))
 
+    def foresight_entries(
+        self, named: Mapping[str, lang.Function]
+    ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
+        """Return ``foresee_run(is_start, t)``; see `symgen.run.rows.foreseen_run`."""
+        state, function = self._arguments[4], foreseen_run(self.watched is not None)
+        functions = {"foresee_run": (function, (None, None, self._foresight, self._seams, state))}
+        return self._read(functions, self.emitted(named))
+
     def _read(
         self, functions: Mapping[str, tuple[Any, tuple[Any, ...]]], emitted: dict[int, lang.Function]
     ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
@@ -210,7 +227,7 @@ class PrintedRun:
         watched, rows = self.watched, self._rows
         pressed = rows is not None and bool(rows.pressed)
         changes = watched is not None and watched.effects is not None
-        traits = Traits(watched is not None, changes, rows is not None, pressed, bool(self.seams))
+        traits = Traits(watched is not None, changes, rows is not None, pressed, self._has_seams)
         return readable.adaptive if self.spec.adaptive else self.integrator.loop(False), traits
 
     @property
@@ -233,6 +250,20 @@ class PrintedRun:
     def _rows(self) -> BoundedRows | None:
         return None if self.watched is None else self.watched.bounded
 
+    @property
+    def _has_seams(self) -> bool:
+        return bool(self.seams) or self.passages is not None
+
+    @cached_property
+    def _seams(self) -> Any:
+        if self.passages is not None:
+            return self.passages.seams(self.compiled, self.spec.adaptive)
+        return seams_of(self.compiled, self.spec.adaptive, (self.seams,)) if self.seams else ()
+
+    @cached_property
+    def _foresight(self) -> Any:
+        return () if self.passages is None else self.passages.foresight(self.spec, self._arguments[6].clock)
+
     @cached_property
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `advance_run` behind its first one, then `Exchange`; a step and its end are None: passed."""
@@ -250,9 +281,8 @@ class PrintedRun:
             state = event_state(watched, sizes, state)
             state = state._replace(hunt=self._hunt(watched, state.hunt))
             model = *model, watched.function, self._decide, rates[0]
-        if self.seams:
-            seams = seams_of(compiled, self.spec.adaptive, (self.seams,))
-            model = model, seams, self._loops.steps, *preparing(compiled)
+        if self._has_seams:
+            model = model, self._seams, self._loops.steps, *preparing(compiled)
         observers = sizes, *rates, compiled.law_module.accept, observe_nothing
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
         actions = () if watched is None else watched.actions
@@ -294,14 +324,25 @@ class PrintedRun:
     def _named(self) -> dict[int, tuple[str, NDArray[Any]]]:
         """Name and array by its identity; constant ones have no name."""
         named = dict[int, tuple[str, NDArray[Any]]]()
-        for name, argument in zip(_ARGUMENTS, self._arguments, strict=True):
+        for name, argument in self._all_arguments:
             for path, array in _arrays(name, argument):
-                named.setdefault(id(array), ("" if _is_constant(path) else _name_of(path), array))
+                named.setdefault(id(array), ("" if self._is_constant(path) else _name_of(path), array))
         return named
+
+    @property
+    def _all_arguments(self) -> list[tuple[str, Any]]:
+        return list(zip(_ARGUMENTS, (self._seams, *self._arguments, self._foresight), strict=True))
+
+    def _is_constant(self, path: str) -> bool:
+        """Whether an array never changes."""
+        *owners, field = path.split(".")
+        if owners == ["seams"] and self.passages is None:
+            return True
+        return not _TABLES.isdisjoint(owners) or field in _CONSTANT.get(owners[-1], ())
 
     @cached_property
     def _by_path(self) -> dict[str, str]:
-        pairs = [p for name, value in zip(_ARGUMENTS, self._arguments, strict=True) for p in _arrays(name, value)]
+        pairs = [pair for name, value in self._all_arguments for pair in _arrays(name, value)]
         return {path: self._named[id(array)][0] for path, array in pairs}
 
     def _room(self, name: str) -> str | None:
@@ -319,17 +360,11 @@ def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
             yield from _arrays(f"{name}.{field}", item)
 
 
-def _is_constant(path: str) -> bool:
-    """Whether an array never changes."""
-    *owners, field = path.split(".")
-    if owners[:3] == ["model", "0", "1"]:  # seams
-        return True
-    return not _TABLES.isdisjoint(owners) or field in _CONSTANT.get(owners[-1], ())
-
-
 def _name_of(path: str) -> str:
     """Return the name of an array in the memory."""
     owner, _, rest = path.partition(".")
     if path in _OWN:
         return _OWN[path]
+    if owner in ("seams", "foresight"):
+        return f"seam_{rest}"
     return rest.removeprefix("2.").replace(".", "_") if owner == "model" else f"{'run'}_{rest.replace('.', '_')}"

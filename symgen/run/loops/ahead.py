@@ -33,7 +33,8 @@ END, LENGTH, SAME = range(3)
 
 #: Steps ahead.
 #: - head, numbers: See above.
-#: - y, p, w, iw, clock, gauges, control: The state before, without directions; overwritten.
+#: - y, p, w, iw, clock, gauges, control: The state before, without directions; overwritten. Numbers that are computed
+#:   of parameters stand at the end of p, more or fewer than in the run with directions, which computes its own.
 #: - end: The state behind the one step, where it is compared.
 #: - places: Places in y of the states.
 #: - inputs: Places in p of the inputs; `values` has theirs, step by step; empty where inputs stay.
@@ -64,7 +65,7 @@ def put(source: Any, target: Any) -> None:
 def begin_pass(a: Any, state: Any, k: int, which: int, prepare: Any, prepare_law: Any) -> None:
     """Give a run with directions the state before step `k`, with the seeds of a pass."""
     lanes = a.head[LANES]
-    ny, np, nw = a.y.shape[0], a.p.shape[0], a.w.shape[0]
+    ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
     put(a.y, state.y)
     put(part(a.seeds, which * ny * lanes, ny * lanes), part(state.y, ny, ny * lanes))
     put(a.p, state.p)
@@ -97,7 +98,7 @@ def keep_pass(a: Any, state: Any, k: int, which: int) -> None:
 def keep_outputs(a: Any, state: Any, k: int, observe: Any) -> None:
     """Keep the derivatives of outputs at the state behind step `k`, by that state."""
     lanes, count = a.head[LANES], a.head[OUTPUTS]
-    ny, np, nw = a.y.shape[0], a.p.shape[0], a.w.shape[0]
+    ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
     y, p = part(a.still, 0, state.y.shape[0]), part(a.still, state.y.shape[0], state.p.shape[0])
     w = part(a.still, state.y.shape[0] + state.p.shape[0], state.w.shape[0])
     row = a.head[PASSES] * lanes

@@ -137,7 +137,7 @@ def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDA
     return plan, numbers
 
 
-@jit()
+@jit(unrolled=True)
 def factorise(plan: Any, numbers: Any) -> int:
     """Factorise the matrix of `assemble_matrix`.
 
@@ -202,7 +202,7 @@ def factorise(plan: Any, numbers: Any) -> int:
     return int(factorise_anew(plan, numbers))
 
 
-@jit()
+@jit(unrolled=True)
 def factorise_again(plan: Any, numbers: Any) -> bool:
     """Factorise with the pivots and the pattern of `factorise_anew`; return whether they are good enough."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
@@ -236,7 +236,7 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
     return True
 
 
-@jit()
+@jit(unrolled=True)
 def factorise_anew(plan: Any, numbers: Any) -> int:
     """Factorise with a search for pivots; return the number of skipped ones, -1 without room."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
@@ -359,7 +359,7 @@ def filled_rows(plan: Any, k: int) -> int:
     return int(top)
 
 
-@jit()
+@jit(unrolled=True)
 def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
     """Solve with the factors of `factorise`; `right` and `x` are different arrays."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from symgen.run.breaks.seams import foreseen_in_run
 from symgen.run.compiling.events import compile_events
+from symgen.run.compiling.foresight import Passages, is_laid_out
 from symgen.run.compiling.printed_run import PrintedRun
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def run_with_modes(
-    mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float]
+    mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float], foresees: bool = False
 ) -> PrintedRun | None:
     """Return a run for printers, None where no row of the mechanism has bounds.
 
@@ -28,12 +30,30 @@ def run_with_modes(
         Scheme, steps, limits and events.
     compiled, datum
         As for a `PrintedRun`.
+    foresees : bool
+        Whether the run finds jumps whose times depend on parameters, or lie behind its end, by itself.
     """
-    return whole_run(mechanism, run, compiled, datum) if mechanism.bounded else None
+    return whole_run(mechanism, run, compiled, datum, foresees) if mechanism.bounded else None
 
 
-def whole_run(mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float]) -> PrintedRun:
+def whole_run(
+    mechanism: Mechanism, run: Prepared, compiled: CompiledModel, datum: Sequence[float], foresees: bool = False
+) -> PrintedRun:
     """Return a run for printers, with its events and seams; parameters as for `run_with_modes`."""
     rtol = run.spec.rtol if run.spec.adaptive else None
     watched = compile_events(mechanism, compiled, run.plan.events, rtol)
-    return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams)
+    passages = _passages(run, compiled) if foresees else None
+    return PrintedRun(compiled, run.plan.integrator, run.spec, watched, datum, run.plan.seams, passages)
+
+
+def _passages(run: Prepared, compiled: CompiledModel) -> Passages | None:
+    """Return the passages of a run that finds their times; None where these are known before it.
+
+    Times at which inputs jump are those of the values that the run has been prepared with.
+    """
+    spec, plan = run.spec, run.plan
+    grid = 0.0, spec.step
+    foreseen = foreseen_in_run(plan.mechanism, plan.events, spec.adaptive, plan.integrator.order, grid)
+    if plan.inputs.seams or is_laid_out(foreseen, spec.until):
+        return None
+    return Passages.of(foreseen, compiled)

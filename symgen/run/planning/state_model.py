@@ -17,7 +17,7 @@ from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.topology import state_quantities
-from symgen.run.compiling.choices import choose_coordinates, on_tree
+from symgen.run.compiling.choices import choose_coordinates, on_tree, with_tree_of
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import prepare
 
@@ -61,9 +61,12 @@ class StateModel:
     def __init__(self, where: str, mechanism: Mechanism, coordinates: str, parameters: Mapping[str, float]) -> None:
         coordinates = arguments.one_of("coordinates", coordinates, COORDINATES)
         sliding = with_sliding(where, mechanism)
-        self._described = without_bounds(sliding, one_sided(sliding))
-        refuse_bounds(where, self._described)
-        self.kind = choose_coordinates(self._described, coordinates, "straight").name
+        described = without_bounds(sliding, one_sided(sliding))
+        refuse_bounds(where, described)
+        self.kind = choose_coordinates(described, coordinates, "straight").name
+        if self.kind == "joint" and described is not mechanism:  # runs have the rows that are left out here
+            described = with_tree_of(described, mechanism)
+        self._described = described
         self.mechanism = on_tree(self._described) if self.kind == "joint" else self._described
         self.coordinates, self.velocities = state_quantities(self.mechanism)
         distinct = without_repeats(self.mechanism)[0]

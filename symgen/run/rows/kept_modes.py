@@ -23,7 +23,7 @@ from symgen.run.rows.row_modes import (
     take_modes,
 )
 from symgen.run.rows.row_modes import choose_here as choose_at_state
-from symgen.run.single.bounded_rows import SIGN, first_step, is_held, stays_shut
+from symgen.run.single.bounded_rows import SIGN, first_step, is_held, put_off, stays_shut
 
 _A, _K = types.float64[::1], types.int64[::1]
 
@@ -89,6 +89,12 @@ def forget_rows(model: Any, state: Any) -> None:
     modes.transitions.count[0] = 0
 
 
+def let_rows_go(model: Any, state: Any) -> None:
+    """Take all rows out of force, and keep which gaps are closed."""
+    _, _, modes = model
+    put_off(modes.choice, state.w)
+
+
 def assume_step(model: Any, span: Any) -> None:
     """Set the step that laws assume before the first one."""
     _, _, modes = model
@@ -98,7 +104,7 @@ def assume_step(model: Any, span: Any) -> None:
 #: Meanings of names in `symgen.run.rows.kept_run` where rows have bounds, where gaps strike, and between seams.
 OF_ROWS: dict[str, Any] = {
     **{"forget": forget_rows, "begin_choice": begin_modes, "take_notes": take_modes},
-    **{"assume_step": assume_step, "choose_here": choose_and_log},
+    **{"assume_step": assume_step, "choose_here": choose_and_log, "let_go": let_rows_go},
 }
 OF_GAPS: dict[str, Any] = {"meet_impacts": strike_and_log}
 OF_ROWS_BETWEEN_SEAMS: dict[str, Any] = {

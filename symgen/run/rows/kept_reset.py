@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import compiled_loop, viewing
 from symgen.compile.native import types
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.layout.start_records import Instant
 from symgen.run.rows.kept_run import Traits, recipe_of
+from symgen.run.single.bounded_rows import open_rows
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
 
@@ -33,11 +33,9 @@ def leave_alone(further: Any, w: Any) -> None:
     """Do nothing: a run without rows with bounds has no modes."""
 
 
-def open_rows(further: Any, w: Any) -> None:
-    """Take all rows with bounds out of force."""
-    c = further.choice
-    for i in range(MODE_NUMBERS * c.count):
-        w[c.first + i] = 0.0
+def open_chosen(further: Any, w: Any) -> None:
+    """Take the rows with bounds of a run out of force."""
+    open_rows(further.choice, w)
 
 
 def reset_run(event: int, t: float, y: Any, model: Any, state: Any) -> int:
@@ -65,7 +63,7 @@ def reset_run(event: int, t: float, y: Any, model: Any, state: Any) -> int:
     return 0 if code == APPLIED else 1
 
 
-_MODED = {"effects_alone": effects_beside_modes, "leave_alone": open_rows}
+_MODED = {"effects_alone": effects_beside_modes, "leave_alone": open_chosen}
 _loops: dict[Any, Any] = {}
 
 

@@ -67,15 +67,18 @@ def read_step(system: Any, scheme: Any, state: Any, outputs: Any) -> int:
     return 0
 
 
-def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs: Any) -> None:
-    """Have the run go on from what is shown, where the caller has changed it, or the run stands behind a time [s]."""
-    control, clock, ny, same = state.control, state.clock, visible.y.shape[0], True
+def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs: Any) -> int:
+    """Have the run go on from what is shown, where the caller has changed it, or the run stands behind a time [s].
+
+    Returns 1 where the caller has changed the state, else 0.
+    """
+    control, clock, ny, kept = state.control, state.clock, visible.y.shape[0], True
     for i in range(ny):
-        same = same and visible.y[i] == outputs.states[i]
-    same = same and visible.clock[SHOWN_TIME] == outputs.times[0]
+        kept = kept and visible.y[i] == outputs.states[i]
+    same = kept and visible.clock[SHOWN_TIME] == outputs.times[0]
     same = same and until >= (outputs.times[0] if ADAPTIVE else clock[abi.TIME])
     if control[abi.BEGUN] != 0 and same and visible.numbers[CHANGED] == 0:
-        return
+        return 0
     if ADAPTIVE:
         forget_step(state.y.shape[0], scheme, state.memory)
     for i in range(ny):
@@ -87,6 +90,11 @@ def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs
         control[abi.INDEX] = 0
     visible.numbers[STANDS], visible.numbers[CHANGED] = 0, 1
     control[abi.BEGUN] = abi.AFRESH if control[abi.BEGUN] != 0 else 0
+    return 0 if kept or control[abi.BEGUN] == 0 else 1
+
+
+def let_go(model: Any, state: Any) -> None:
+    """Do nothing: a run without rows with bounds has none in force."""
 
 
 # -- seams -------------------------------------------------------------------------------------------------------------
@@ -247,7 +255,8 @@ def advance_run(
     endless = steps_until(span, behind if through != 0 else until, math.inf, duration)
     if control[abi.BEGUN] == 0:
         assume_step(model, endless)
-    return_to_shown(until, scheme, visible, state, outputs)
+    if return_to_shown(until, scheme, visible, state, outputs) == 1:
+        let_go(model, state)  # what rests need not rest in another state
     outputs.times[0], control[abi.OUTPUTS], numbers[ENDING] = until, 0, -1
     code = abi.DONE
     if not ADAPTIVE or read_step(system_of_steps(model[0]), scheme, state, outputs) == 0:

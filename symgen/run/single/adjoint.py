@@ -72,19 +72,17 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
     windings : int
         Number of angles that count turns.
     """
-    from symgen.run.loops.schemes.adjoint import ANGLES, CORRECTION, HEAD, RATES
+    from symgen.run.loops.schemes.adjoint import CORRECTION, RATES
 
     method = f"the method {law}"
     own, other = _accesses(rhs, abi.RHS), _accesses(accept, abi.ACCEPT)
     _compile(_adjoint(rhs), RATES, f"accelerations of {method}")
-    angles = {("w", abi.WINDING + i) for i in range(min(windings, HEAD - ANGLES))}
+    angles = {("w", abi.WINDING + i) for i in range(windings)}
     passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
     read = own.read
     if _corrects(accept):
         _compile(_adjoint(accept, 0), CORRECTION, f"corrections of {method}")
         read |= _correction_accesses(accept).read
-    if read & passing and windings > HEAD - ANGLES:
-        raise refusal(f"at most {HEAD - ANGLES} angles that count turns", f"{windings}")
     if read & passing or ("w", -1) in own.read | own.stored:
         raise refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
 
@@ -172,7 +170,7 @@ class WayBack:
     """
 
     def __init__(self, run: KeptRun, end: Array, seeds: Seeds) -> None:
-        from symgen.run.loops.schemes.adjoint import ANGLES, HEAD, transposed
+        from symgen.run.loops.schemes.adjoint import transposed
 
         self.run, self.seeds, state = run, seeds, run.state
         law, width, sizes = run.compiled.law_module, run.sizes.width, (len(state.p), len(state.w))
@@ -183,7 +181,7 @@ class WayBack:
         self._room = np.zeros((int(run.scheme.stages) + 4) * width)
         self._now = state.p.copy(), state.w.copy(), state.iw.copy()
         self._rates, self._table = _adjoint(for_derivatives(law, "rhs")), transposed(run.scheme)
-        self._angles = min(run.compiled.info.windings, HEAD - ANGLES)
+        self._angles = run.compiled.info.windings
         self._corrections = self._corrected() if _corrects(law.accept) else None
         self._found = np.zeros(seeds.count)
 

@@ -175,6 +175,13 @@ def stays_shut(c: Any, w: Any, i: int) -> bool:
     return bool(is_held(c, w, i) or c.shut[i] != 0)
 
 
+@exact()
+def open_rows(c: Any, w: Any) -> None:
+    """Take all rows out of force."""
+    for i in range(MODE_NUMBERS * c.count):
+        w[c.first + i] = 0.0
+
+
 @exact(_N(CHOICE, _A))
 def put_off(c: Any, w: Any) -> int:
     """Take all rows out of force before a reset or an impact, and keep which gaps are closed; return their number."""
@@ -182,8 +189,7 @@ def put_off(c: Any, w: Any) -> int:
     for i in range(c.count):
         c.shut[i] = 1 if c.pushes[i] != 0 and stays_shut(c, w, i) else 0
         closed += c.shut[i]
-    for i in range(MODE_NUMBERS * c.count):
-        w[c.first + i] = 0.0
+    open_rows(c, w)
     return int(closed)
 
 

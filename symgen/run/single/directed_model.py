@@ -124,8 +124,8 @@ class DirectedModel:
     def longer(self, array: Array, name: str, directions: Array | None = None) -> Array:
         """Return an array with room for its directions, zeros if not given, shape (n, L)."""
         size = self.sizes[name]
-        room = np.zeros(size * (1 + self.lanes))
-        room[:size] = array[:size]
+        room, own = np.zeros(size * (1 + self.lanes)), array[:size]
+        room[: len(own)] = own
         if directions is not None:
             room[size:] = directions.ravel()
         return room

@@ -88,11 +88,12 @@ class KeptRun(PassingSimulation):
     def __init__(
         self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec, pages: list[Array]
     ) -> None:
-        from symgen.run.loops.schemes.adjoint import HEAD, record_size
+        from symgen.run.loops.schemes.adjoint import HEAD, TURNING, record_size
 
         super().__init__(compiled, Recorder(integrator), start, spec)
-        self._head = self.setup.memory - HEAD
-        self.size = record_size(self.sizes.width, int(self.scheme.stages))
+        self._head, angles = self.setup.memory - HEAD, compiled.info.windings
+        self.size = record_size(self.sizes.width, int(self.scheme.stages), angles)
+        self.state.memory[self._head + TURNING] = angles
         self._capacity = _PIECE // self.size
         self.first, self.corrected, self.bytes_kept = np.zeros(0), 0, 0
         self.course = list[Array | RunPassage]()
@@ -160,13 +161,12 @@ class KeptRun(PassingSimulation):
 
     def _here(self, corrections: float = 0.0) -> Array:
         """Return the record of the present state."""
-        from symgen.run.loops.schemes.adjoint import ANGLES, CORRECTIONS, HEAD, TIME
+        from symgen.run.loops.schemes.adjoint import ANGLES, CORRECTIONS, TIME, state_at
 
-        record = np.zeros(self.size)
+        record, angles = np.zeros(self.size), self.compiled.info.windings
         record[TIME], record[CORRECTIONS] = self.state.clock[abi.TIME], corrections
-        record[HEAD : HEAD + self.sizes.width] = self.state.y
-        own = self.state.w[abi.WINDING :][: HEAD - ANGLES]
-        record[ANGLES : ANGLES + len(own)] = own
+        record[state_at(angles) :][: self.sizes.width] = self.state.y
+        record[ANGLES : ANGLES + angles] = self.state.w[abi.WINDING : abi.WINDING + angles]
         return record
 
     def _moved(self) -> bool:

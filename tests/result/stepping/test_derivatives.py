@@ -7,6 +7,7 @@ import pytest
 
 from symgen.api import Model, load
 from symgen.base.errors import InputError
+from symgen.base.ir.program import BY_RESIDUAL
 from symgen.describe.files.builder import MechanismBuilder
 from symgen.run.layout import abi
 
@@ -232,6 +233,16 @@ def test_an_adaptive_run_has_derivatives_of_its_steps():
     assert saved.t == found.t == pytest.approx(0.1)
     run.step(0.1)
     assert np.abs(np.array(run.state) - end - 1e-6 * found.A[:, 2]).max() < 1e-10
+
+
+@pytest.mark.parametrize("make", [load_four_bar, cart])
+def test_derivatives_of_explicit_steps_leave_the_factorisation_undifferentiated(make):
+    # a cart computes other numbers of its parameters in that code: they stand behind those of the run
+    run = make().start(coordinates="joint", integrator="rk4", step=1e-2)
+    run.step(1e-2)
+    run.derivatives()
+    assert hasattr(run._directions._model.plain.law_module, BY_RESIDUAL)
+    assert not hasattr(run._prepared.compiled.law_module, BY_RESIDUAL)
 
 
 def test_a_linear_prediction_of_a_control_holds():

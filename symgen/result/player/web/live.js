@@ -38,6 +38,7 @@ function makeLive(spec, code) {
     if (!y || !modes) return y;
     told = 0;
     code.start_run(memory);
+    if (code.foresee_run) code.foresee_run(memory, 1, 0);
     const failed = code.advance_run(memory, 0, spec.step, 0) === 2;
     stand();
     return failed ? null : memory.y.slice();
@@ -88,7 +89,12 @@ function makeLive(spec, code) {
     iw.set(own.iw);
     memory.y.set(y.subarray(0, ny));
     run_shown[0] = Math.abs(t - run_times[0]) < 1e-9 * h ? run_times[0] : t;
-    result = code.advance_run(memory, 1, spec.step, t + h);
+    result = 0;
+    while (code.foresee_run && result === 0 && t + h > memory.seam_known[0]) { // formulas jump at times known up to there
+      result = code.advance_run(memory, 0, spec.step, memory.seam_known[0]);
+      if (result === 0 && !code.foresee_run(memory, 0, run_shown[0])) break;
+    }
+    if (result === 0) result = code.advance_run(memory, 1, spec.step, t + h);
     stand();
     y.set(memory.y);
     return result === 0;

@@ -24,10 +24,12 @@ from symgen.run.loops.schemes.explicit import attempt_constant as constant_step
 from symgen.run.loops.schemes.explicit import prepare as begin_scheme
 from symgen.run.loops.schemes.explicit import renew as set_first_stage
 
-#: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept.
-RECORDS, ROUNDS, KEPT_STEPS = 0, 1, 2
-#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; then the state.
-TIME, STEP, CORRECTIONS, ANGLES, HEAD = 0, 1, 2, 3, 8
+#: Positions in the head of the memory: number of records, rounds of corrections before a step, steps that are kept,
+#: number of angles that count turns; then its length.
+RECORDS, ROUNDS, KEPT_STEPS, TURNING, HEAD = 0, 1, 2, 3, 8
+#: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state stands behind a
+#: multiple of so many numbers, which vectors are.
+TIME, STEP, CORRECTIONS, ANGLES, _ALIGNED = 0, 1, 2, 3, 8
 _F, _I = types.float64, types.int64
 _A, _K = types.float64[::1], types.int64[::1]
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
@@ -78,22 +80,28 @@ def transposed(scheme: Any) -> Transposed:
     return Transposed(np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value))
 
 
-def record_size(width: int, stages: int) -> int:
-    """Return the length of the record of a step."""
-    return HEAD + (1 + stages) * width
+def state_at(angles: int) -> int:
+    """Return the place of the state in a record with some angles that count turns."""
+    return _ALIGNED * ((ANGLES + angles + _ALIGNED - 1) // _ALIGNED)
+
+
+def record_size(width: int, stages: int, angles: int) -> int:
+    """Return the length of the record of a step with some angles that count turns."""
+    return state_at(angles) + (1 + stages) * width
 
 
 def keep_forward(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any) -> None:
     """Keep an accepted step."""
-    width, count = system.sizes.width, int(run.memory[memory + RECORDS])
-    size = HEAD + (1 + scheme.stages) * width
+    width, count, angles = system.sizes.width, int(run.memory[memory + RECORDS]), int(run.memory[memory + TURNING])
+    head = state_at(angles)
+    size = head + (1 + scheme.stages) * width
     record = part(run.memory, memory + HEAD + count * size, size)
     record[TIME], record[STEP] = t, run.clock[abi.STEP]
     record[CORRECTIONS] = run.iw[abi.ITERATIONS] - run.memory[memory + ROUNDS]
-    for i in range(min(HEAD - ANGLES, run.w.shape[0] - abi.WINDING)):
+    for i in range(angles):
         record[ANGLES + i] = run.w[abi.WINDING + i]
-    copied(width, run.y, part(record, HEAD, width))
-    copied(scheme.stages * width, stages, part(record, HEAD + width, scheme.stages * width))
+    copied(width, run.y, part(record, head, width))
+    copied(scheme.stages * width, stages, part(record, head + width, scheme.stages * width))
     run.memory[memory + RECORDS] = count + 1.0
     run.memory[memory + KEPT_STEPS] = run.control[abi.STEPS]
 
@@ -212,7 +220,8 @@ def backward(
         bare(room),
     )
     stages, start, column, value = scheme.stages, scheme.start, scheme.column, scheme.value
-    size = HEAD + (1 + stages) * width
+    head = state_at(angles)
+    size = head + (1 + stages) * width
     y_bar, p_bar = part(bars, 0, width), part(bars, width, p.shape[0])
     w_bar = part(bars, width + p.shape[0], w.shape[0])
     trial, rate, rate_bar = part(room, 0, width), part(room, width, width), part(room, 2 * width, width)
@@ -221,8 +230,8 @@ def backward(
     for back in range(count):
         k = count - back
         h, t = records[k * size + STEP], records[(k - 1) * size + TIME]
-        before = part(records, (k - 1) * size + HEAD, width)
-        ks = part(records, k * size + HEAD + width, stages * width)
+        before = part(records, (k - 1) * size + head, width)
+        ks = part(records, k * size + head + width, stages * width)
         w[abi.STEP_STATUS] = h
         for i in range(angles):
             w[abi.WINDING + i] = records[(k - 1) * size + ANGLES + i]

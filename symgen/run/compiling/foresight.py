@@ -1,0 +1,158 @@
+"""What a run needs to find the jumps and kinks of formulas in time by itself, for printers of other languages.
+
+Arguments that are straight lines over time are compiled as their values at 0 and slopes, which depend on parameters.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in
+from symgen.describe.parts.inputs import Jump
+from symgen.run.breaks.in_time import line_of
+from symgen.run.breaks.seams import BESIDE as BESIDE_A_SIDE
+from symgen.run.breaks.seams import NEXT_TO, SAME, Foreseen
+from symgen.run.compiling.side import Side, compile_side
+from symgen.run.loops.seams import Seams
+from symgen.run.rows.foreseen_run import BESIDE, KINK, SKIP, STRIKE, Foresight
+from symgen.run.rows.kept_run import END_TIME
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.loops.run_spec import RunSpec
+
+#: Room for the passages of a window: where formulas pass levels again and again, and at most.
+_ROOM, _MOST_ROOM = 64, 256
+#: Seams of a passage at most; and those at the begin and at the end of a window.
+_OF_PASSAGE, _OF_WINDOW = 3, 2
+
+
+def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
+    """Return the formulas of the value at 0 and of the slope of a straight line over time; None for another formula."""
+    if isinstance(e, Name) and e.name == "t":
+        return ZERO, ONE
+    if "t" not in set(names_in(e)):
+        return e, ZERO
+    assert isinstance(e, Call), "a name or a number has no other names in it"
+    parts = [line_parts(a) for a in e.arguments]
+    if any(part is None for part in parts) or e.function not in ("add", "sub", "neg", "mul", "div"):
+        return None
+    (a, m), *others = [part for part in parts if part is not None]
+    if e.function == "neg":
+        return call("neg", a), call("neg", m)
+    ((b, n),) = others
+    if e.function in ("add", "sub"):
+        return _sum(e.function, a, b), _sum(e.function, m, n)
+    if e.function == "div":
+        return (call("div", a, b), call("div", m, b)) if n == ZERO else None
+    if ZERO not in (m, n):
+        return None
+    return call("mul", a, b), call("mul", a, n) if m == ZERO else call("mul", m, b)
+
+
+def _sum(function: str, a: Expr, b: Expr) -> Expr:
+    if b == ZERO:
+        return a
+    return call(function, a, b) if a != ZERO else b if function == "add" else call("neg", b)
+
+
+@dataclass(frozen=True)
+class Passages:
+    """Foreseen passages of formulas, for runs that find their times.
+
+    Attributes
+    ----------
+    lines : Side
+        Values of their formulas.
+    jumps : sequence of (Jump, int)
+        Each with what its passages are, see `symgen.run.rows.foreseen_run`.
+    step : float
+        Distance of the grid of constant steps [s], 0 without.
+    shortest : float
+        Largest distance of samples [s].
+    """
+
+    lines: Side
+    jumps: Sequence[tuple[Jump, int]]
+    step: float
+    shortest: float
+
+    @classmethod
+    def of(cls, foreseen: Foreseen, compiled: CompiledModel) -> Passages:
+        """Return the passages of a run."""
+        mechanism, jumps = foreseen.mechanism, tuple(_kinds(foreseen))
+        formulas = [
+            (f"{name} {i}", e)
+            for i, (jump, _) in enumerate(jumps)
+            for name, e in zip(("value", "slope"), line_parts(jump.argument) or (jump.argument,), strict=False)
+        ]
+        lines = compile_side(mechanism, compiled, "passages", "Formulas that pass levels in time", formulas)
+        step = 0.0 if foreseen.grid is None else foreseen.grid[1]
+        return cls(lines, jumps, step, mechanism.defaults.max_step or math.inf)
+
+    @property
+    def room(self) -> int:
+        """Number of passages that a window has room for."""
+        endless = any(jump.period or line_parts(jump.argument) is None for jump, _ in self.jumps)
+        return min(sum(len(jump.levels) for jump, _ in self.jumps) + (_ROOM if endless else 1), _MOST_ROOM)
+
+    def foresight(self, spec: RunSpec, shown: Any) -> Any:
+        """Return these as `Foresight`, for a run that shows an array of times."""
+        straight = [line_parts(jump.argument) is not None for jump, _ in self.jumps]
+        widths = [1 + is_straight for is_straight in straight]
+        levels = [sorted(jump.levels) for jump, _ in self.jumps]
+        integers = (
+            np.cumsum([0, *widths])[:-1],
+            np.array(straight, dtype=np.int64),
+            np.array([kind for _, kind in self.jumps], dtype=np.int64),
+            np.cumsum([0, *map(len, levels)]),
+        )
+        ends = END_TIME if spec.adaptive else -1
+        return Foresight(
+            *(self.lines.function, float(spec.until), self.shortest, self.step, SAME, BESIDE_A_SIDE, NEXT_TO, ends),
+            *integers,
+            np.array([x for each in levels for x in each]),
+            np.array([jump.period for jump, _ in self.jumps]),
+            *(np.zeros(sum(widths)), shown, np.zeros(2), np.zeros(self.room)),
+            *(np.zeros(self.room, dtype=np.int64), np.zeros(2, dtype=np.int64)),
+        )
+
+    def seams(self, compiled: CompiledModel, adaptive: bool) -> Any:
+        """Return room for the seams of a window as `Seams`."""
+        most = _OF_PASSAGE * self.room + _OF_WINDOW
+        return Seams(
+            head=np.array([0, int(adaptive), int(bool(compiled.info.bounded))]),
+            rows=np.zeros(2, dtype=np.int64),
+            times=np.zeros(most),
+            skips=np.zeros(most, dtype=np.int64),
+            changes=np.zeros(most + 1, dtype=np.int64),
+            places=np.zeros(0, dtype=np.int64),
+            values=np.zeros(0),
+        )
+
+
+def _kinds(foreseen: Foreseen) -> Iterator[tuple[Jump, int]]:
+    """Yield jumps with what runs do where they pass levels, as `Foreseen` has it."""
+    skips = foreseen.grid is not None
+    yield from ((jump, KINK + SKIP if skips else KINK) for jump in foreseen.kinks)
+    yield from ((jump, SKIP if skips or foreseen.mechanism.bounded else BESIDE) for jump in foreseen.sides)
+    yield from ((jump, SKIP + STRIKE) for jump in foreseen.gaps)
+
+
+def is_laid_out(foreseen: Foreseen, until: float) -> bool:
+    """Return whether the times of all passages are known before a run to `until`, whatever its parameters are."""
+    return not any(
+        {*names_in(jump.argument)} != {"t"} or jump.period or not _ends_before(jump, until)
+        for jump in (*foreseen.kinks, *foreseen.sides, *foreseen.gaps)
+    )
+
+
+def _ends_before(jump: Jump, until: float) -> bool:
+    """Return whether a straight line passes all its levels before a time."""
+    line = line_of(jump, {})
+    return line is not None and all((x - line[0]) / line[1] < until for x in jump.levels if line[1])
