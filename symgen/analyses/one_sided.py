@@ -20,6 +20,7 @@ from symgen.describe.joints.rows import tied
 from symgen.describe.mechanism import Joint
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout import abi
+from symgen.run.layout.scales import LEAST_SPEED
 from symgen.run.single.bounded_rows import STILL, TOUCHING
 
 if TYPE_CHECKING:
@@ -61,7 +62,9 @@ def in_force(
     closed = list[BoundedRow]()
     gaps, rates = side(start.t, start.y, start.p, w.copy(), np.zeros_like(start.y)).reshape(2, -1)
     for row, gap, rate in zip(bounded, gaps, rates, strict=True):
-        nothing, still = TOUCHING * _scale(row, w, abi.LENGTH), STILL * _scale(row, w, abi.SPEED)
+        size = _scale(row, w, abi.LENGTH)
+        # a state at rest has speeds of rounding alone, which are no scale
+        nothing, still = TOUCHING * size, STILL * max(_scale(row, w, abi.SPEED), LEAST_SPEED * size)
         if not gap >= -nothing:
             raise InputError(row.where, "a gap of at least 0", f"{gap:.6g}", f"a start within all {row.family.noun}")
         if gap <= nothing and rate < -still:

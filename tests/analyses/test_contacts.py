@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 
 import symgen
+from benchmarks.bounded.machines import FOLDER
+from symgen.analyses.subject import subject_of
+from symgen.base.settings import Settings
 
 G = 9.81
 
@@ -91,3 +94,13 @@ def test_a_closed_stop_bears_what_it_can(tmp_path, pull, least):
     assert found.missing.max() < 1e-8
     (note,) = [note for note in found.notes if "rail.upper" in note]
     assert note == f"rail.upper is closed at {closed.sum()} times: efforts are the least with what it can bear"
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_machine_at_rest_on_its_stop_has_no_impact(coordinates):
+    """Speeds of rounding are no scale of speeds, at whichever moment of the rest a run ended."""
+    bucket = symgen.load(FOLDER / "bucket.toml")
+    for until in np.linspace(0.06, 0.2, 15):
+        run = bucket.simulate(until=until, coordinates=coordinates)
+        subject = subject_of(bucket.mechanism, Settings(start=run, coordinates=coordinates))
+        assert [row.name for row in subject.shut] == ["cylinder.lower"]

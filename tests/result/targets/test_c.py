@@ -291,7 +291,7 @@ def test_bytes_do_not_depend_on_the_process(name, tmp_path):
 
 def test_the_loop_of_the_guide_compiles(tmp_path):
     guide = (Path(__file__).parents[3] / "docs" / "howto" / "c-and-fmu.md").read_text(encoding="utf-8")
-    loop = guide.split("```c\n")[1].split("```")[0]
+    (loop,) = [block.split("```")[0] for block in guide.split("```c\n") if block.startswith('#include "cart_pole.h"')]
     folder = written(load("cart-pole").mechanism, tmp_path)
     (folder / "main.c").write_text(loop + "int main(void) { setup(); for (int i = 0; i < 10; i++) loop(); }")
     assert compiled(folder, "-DCART_POLE_SINGLE", "-fsingle-precision-constant").exists()
