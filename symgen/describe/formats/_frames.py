@@ -49,11 +49,6 @@ def scalar_product(x: Vector, y: Vector) -> float:
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
 
 
-def vector_product(x: Vector, y: Vector) -> Vector:
-    """Return the vector product."""
-    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
-
-
 def unit(x: Vector) -> Vector:
     """Return the direction of a vector, which must not be zero."""
     return scaled(1.0 / math.sqrt(scalar_product(x, x)), x)

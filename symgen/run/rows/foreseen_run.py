@@ -93,7 +93,7 @@ def levels_below(f: Any, j: int, x: float) -> int:
 
 
 @called
-def level(f: Any, j: int, number: int) -> float:
+def level_at(f: Any, j: int, number: int) -> float:
     """Return the level of formula j with a number."""
     begin, count, period = f.first[j], f.first[j + 1] - f.first[j], f.periods[j]
     if period > 0.0:
@@ -107,7 +107,7 @@ def level(f: Any, j: int, number: int) -> float:
 
 
 @called
-def note(f: Any, t: float, kind: int) -> None:
+def note_instant(f: Any, t: float, kind: int) -> None:
     """Note a passage; those at the same time are one. Where there is no room, the last one is dropped.
 
     At the start of a run of constant steps sides and gaps count; no step could end there for others.
@@ -155,13 +155,13 @@ def note_line(f: Any, j: int, start: float, end: float) -> None:
     if high - low > _PASSAGES:
         return
     for number in range(low, high):
-        t = (level(f, j, number) - value) / slope
+        t = (level_at(f, j, number) - value) / slope
         if start <= t <= end:
-            note(f, t, kind)
+            note_instant(f, t, kind)
 
 
 @called
-def value_at(f: Any, state: Any, j: int, t: float) -> float:
+def formula_at(f: Any, state: Any, j: int, t: float) -> float:
     """Return the value of formula j at a time."""
     f.lines(t, state.y, state.p, state.w, state.y, f.out)
     return float(f.out[f.slots[j]])
@@ -170,11 +170,11 @@ def value_at(f: Any, state: Any, j: int, t: float) -> float:
 @called
 def passed_at(f: Any, state: Any, j: int, number: int, low: float, high: float) -> float:
     """Return the first time, to rounding, at which formula j is on the side of a level on which it is at `high`."""
-    at = level(f, j, number)
-    above = 1 if value_at(f, state, j, high) > at else 0
+    at = level_at(f, j, number)
+    above = 1 if formula_at(f, state, j, high) > at else 0
     rounding, middle = _ROUNDING * abs(high), 0.5 * (low + high)
     while high - low > rounding and low < middle < high:
-        if (1 if value_at(f, state, j, middle) > at else 0) == above:
+        if (1 if formula_at(f, state, j, middle) > at else 0) == above:
             high = middle
         else:
             low = middle
@@ -188,7 +188,7 @@ def pass_levels(f: Any, state: Any, j: int, notes: int, a: float, b: float, belo
     low, high = min(below, above), max(below, above)
     if notes != 0:
         for number in range(low, high):
-            note(f, passed_at(f, state, j, number, a, b), f.kinds[j])
+            note_instant(f, passed_at(f, state, j, number, a, b), f.kinds[j])
     return int(high - low)
 
 
@@ -197,7 +197,7 @@ def turned_at(f: Any, state: Any, j: int, sign: float, low: float, high: float) 
     """Return the time at which formula j times a sign is least, by golden sections."""
     for _ in range(60):
         a, b = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
-        if sign * value_at(f, state, j, a) < sign * value_at(f, state, j, b):
+        if sign * formula_at(f, state, j, a) < sign * formula_at(f, state, j, b):
             high = b
         else:
             low = a
@@ -209,19 +209,19 @@ def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, not
     """Return the number of passages of formula j between samples, `count` of them; note them where `notes` is 1."""
     found = 0
     ta = tb = start
-    xa = xb = value_at(f, state, j, start)
+    xa = xb = formula_at(f, state, j, start)
     below = levels_below(f, j, xb)
     for k in range(1, count + 1):
         # not in equal parts, to detect changes faster than the sampling at any frequency
         part = k * _SPREAD - math.floor(k * _SPREAD)
         tc = end if k == count else start + (end - start) * ((k - 0.5 + 0.9 * (part - 0.5)) / count)
-        xc = value_at(f, state, j, tc)
+        xc = formula_at(f, state, j, tc)
         above = levels_below(f, j, xc)
         found += pass_levels(f, state, j, notes, tb, tc, below, above)
         top = xb >= xa and xb >= xc and (xb > xa or xb > xc)
         if top or (xb <= xa and xb <= xc and (xb < xa or xb < xc)):
             tm = turned_at(f, state, j, -1.0 if top else 1.0, ta, tc)
-            beyond = levels_below(f, j, value_at(f, state, j, tm))
+            beyond = levels_below(f, j, formula_at(f, state, j, tm))
             if (beyond - below) * (1 if top else -1) > 0:
                 found += pass_levels(f, state, j, notes, ta, tm, below, beyond)
                 found += pass_levels(f, state, j, notes, tm, tc, beyond, below)
@@ -230,7 +230,7 @@ def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, not
 
 
 @called
-def search(f: Any, state: Any, j: int, start: float, end: float) -> None:
+def search_curve(f: Any, state: Any, j: int, start: float, end: float) -> None:
     """Note the passages of a formula that is no straight line; where they are too many, none is noted."""
     before, count, most = -1, _FIRST, min((end - start) / f.shortest, 0.5 * _MOST)
     while count < most:
@@ -317,7 +317,7 @@ def foresee_run(is_start: int, t: float, foresight: Any, seams: Any, state: Any)
             f.lines(0.0, state.y, state.p, state.w, state.y, f.out)
             note_line(f, j, start, end)
         else:
-            search(f, state, j, start, end)
+            search_curve(f, state, j, start, end)
     if f.found[DROPPED] != 0:
         n = f.found[COUNT] - 1
         f.found[COUNT], end = n, 0.5 * (f.moments[n - 1] + f.moments[n])

@@ -129,7 +129,7 @@ def compute_slopes(
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def extrapolate(
+def extrapolated(
     function: Any,
     index: Any,
     m: int,

@@ -26,7 +26,7 @@ from symgen.base.errors import SimulationError
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
 from symgen.study.references.differences import difference_steps
-from symgen.study.references.extrapolation import compute_rate, compute_slopes, extrapolate
+from symgen.study.references.extrapolation import compute_rate, compute_slopes, extrapolated
 from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.numba_code import machine_code
 from symgen.study.references.reference import Reference
@@ -148,7 +148,7 @@ class CompiledEquations(IndependentEquations):
             If the step collapses or the budget is used up.
         """
         y = y.copy()
-        code = _for_all(extrapolate, _EXTRAPOLATE)(
+        code = _for_all(extrapolated, _EXTRAPOLATE)(
             *(self._address, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
             *(self.budget, used),
         )
