@@ -33,6 +33,7 @@ LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
 
 @pytest.mark.fast(
     "False-explicit-constant",
+    "False-picard-constant",
     "False-lie-constant",
     "False-half_explicit-constant",
     "False-rattle-constant",
