@@ -171,13 +171,13 @@ def test_many_angles_that_count_turns(tmp_path):
     wound, t, factor = symgen.load(tmp_path / "wound.toml"), 1.5, np.arange(1.0, 8.0) @ speeds
     most = 0.0
     for k in np.linspace(0.05, 2.0, 300):
-        found = wound.gradient(
+        gradient = wound.gradient(
             wound_up, by=("k",), way="adjoint", until=t, integrator="dop853", rtol=1e-11, parameters={"k": k}
         )
         rate = np.sqrt(k / 0.1)
         slope = (t * np.cos(rate * t) - np.sin(rate * t) / rate) / rate / (2.0 * rate * 0.1)
-        assert found.value == pytest.approx(factor * np.sin(rate * t) / rate, abs=1e-7)
-        assert found.by["k"] == pytest.approx(factor * slope, abs=1e-6)
+        assert gradient.value == pytest.approx(factor * np.sin(rate * t) / rate, abs=1e-7)
+        assert gradient.by["k"] == pytest.approx(factor * slope, abs=1e-6)
         most = max(most, speeds.max() / rate)
     assert most > 2.0 * np.pi
 

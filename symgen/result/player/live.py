@@ -119,15 +119,15 @@ def live_part(
         described = False
     else:
         described = not joint and is_described(mechanism)
-    kept = None
+    whole = None
     if run is not None:
-        kept = run_with_modes(acting or mechanism, run, compiled, start.datum or (), foresees=True)
+        whole = run_with_modes(acting or mechanism, run, compiled, start.datum or (), foresees=True)
     try:
         script = _script(mechanism, described)
         code, size = _code(
             acting or mechanism,
             compiled,
-            kept,
+            whole,
             exported_start(mechanism, compiled, start.datum, None if described else turns),
         )
     except NotInLines:
@@ -138,8 +138,8 @@ def live_part(
         return None, f"{NONE}: {size} characters are more than the {MOST[spatial]} that a page may have"
     constants = {*still, *dict(mechanism.input_formulas)}
     spec = _spec(mechanism, compiled, start, step, joint, constants)
-    if kept is not None:
-        spec["modes"] = modes_data(acting or mechanism, kept)
+    if whole is not None:
+        spec["modes"] = modes_data(acting or mechanism, whole)
     return Live(f"{HELPERS}{code}\n{script}", spec), ""
 
 

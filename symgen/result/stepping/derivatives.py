@@ -218,15 +218,15 @@ class StepDirections:
         loop = self._loop
         if loop.spec.adaptive:
             self._directed.rescale(self._before)
-        code = self._one.made(loop.span, until) if first is None else self._made_from(first, until)
+        code = self._one.made(loop.span, until) if first is None else self._piece_from(first, until)
         if code != _DONE:
             raise InputError(WHERE, "a step that is the same once more", "another one")
         (a, b, c), (_, left_out, taken) = self._results, self.outputs
         own_c = c.copy() if taken and not left_out else c[taken] if taken else c  # what is empty never changes
         return a.copy(), b.copy() if self.inputs else b, own_c
 
-    def _made_from(self, first: Array, until: float) -> int:
-        """Make the last piece from a first copy; return the code of its end."""
+    def _piece_from(self, first: Array, until: float) -> int:
+        """Make the last piece of the step from a first copy; return the code of its end."""
         copy = self._loop.snapshot.copy
         latest, copy[:] = copy.copy(), first
         code = self._one.made(self._loop.span, until)

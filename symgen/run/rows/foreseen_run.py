@@ -134,7 +134,7 @@ def note_instant(f: Any, t: float, kind: int) -> None:
 
 
 def joined(flags: int, kind: int) -> int:
-    """Return what a passage is that is also of another kind."""
+    """Return the kinds of two passages at the same time, each of them once."""
     result = 0
     for flag in (KINK, BESIDE, SKIP, STRIKE):
         if (flags // flag) % 2 == 1 or (kind // flag) % 2 == 1:
@@ -207,7 +207,7 @@ def turned_at(f: Any, state: Any, j: int, sign: float, low: float, high: float) 
 @called
 def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, notes: int) -> int:
     """Return the number of passages of formula j between samples, `count` of them; note them where `notes` is 1."""
-    found = 0
+    passages = 0
     ta = tb = start
     xa = xb = formula_at(f, state, j, start)
     below = levels_below(f, j, xb)
@@ -217,16 +217,16 @@ def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, not
         tc = end if k == count else start + (end - start) * ((k - 0.5 + 0.9 * (part - 0.5)) / count)
         xc = formula_at(f, state, j, tc)
         above = levels_below(f, j, xc)
-        found += pass_levels(f, state, j, notes, tb, tc, below, above)
+        passages += pass_levels(f, state, j, notes, tb, tc, below, above)
         top = xb >= xa and xb >= xc and (xb > xa or xb > xc)
         if top or (xb <= xa and xb <= xc and (xb < xa or xb < xc)):
             tm = turned_at(f, state, j, -1.0 if top else 1.0, ta, tc)
             beyond = levels_below(f, j, formula_at(f, state, j, tm))
             if (beyond - below) * (1 if top else -1) > 0:
-                found += pass_levels(f, state, j, notes, ta, tm, below, beyond)
-                found += pass_levels(f, state, j, notes, tm, tc, beyond, below)
+                passages += pass_levels(f, state, j, notes, ta, tm, below, beyond)
+                passages += pass_levels(f, state, j, notes, tm, tc, beyond, below)
         ta, tb, xa, xb, below = tb, tc, xb, xc, above
-    return int(found)
+    return int(passages)
 
 
 @called
@@ -236,12 +236,12 @@ def search_curve(f: Any, state: Any, j: int, start: float, end: float) -> None:
     while count < most:
         count *= 2
     while count <= _MOST:
-        found = sample(f, state, j, start, end, count, 0)
-        if found == before or found > _PASSAGES:
-            if found == before and found > 0:
+        passages = sample(f, state, j, start, end, count, 0)
+        if passages == before or passages > _PASSAGES:
+            if passages == before and passages > 0:
                 sample(f, state, j, start, end, count, 1)
             return
-        before, count = found, 2 * count
+        before, count = passages, 2 * count
 
 
 # -- seams -------------------------------------------------------------------------------------------------------------

@@ -72,10 +72,10 @@ def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs
 
     Returns 1 where the caller has changed the state, else 0.
     """
-    control, clock, ny, kept = state.control, state.clock, visible.y.shape[0], True
+    control, clock, ny, unchanged = state.control, state.clock, visible.y.shape[0], True
     for i in range(ny):
-        kept = kept and visible.y[i] == outputs.states[i]
-    same = kept and visible.clock[SHOWN_TIME] == outputs.times[0]
+        unchanged = unchanged and visible.y[i] == outputs.states[i]
+    same = unchanged and visible.clock[SHOWN_TIME] == outputs.times[0]
     same = same and until >= (outputs.times[0] if ADAPTIVE else clock[abi.TIME])
     if control[abi.BEGUN] != 0 and same and visible.numbers[CHANGED] == 0:
         return 0
@@ -90,7 +90,7 @@ def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs
         control[abi.INDEX] = 0
     visible.numbers[STANDS], visible.numbers[CHANGED] = 0, 1
     control[abi.BEGUN] = abi.AFRESH if control[abi.BEGUN] != 0 else 0
-    return 0 if kept or control[abi.BEGUN] == 0 else 1
+    return 0 if unchanged or control[abi.BEGUN] == 0 else 1
 
 
 def let_go(model: Any, state: Any) -> None:

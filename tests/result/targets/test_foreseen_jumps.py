@@ -112,9 +112,9 @@ def test_a_run_finds_the_seams_that_are_known_before_it(torque, stop, count, int
         for name, x in values.items():
             p[places[name]] = x
         expected = [(x.t, x.skips + x.strikes) for x in foreseen.seams(values, 1.0)] or [(0.0, 0)]
-        found = laid_out(run, p, 1.0)
-        assert [skip for _, skip in found] == [skip for _, skip in expected]
-        assert [x for x, _ in found] == pytest.approx([x for x, _ in expected], abs=1e-14)
+        seams = laid_out(run, p, 1.0)
+        assert [skip for _, skip in seams] == [skip for _, skip in expected]
+        assert [x for x, _ in seams] == pytest.approx([x for x, _ in expected], abs=1e-14)
         passed += len(expected) > 1
     assert passed > count // 4
 
