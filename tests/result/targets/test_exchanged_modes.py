@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Model
-from fmpy.fmi3 import FMU3Model
 from fmpy.validation import validate_fmu
 
 import symgen
@@ -16,7 +15,7 @@ from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel
 from symgen.result.targets.fmu import fmu_files
 from tests.result.targets.test_c_modes import DOOR, loaded, transitions_of
-from tests.result.targets.test_fmu import fmu_of
+from tests.result.targets.test_fmu import fmu_of, importer_of
 from tests.run.single.test_clutches import CLUTCH
 from tests.run.single.test_stops import BALL, ROPE
 
@@ -186,21 +185,16 @@ def press(tmp_path_factory):
 @pytest.mark.slow
 def test_values_of_a_parameter_end_in_the_same_modes(press, tmp_path):
     """An instance is reset and goes on with another force of the piston, and each time the press rests on its die."""
-    description, folder = read_model_description(str(press)), extract(str(press), str(tmp_path / "press"))
-    instance = FMU3Model(
-        guid=description.guid, unzipDirectory=folder, instanceName="press",
-        modelIdentifier=description.modelExchange.modelIdentifier,
-    )  # fmt: skip
-    instance.instantiate()
+    importer = importer_of(press, tmp_path / "press")
     values, outputs = np.linspace(200.0, 400.0, 40), ["upper.theta", "guide.mode", "guide.lower.mode"]
     ends = []
     for value in values:
         rows = simulate_fmu(
-            folder, fmi_type="ModelExchange", model_description=description, fmu_instance=instance, stop_time=0.25,
-            relative_tolerance=1e-10, output_interval=0.0025, output=outputs, start_values={"push": value},
+            **importer, stop_time=0.25, relative_tolerance=1e-10, output_interval=0.0025,
+            output=outputs, start_values={"push": value},
         )  # fmt: skip
         ends.append([rows[name][-1] for name in outputs])
-        instance.reset()
+        importer["fmu_instance"].reset()
     angles, *modes = np.array(ends).T
     assert np.all(modes[0] == 0.0) and np.all(modes[1] == 1.0)
     np.testing.assert_allclose(angles, 0.05 - np.pi / 2, rtol=0, atol=1e-9)  # the angle at which the die stops it

@@ -7,6 +7,7 @@ import pytest
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Model
 from fmpy.validation import validate_fmu
 from support.emitted import mechanism_of
 from support.locks import LOCKED, parts
@@ -30,6 +31,17 @@ FOUR_BAR = {"crank.theta": -4.9126194602875, "crank.omega": 0.0326701961}
 def fmu_of(model, path, **keys):
     TARGETS.get("fmu").write(Request(model.mechanism, path, **keys))
     return path
+
+
+def importer_of(path, folder):
+    """Return arguments of `simulate_fmu`: an FMU 3 for model exchange, as an instance that callers reset."""
+    description, folder = read_model_description(str(path)), extract(str(path), str(folder))
+    instance = FMU3Model(
+        guid=description.guid, unzipDirectory=folder, instanceName=description.modelName,
+        modelIdentifier=description.modelExchange.modelIdentifier,
+    )  # fmt: skip
+    instance.instantiate()
+    return {"filename": folder, "model_description": description, "fmu_instance": instance, "fmi_type": "ModelExchange"}
 
 
 def simulated(path, kind, until, tolerance=1e-9, step=None, outputs=None, **keys):

@@ -4,8 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fmpy import extract, read_model_description, simulate_fmu
-from fmpy.fmi3 import FMU3Model
+from fmpy import simulate_fmu
 
 from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
@@ -13,7 +12,7 @@ from symgen.run.breaks.seams import foreseen_in_run
 from symgen.run.layout import abi
 from symgen.run.rows.foreseen_run import foresee_run
 from tests.result.targets.test_c_modes import DOOR, loaded, program_of, rows_of, transitions_of
-from tests.result.targets.test_fmu import fmu_of
+from tests.result.targets.test_fmu import fmu_of, importer_of
 
 #: A door that is pushed from `begin` on, for a time, and shaken by a wave and by a periodic table of two levels.
 PUSHED = (
@@ -168,19 +167,13 @@ def test_an_importer_is_told_the_times_that_its_parameters_give(tmp_path):
     text = PUSHED[: PUSHED.index("[forces.wave]")] + "[run]\nuntil = 1.0\n"
     model = loaded(text, tmp_path)
     path = fmu_of(model, tmp_path / "pushed.fmu", fmi=3)
-    description, folder = read_model_description(str(path)), extract(str(path), str(tmp_path / "fmu"))
-    instance = FMU3Model(
-        guid=description.guid, unzipDirectory=folder, instanceName="pushed",
-        modelIdentifier=description.modelExchange.modelIdentifier,
-    )  # fmt: skip
-    instance.instantiate()
+    importer = importer_of(path, tmp_path / "fmu")
     for begin in np.linspace(0.05, 1.4, 300):
         rows = simulate_fmu(
-            folder, fmi_type="ModelExchange", model_description=description, fmu_instance=instance, stop_time=1.5,
-            relative_tolerance=1e-13, output_interval=0.0015, output=["rod.theta", "rod.omega"],
-            start_values={"begin": begin},
+            **importer, stop_time=1.5, relative_tolerance=1e-13, output_interval=0.0015,
+            output=["rod.theta", "rod.omega"], start_values={"begin": begin},
         )  # fmt: skip
-        instance.reset()
+        importer["fmu_instance"].reset()
         events = rows["time"][1:][np.diff(rows["time"]) == 0.0]
         for t in (begin, begin + 0.2):
             assert t > 1.5 or np.abs(events - t).min() < 1e-14
