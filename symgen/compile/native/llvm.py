@@ -16,8 +16,14 @@ from symgen.compile.native.llvm_values import INTRINSICS, TYPES, ValuePrinter, f
 COUNT_OF_LANES = "lanes"
 #: Attribute of functions for several runs: LLVM halves vectors of 512 bits of processors where they once cost clock.
 WIDEST = ' "prefer-vector-width"="512"'
-#: Attribute of functions of the runtime whose loops run over the entries of a matrix (`symgen.compile.store.jit.jit`).
-UNROLLED = ' "unrolled"'
+#: Name that closes a loop of the runtime which is neither turned into vectors nor copied: loops over arrays as short as
+#: the coordinates of a mechanism are no faster with it, and take twice as long to compile.
+_AS_WRITTEN = ", !llvm.loop !0"
+_METADATA = (
+    "!0 = distinct !{!0, !1, !2}",
+    '!1 = !{!"llvm.loop.vectorize.enable", i1 false}',
+    '!2 = !{!"llvm.loop.unroll.disable"}',
+)
 
 
 def llvm_module(
@@ -55,6 +61,8 @@ def llvm_module(
 def loop_module(function: lang.Function, symbol: str) -> str:
     """Return the text of a module that defines a loop, with its called parts.
 
+    Loops are unrolled in functions over lanes, and everywhere if a part asks for it (`symgen.compile.store.jit.jit`).
+
     Parameters
     ----------
     function : Function
@@ -70,14 +78,16 @@ def loop_module(function: lang.Function, symbol: str) -> str:
                 names[id(part)] = f"{symbol}.{len(names)}.{part.name}"
                 functions.append(part)
     texts, inserted = list[str](), dict[str, str]()
+    unrolled = any(getattr(f.source, "unrolled", False) for f in functions)
     for each in functions:
         printer = LlvmPrinter(each, lambda f: names[id(f)], "" if each is function else "internal ", False)
+        printer.as_written = not (unrolled or printer.for_lanes())
         texts.append(printer.text())
         inserted |= printer.inserted
     lines = [line for text in inserted.values() for line in text.splitlines()]
     texts += [line for line in lines if not line.startswith("declare ")]
     declared = dict.fromkeys(line for line in lines if line.startswith("declare "))
-    return "\n".join([*texts, *declared, *declarations(texts), ""])
+    return "\n".join([*texts, *declared, *declarations(texts), *_METADATA, ""])
 
 
 def reached(
@@ -138,6 +148,7 @@ class LlvmPrinter(ValuePrinter):
     ) -> None:
         super().__init__(function, symbol)
         self.linkage = linkage
+        self.as_written = False  # loops are not unrolled
         groups = sines.groups(function) if together else {}
         self.before = {id(function.body[i]): calls for i, calls in groups.items()}
         self.leaving: list[tuple[str, str]] = []  # labels after `continue` and `break`, innermost last
@@ -157,10 +168,13 @@ class LlvmPrinter(ValuePrinter):
             for name, x in f.tables.items()
         ]
         copied = " alwaysinline" * (f.inlined and bool(self.linkage))
-        names = {*f.variables, *(p.name for p in f.parameters)}
-        begin = f"define {self.linkage}{self.head()}{copied}{WIDEST * (COUNT_OF_LANES in names)}"
-        begin += f"{UNROLLED * getattr(f.source, 'unrolled', False)} {{"
+        begin = f"define {self.linkage}{self.head()}{copied}{WIDEST * self.for_lanes()} {{"
         return "\n".join([*tables, begin, ".entry:", *self.slots, *self.lines, "}"])
+
+    def for_lanes(self) -> bool:
+        """Whether the function is for several runs at once."""
+        names = (*self.function.variables, *(p.name for p in self.function.parameters))
+        return COUNT_OF_LANES in names
 
     def head(self) -> str:
         """Return result, name and parameters."""
@@ -285,9 +299,15 @@ class LlvmPrinter(ValuePrinter):
         self.begin(body)
         self.leaving.append((test, end))
         if self.statements(statement.body):
-            self.jump(test)
+            self.jump_back(test)
         self.leaving.pop()
         self.begin(end)
+
+    def jump_back(self, label: str) -> None:
+        """End the body of a loop."""
+        self.jump(label)
+        if self.as_written:
+            self.lines[-1] += _AS_WRITTEN
 
     def count_through(self, statement: lang.For) -> None:
         """Print a loop over a range with its own counter, as the body may assign the variable."""
@@ -309,5 +329,5 @@ class LlvmPrinter(ValuePrinter):
         self.begin(step)
         now = self.put(f"load i64, ptr {counter}")
         self.lines.append(f"  store i64 {self.put(f'add nsw i64 {now}, {statement.step}')}, ptr {counter}")
-        self.jump(test)
+        self.jump_back(test)
         self.begin(end)

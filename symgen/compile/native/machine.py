@@ -73,7 +73,7 @@ def _engine() -> Any:
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine(3))
 
 
-def compiled(text: str, symbol: str, once: bool = False, unrolled: bool = True) -> bytes:
+def compiled(text: str, symbol: str, once: bool = False) -> bytes:
     """Return the object file of a module in LLVM's language.
 
     Parameters
@@ -84,15 +84,12 @@ def compiled(text: str, symbol: str, once: bool = False, unrolled: bool = True) 
         Its function, divided into blocks if it is long.
     once : bool
         Whether the function is called about once, so that passes would take longer than they save.
-    unrolled : bool
-        Whether loops are turned into vectors and copies of their bodies. Loops over arrays as short as the coordinates
-        of a mechanism are no faster with it, and take twice as long to compile.
     """
     from symgen.compile.native.blocks import split
 
     if once:
         return bytes(_machine(0).emit_object(_parsed(text)))
-    module = optimised(text, unrolled)
+    module = optimised(text)
     machine = _best_machine()
     divided = split(str(module), symbol, LARGEST_BLOCK)
     if divided is not None:
@@ -110,7 +107,7 @@ def _parsed(text: str) -> Any:
     return module
 
 
-def optimised(text: str, unrolled: bool = True) -> Any:
+def optimised(text: str) -> Any:
     """Return a module after the passes of the highest level.
 
     For straight code a few of these give the result of all: instructions in their plainest form, operands in
@@ -118,7 +115,7 @@ def optimised(text: str, unrolled: bool = True) -> Any:
     """
     module = _parsed(text)
     options = llvm.create_pipeline_tuning_options(speed_level=3)
-    options.loop_vectorization = options.loop_unrolling = unrolled
+    options.loop_vectorization = options.loop_unrolling = True
     options.slp_vectorization = False
     builder = llvm.create_pass_builder(_best_machine(), options)
     # the function of `symgen.compile.native.sines` jumps by a ``switch``: it needs no more than straight code

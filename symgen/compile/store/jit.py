@@ -234,13 +234,12 @@ class RuntimeFunction(MachineFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.compile.native.llvm import UNROLLED, WIDEST, loop_module
+        from symgen.compile.native.llvm import loop_module
         from symgen.compile.native.loops import read_loop
         from symgen.compile.native.machine import compiled
 
         function = read_loop(self, arguments)
-        text = loop_module(function, symbol)
-        code = compiled(text, symbol, once=self._once, unrolled=WIDEST in text or UNROLLED in text)
+        code = compiled(loop_module(function, symbol), symbol, once=self._once)
         return CacheEntry(function.returned, (), code)
 
 
