@@ -34,7 +34,7 @@ def largest_difference(model, quantity, by, **settings):
     return max(abs(one.by[name] - other.by[name]) / abs(other.by[name]) for name in by)
 
 
-@pytest.mark.fast("absolute-direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinates):
@@ -63,7 +63,7 @@ def test_the_integral_of_idas(tmp_path):
     assert energy.by == pytest.approx(G_BY, rel=1e-11)
 
 
-@pytest.mark.fast("heun-options1-lagrange", "dop853-options2-direct-correction")
+@pytest.mark.fast("dop853-options2-direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize(
     ("integrator", "options"),
@@ -82,7 +82,7 @@ def test_schemes(four_bar, method, integrator, options):
     )
 
 
-@pytest.mark.fast("absolute-direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_motion_in_space(method, coordinates):
@@ -232,7 +232,7 @@ free_angle = 12.0
 """
 
 
-@pytest.mark.fast("direct-correction-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_angles_that_count_turns(tmp_path, method, coordinates):

@@ -37,6 +37,7 @@ def test_a_rod_beside_a_stiff_spring(stiffness, way):
         assert_allclose(found.omega_squared[0], math.copysign(14.715, -angle), rtol=1e-9)
 
 
+@pytest.mark.slow_cases("{}")
 @pytest.mark.parametrize("way", WAYS[::2], ids=str)
 def test_a_column_flutters_beside_a_stiff_spring(way):
     block, rail, spring = beside(1e12, 1.0)

@@ -28,6 +28,7 @@ def test_equilibria_as_programs_read_them(cli):
     assert set(again["q"]) >= set(found[0]["q"]) and set(again["multipliers"]) == set(found[0]["multipliers"])
 
 
+@pytest.mark.slow
 def test_modes_and_systems_as_programs_read_them(cli):
     modes = facts(cli, "modes", "four-bar", "--start", "crank.theta=4.0")
     (square,) = modes["omega_squared"]

@@ -78,6 +78,7 @@ def test_friction_of_a_pin_by_its_reaction(tmp_path):
     np.testing.assert_allclose(found.efforts["pin"], torque, rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("-5.0*block.x-1.0")
 @pytest.mark.parametrize(("pull", "least"), [("-5.0*block.x", 1.0), ("5.0*block.x", 0.0)])
 def test_a_closed_stop_bears_what_it_can(tmp_path, pull, least):
@@ -96,6 +97,7 @@ def test_a_closed_stop_bears_what_it_can(tmp_path, pull, least):
     assert note == f"rail.upper is closed at {closed.sum()} times: efforts are the least with what it can bear"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_machine_at_rest_on_its_stop_has_no_impact(coordinates):
     """Speeds of rounding are no scale of speeds, at whichever moment of the rest a run ended."""

@@ -298,6 +298,7 @@ def test_bad_arguments_are_refused(linkage, pendulum):
             call()
 
 
+@pytest.mark.slow
 def test_the_command(tmp_path, capsys):
     words = ["inverse", "driven-four-bar", "--times", "lin(0,1,5)", "--json"]
     assert main([*words, "--save", str(tmp_path / "i.csv"), "--plot", str(tmp_path / "i.svg")]) == 0

@@ -57,6 +57,7 @@ def test_positions_of_a_four_bar_are_where_circles_meet(driven):
     assert np.abs(found["crank.theta"] - angle).max() < 1e-14
 
 
+@pytest.mark.slow
 def test_the_foot_of_a_jansen_leg_is_where_circles_meet():
     found = symgen.load("jansen-leg").kinematics(np.linspace(0.0, 1.5, 301))
     p = found.parameters
@@ -141,6 +142,7 @@ def test_the_branch_is_the_one_that_is_described():
     assert np.abs(found.curve("coupler.far") - c).max() < 1e-13
 
 
+@pytest.mark.slow
 def test_another_branch_is_chosen_by_a_start(driven):
     """The coupler's pin below the line from B to D, though the file has it above."""
     found = driven.kinematics(np.linspace(0.0, 2.0, 41), start={"rocker.theta": -2.3})

@@ -93,6 +93,7 @@ def test_nothing_is_computed_with_limits(swung):
     assert identity(validate(without, "rocker.toml")) == identity(model.mechanism)
 
 
+@pytest.mark.slow
 def test_a_report_names_what_is_exceeded_and_the_room(swung):
     document = machine(*swung)
     (limits,) = (section for section in document.sections if section.title == "Limits")

@@ -60,6 +60,7 @@ def test_formulas_and_integrals_against_differences(four_bar, tmp_path, quantity
         assert named.by[name] == pytest.approx(gradient.by[name], rel=1e-11)
 
 
+@pytest.mark.slow
 def test_the_integral_of_idas(tmp_path):
     energy = model(tmp_path, SLIDER_CRANK).gradient("G", by=("k", "c"), rtol=1e-12, atol=1e-12)
     assert energy.value == pytest.approx(G, rel=1e-11)

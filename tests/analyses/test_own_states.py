@@ -49,6 +49,7 @@ def test_a_prescribed_motion_integrates_the_state():
     np.testing.assert_allclose(begun.outputs["c"], 4.0 * np.exp(-t[1:]), atol=1e-8)
 
 
+@pytest.mark.slow_cases(".nc")
 @pytest.mark.parametrize("ending", [None, ".nc", ".csv", ".parquet"])
 def test_a_recorded_motion_has_the_state(ending, tmp_path):
     model = model_of(disc(forces=MOTOR))

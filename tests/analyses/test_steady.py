@@ -143,6 +143,7 @@ def governor(x, parameters=(8e5, 4e4, 0.5)):
     return np.array([-slope * speed / inertia, b1, torques[0], b2, torques[1], w, push / 3.0])
 
 
+@pytest.mark.slow
 def test_the_flyball_governor_about_its_steady_speed():
     x = np.array([2 * math.pi, 0.35, 0.0, 0.35, 0.0, 0.66, 0.0])  # near what the start leads to
     free = [1, 3, 5]  # at the speed of the start, by Newton's method with a complex step

@@ -33,7 +33,7 @@ def carousel(mass, length, time=1.0, damping=0.0):
     return rods.model(bodies, joints, "spatial", gravity=pull, forces={"spring": spring})
 
 
-@pytest.mark.fast("1e-09-0.001", "1000000.0-1000.0")
+@pytest.mark.fast("1000000.0-1000.0")
 @pytest.mark.parametrize(("mass", "length"), [(1e-3, 1e-6), (1e-9, 1e-3), (1e6, 1e3)])
 def test_small_and_large_mechanisms_rest_alike(mass, length):
     """Moments were compared with forces as numbers, and what turns was taken to have no mass beside what moves."""
@@ -57,7 +57,7 @@ def test_what_falls_freely_at_the_start_is_found_whatever_it_weighs(mass):
     assert np.isfinite(found.residual)
 
 
-@pytest.mark.fast("1048576.0-1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(("length", "time"), [(2.0**-20, 1.0), (2.0**20, 1.0), (1.0, 2.0**-10), (1.0, 2.0**10)])
 def test_what_is_free_has_frequency_zero_in_all_units(length, time):
     """Damped, the table's turning was compared with the slide's metres, and seconds with themselves, as numbers."""

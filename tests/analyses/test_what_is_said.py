@@ -164,6 +164,7 @@ def test_a_steady_motion_whose_speed_may_change_is_stable_or_not_with_its_moment
     assert np.abs(model.modes(at="steady", **asked).eigenvalues).max() == pytest.approx(abs(square) ** 0.5, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_efforts_of_a_branch_tell_which_it_is():
     """Of other actuators than the drivers the notes of the motion were lost."""
     model = symgen.load("driven-four-bar")

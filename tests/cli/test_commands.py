@@ -244,6 +244,7 @@ def test_compare_several_models(cli):
     assert [s["mechanism"] for s in json.loads(out)["studies"]] == ["pendulum", "four-bar"]
 
 
+@pytest.mark.slow
 def test_a_study_in_which_everything_failed_exits_1(cli):
     code, out, err = cli(
         *("compare", "four-bar", "--methods", "lagrange", "--integrators", "rk4", "--steps", "0.6"),

@@ -98,6 +98,7 @@ def test_prescribed_motions_show_no_rounding(model: str, quantities: str, capsys
     assert ROUNDING.search(capsys.readouterr().out)  # data keep all digits
 
 
+@pytest.mark.slow
 def test_notebooks_show_no_rounding_and_the_table_keeps_it() -> None:
     values = np.array([[1.0, 2e-17, 5e-18], [2.0, -1e-16, 1e-17]])
     shown = Labelled(values, ("a.x", "a.y", "a.theta"), ("m", "m", "rad"))

@@ -234,6 +234,7 @@ def test_a_sweep_varies_and_writes_in_the_unit_of_the_file(typed, found, tmp_pat
     assert float(rows[2][4]) == pytest.approx(math.degrees(float(rows[2][5])), rel=1e-14)
 
 
+@pytest.mark.slow_cases("log(10 cm, 1 m, 3)-numbers0")
 @pytest.mark.parametrize(
     ("values", "numbers"),
     [("log(10 cm, 1 m, 3)", (0.1, math.sqrt(0.1), 1.0)), ("uniform(100, 20 cm, 2, 1)", None), ("values(5)", (0.005,))],
@@ -282,6 +283,7 @@ def test_csv_files_of_runs_name_the_unit_of_each_output(typed, tmp_path):
     assert float(first[at["turn [deg]"]]) == pytest.approx(30.0) == math.degrees(float(first[at["rod.theta [rad]"]]))
 
 
+@pytest.mark.slow
 def test_equations_and_reports_show_values_as_the_file_has_them(typed, tmp_path):
     code, out, _ = typed("inspect", "rod.toml", "--set", "length=50 cm")
     assert code == 0

@@ -102,6 +102,7 @@ def test_limits_become_stops(tmp_path: Path) -> None:
     assert run["pivot.angle"][-1] == pytest.approx(1.0, abs=1e-9)  # pressed against its stop
 
 
+@pytest.mark.slow
 def test_mimic_and_a_floating_base(tmp_path: Path) -> None:
     text = """<robot name="pair">
   <link name="base"><inertial><mass value="4"/><inertia ixx="0.1" iyy="0.1" izz="0.1"/></inertial></link>
@@ -141,7 +142,7 @@ def test_a_joint_that_mimics_with_an_offset_starts_where_its_leader_leaves_it(tm
     assert not any("moved" in note for note in run.notes)
 
 
-@pytest.mark.fast("loop")
+@pytest.mark.slow
 @pytest.mark.parametrize("tag", ["loop_joint", "loop"])
 def test_two_dialects_close_a_loop(tmp_path: Path, tag: str) -> None:
     ends = {
@@ -205,6 +206,7 @@ def test_mjcf_moves_as_in_mujoco(tmp_path: Path) -> None:
     assert run["yaw.angle"][-1] == pytest.approx(float(data.joint("yaw").qpos[0]), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_equalities_of_mjcf(tmp_path: Path) -> None:
     text = """<mujoco><worldbody>
   <body name="a"><joint name="x" axis="0 1 0" ref="0.2"/><geom size="0.1" pos="0.3 0 0"/></body>

@@ -62,6 +62,7 @@ def differences(module: str, words: tuple[str, ...]) -> dict[str, dict[str, floa
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mechanism", MECHANISMS)
 def test_every_function_of_every_method_agrees(mechanism):
     plain = of_all("support.both_shapes", mechanism)
@@ -85,6 +86,7 @@ def test_every_method_has_loops_or_says_why_not():
         assert (name in covered) != bool(method.dense or not EXPLICIT_FORMS & set(method.forms)), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mechanism", MECHANISMS)
 def test_residuals_and_their_jacobians_agree(mechanism):
     plain_forms = of_all("support.both_forms", mechanism)

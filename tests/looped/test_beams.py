@@ -36,7 +36,7 @@ def test_all_elements_share_a_kernel_however_many(make):
     assert len(kernels(make(40, clamp=""))) == 1
 
 
-@pytest.mark.fast("spatial")
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_both_shapes_move_alike(space):
     if space == "planar":
@@ -101,6 +101,7 @@ def test_overbent_elements_make_a_run_unverified():
     assert cantilever(4, forces={"tip": at_end(0.0, -1.0)}, **keys).simulate(until=0.1, step=5e-4).status == "ok"
 
 
+@pytest.mark.slow
 def test_verify_doubles_the_elements():
     """The estimate is that of a run with many elements, within a factor of two."""
     choice = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-9, "atol": 1e-11, "until": 0.5, "times": [0.5]}

@@ -72,6 +72,7 @@ def agree(raw: dict[str, Any]) -> tuple[dict[str, Any], int]:
 SLOW = settings(max_examples=16, deadline=None, suppress_health_check=list(HealthCheck))
 
 
+@pytest.mark.slow
 @SLOW
 @given(st.lists(st.sampled_from(PLANAR), min_size=1, max_size=4), st.integers(0, 10**6), st.data())
 def test_planar_mechanisms(joints, seed, data):

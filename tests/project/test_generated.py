@@ -38,6 +38,7 @@ def test_checked_in_modules_are_what_is_emitted() -> None:
     assert sum(source.count("\n") for source in expected.values()) <= MOST_LINES
 
 
+@pytest.mark.slow
 def test_emitted_modules_have_the_digests_that_are_checked_in() -> None:
     expected = {
         f"{name}/{stem}.py": hashlib.sha256(source.encode()).hexdigest()

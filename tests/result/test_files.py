@@ -169,6 +169,7 @@ def test_tables_of_other_sizes_are_refused(saved, tmp_path, name):
             read("--from", path)
 
 
+@pytest.mark.slow
 def test_a_result_with_columns_of_another_model_is_not_viewed(saved, tmp_path):
     path = tmp_path / "run.nc"
     saved.isel(velocity=slice(0, 2)).to_netcdf(path, engine="h5netcdf")

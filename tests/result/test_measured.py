@@ -141,7 +141,7 @@ def change_of_energy(result, raw):
     return gained
 
 
-@pytest.mark.fast("1-planar", "3-spatial")
+@pytest.mark.fast("1-planar")
 @pytest.mark.parametrize(("seed", "space"), [(1, "planar"), (2, "planar"), (3, "spatial"), (6, "spatial")])
 def test_everything_beside_the_state(seed, space):
     assert check(furnished(seed, space)) < ROUNDING

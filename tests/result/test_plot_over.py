@@ -102,6 +102,7 @@ def test_a_motion_of_kinematics_has_a_page():
     assert not symgen.load("driven-four-bar").kinematics([0.0, 0.1]).view(moved, live=False).live
 
 
+@pytest.mark.slow
 def test_a_table_shows_its_last_row_in_place_of_one_more(capsys):
     assert main(["run", "n-four-bar:6", "--until", "0.002", "--step", "1e-3", "--integrator", "rk4"]) == 0  # 13 bodies
     shown = capsys.readouterr().out

@@ -31,6 +31,7 @@ def test_generate(name, capsys, tmp_path):
         assert imported <= {"math", "numba", "numpy"}
 
 
+@pytest.mark.slow
 def test_compare():
     methods = ["lagrange", "direct-correction"]
     study = symgen.compare("spherical-double-pendulum", methods, ["rk4"], [4e-3, 2e-3], until=0.5, repeat=1)

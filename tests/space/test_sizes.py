@@ -23,6 +23,7 @@ SIZES = {
 }
 
 
+@pytest.mark.slow_cases("stewart-platform")
 @pytest.mark.parametrize("name", SIZES)
 def test_sizes_and_ranks(name):
     mechanism = load(name)

@@ -155,6 +155,7 @@ def equations_of(name, **changes):
     return CompiledEquations(mechanism, model.parameters(changes)), *start_of(model, model.parameters(changes))
 
 
+@pytest.mark.slow
 def test_what_conserves_energy_is_not_stiff_however_long_it_lasts():
     """Its modes decay and grow in pairs: the slider-crank's fastest is 16 1/s, which over 2000 s is 3e4 e-foldings."""
     equations, q, v = equations_of("slider-crank")
@@ -165,6 +166,7 @@ def test_what_conserves_energy_is_not_stiff_however_long_it_lasts():
     assert is_stiff(damped, damped.project(0.0, np.concatenate([q, v])), 1.0)
 
 
+@pytest.mark.slow
 def test_compiled_rates_are_those_of_numpy():
     equations, q, v = equations_of("slider-crank", stress_stiffness=100.0)
     y = equations.project(0.0, np.concatenate([q, v + 0.1]))
@@ -172,6 +174,7 @@ def test_compiled_rates_are_those_of_numpy():
     np.testing.assert_allclose(equations.rate(0.0, y), expected, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_reference_over_its_budget_says_so(monkeypatch):
     monkeypatch.setattr("symgen.study.references.motion.BUDGET", 100)
     equations, q, v = equations_of("slider-crank")

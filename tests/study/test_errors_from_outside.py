@@ -76,7 +76,7 @@ def lengths_of(mechanism):
     return found
 
 
-@pytest.mark.fast("lagrange-4e-05")
+@pytest.mark.slow
 @pytest.mark.parametrize(("method", "step"), [("direct-correction", 1e-4), ("lagrange", 4e-5)])
 def test_andrews(method, step):
     study = symgen.compare("andrews", [method], ["rk4"], [step], until=0.03, output_step=0.03, repeat=1)

@@ -50,6 +50,7 @@ def test_schemes_without_derivatives_have_rows_without_them(study):
     assert all(row.adjoint_error is None is row.adjoint_seconds for row in implicit)
 
 
+@pytest.mark.slow
 def test_adjoint_and_differences_beside(study):
     explicit = [row for row in study.rows if row.gradient_error is not None]
     for row in explicit:
@@ -72,6 +73,7 @@ def test_journals_tables_and_reports(study, journal):
     assert len(table.rows) == len(study.rows)
 
 
+@pytest.mark.slow
 def test_the_command_shows_them():
     options = ["--methods", "lagrange", "--integrators", "rk4", "--steps", "8e-3", "--until", "0.4", "--repeat", "1"]
     shown = CliRunner().invoke(command, ["four-bar", *options, "--gradient", "crank_mass"], standalone_mode=False)

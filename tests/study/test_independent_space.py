@@ -77,6 +77,7 @@ def test_rows_and_accelerations_are_those_emitted(joints, forces):
     close(equations.rate(t, y)[n:], expected, "accelerations", 1e-9)
 
 
+@pytest.mark.slow
 def test_angles_begin_with_the_turns_that_drivers_ask_for():
     """A wheel driven from 20 rad on, three turns and more, and a follower geared to it."""
     wheel = {"mass": 1.0, "inertia": [0.1, 0.1, 0.2]}

@@ -122,6 +122,7 @@ def test_a_foreign_file_is_refused_and_left_as_it_is(tmp_path, content):
     assert path.read_bytes() == content
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
 def test_of_bits_of_a_journal_none_changes_what_is_read(every, tmp_path):
     """Of every third one all eight of a byte come by as well."""

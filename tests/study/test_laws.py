@@ -47,6 +47,7 @@ def study():
     return symgen.compare(load(), ["lagrange"], ["dop853", "rk4"], steps=[1e-4], rtols=[1e-10], laws=LAWS, repeat=1)
 
 
+@pytest.mark.slow
 def test_smooth_laws_creep_at_the_rate_of_their_force(study) -> None:
     assert study.how.startswith("direct-correction with dop853") and study.estimated_error < 1e-11
     rows = {(row.law, row.integrator): row for row in study.rows}

@@ -308,7 +308,7 @@ def test_references_see_a_smooth_pulse(solver, w, max_step, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-11 and found.estimated_error < 1e-7
 
 
-@pytest.mark.fast("scipy-radau")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "solver",
     ["scipy-dop853", "scipy-radau", pytest.param("scipy-bdf", marks=pytest.mark.slow)],

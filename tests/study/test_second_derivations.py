@@ -13,7 +13,7 @@ from symgen.study.stress.study import stress
 from tests.derive.formulate.test_primitives import ARMS
 
 
-@pytest.mark.fast("engine")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cam-follower", "engine", "scissor-lift"])
 def test_both_forms_of_the_equations_are_the_same(name):
     """Tables are read, and the second slope of a kink is zero beside it."""

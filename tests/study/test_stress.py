@@ -469,6 +469,7 @@ def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
 FEW = {"models": ("four-bar",), "cases": ("mass-ratio",), "methods": ("lagrange",), "quick": True}
 
 
+@pytest.mark.slow
 def test_runs_in_joint_coordinates_are_judged_by_the_references_of_bodies(tmp_path):
     with Journal(tmp_path / "cells") as journal:
         bodies = stress(**FEW, journal=journal)

@@ -2,6 +2,8 @@
 
 import json
 
+import pytest
+
 from benchmarks import all_methods
 from benchmarks.all_methods import Job, ends, examine, shortest, suitable, times
 from benchmarks.records import shortened
@@ -22,6 +24,7 @@ def test_methods_are_ranked_by_the_fastest_run_within_an_error(tmp_path, monkeyp
     assert any("`penalty`" in claim and "`lagrange`" not in claim for claim in times().claims())
 
 
+@pytest.mark.slow
 def test_a_method_runs_with_the_three_integrators_or_with_its_own():
     assert suitable("lagrange") == ("rk4", "dop853", "picard")
     assert suitable("hamiltonian-baumgarte") == ("rk4", "dop853") and not suitable("ggl")

@@ -17,6 +17,7 @@ from symgen.describe.files.validate import validate
 ALL = (*RUNS, ROWS)
 
 
+@pytest.mark.slow
 def test_a_hard_chain() -> None:
     against = reference(hard("chain-slip-at-a-stop"), 0.8)
     with TemporaryDirectory() as folder:

@@ -185,6 +185,7 @@ def test_four_dry_pins_of_one_freedom_hold_together(share: float, held: int) -> 
     assert held == 0 or min(forms.margins(modes)) == pytest.approx(1e-6 * needed, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_dry_four_bar_swings_and_rests() -> None:
     """The loop stays closed, and all four pins come to rest together."""
     tree, rows, u = four_bar(7.0)

@@ -39,6 +39,7 @@ def test_files_read_back_as_they_were_written() -> None:
             assert list(tomllib.loads(text(raw)).get(section, {})) == list(raw.get(section, {}))
 
 
+@pytest.mark.slow
 def test_symgen_takes_what_is_drawn(tmp_path: Path) -> None:
     file = tmp_path / "drawn.toml"
     for index in range(60):

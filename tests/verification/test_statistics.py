@@ -23,6 +23,7 @@ def test_cells_are_quantiles_of_ratios_to_lagrange():
     assert (float(low), float(high)) == pytest.approx((0.7, 6.4))
 
 
+@pytest.mark.slow
 def test_a_case_measures_a_method_against_its_reference():
     case, again = (case_of(2026, 1, 1.0) for _ in range(2))
     assert again.step == case.step and (again.distances.reference.q == case.distances.reference.q).all()

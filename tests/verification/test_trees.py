@@ -64,6 +64,7 @@ def test_random_trees_in_the_plane(index, tmp_path):
     compare(index, False, tmp_path)
 
 
+@pytest.mark.slow_cases("2")
 @pytest.mark.parametrize(
     "index", [*SPACE[2:5], *(pytest.param(i, marks=pytest.mark.slow) for i in of_turn((*SPACE[:2], *SPACE[5:]), 3))]
 )
@@ -71,6 +72,7 @@ def test_random_trees_in_space(index, tmp_path):
     compare(index, True, tmp_path)
 
 
+@pytest.mark.slow
 def test_what_was_compared(tmp_path):
     """Most joints that can stand in a tree did, from the first body to the second and the other way round."""
     found = set()

@@ -35,7 +35,7 @@ def arguments(function) -> list[str]:
     return list(code.co_varnames[: code.co_argcount])
 
 
-@pytest.mark.fast("baumgarte_lanes")
+@pytest.mark.slow
 @pytest.mark.parametrize("stem", LAWS)
 def test_functions_over_lanes_do_what_python_does(stem, emitted):
     """One by one, from numbers of one size, by the interpreter and by vectors of the processor."""

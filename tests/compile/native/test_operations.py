@@ -173,6 +173,7 @@ def test_powers_of_rounded_numbers_are_those_of_floats(tmp_path):
         np.testing.assert_allclose(out[: len(expected)], expected, rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_each_operation_alone(tmp_path):
     graph, outputs = Graph(), []
     a, b, c = (graph.input("q", i) for i in range(3))

@@ -26,7 +26,7 @@ HANDED = {
 }
 
 
-@pytest.mark.fast("four-bar")
+@pytest.mark.slow
 @pytest.mark.parametrize("model", LOOPED)
 def test_looped_code_is_in_the_language(model, tmp_path):
     for path in written(emitted_looped(model, False), tmp_path).glob("*.py"):

@@ -114,6 +114,7 @@ for i in itertools.count():
 """
 
 
+@pytest.mark.slow
 def test_a_kill_at_any_moment_leaves_a_valid_pair_or_a_miss(entries):
     chance = random.Random(1)
     file = entries.root / upkeep.NATIVE / "x" / "f.bin"

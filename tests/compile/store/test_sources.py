@@ -138,6 +138,7 @@ def test_a_new_module_is_another_code(package):
     assert identities() == before
 
 
+@pytest.mark.slow
 def test_imports_are_those_that_python_sees():
     """At any place of a module, in parentheses and under other names."""
     files = dict(sources.files_of(str(PACKAGE)))

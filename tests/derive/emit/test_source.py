@@ -70,6 +70,7 @@ def test_no_operation_with_a_literal_that_changes_nothing(model):
                 assert not (isinstance(node.left, ast.Constant) and isinstance(node.right, ast.Constant)), where
 
 
+@pytest.mark.slow_cases("everything", "four-bar")
 @pytest.mark.parametrize("model", MODELS)
 def test_every_name_is_used_and_every_line_is_needed(model):
     for stem, tree in trees(model):

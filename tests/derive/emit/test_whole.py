@@ -79,6 +79,7 @@ def test_functions_of_looped_code_are_those_that_run(model):
         assert functions(source) == sorted(f for part in parts for f in functions(part)), stem
 
 
+@pytest.mark.slow
 def test_a_law_that_closes_coordinates_has_both_right_hand_sides():
     source = emitted("four-bar")["coordinate_partitioning"]
     assert "def accelerate(" in source and "def rhs(" in source and "return accelerate(" in source

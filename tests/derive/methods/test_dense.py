@@ -13,6 +13,7 @@ from symgen.describe import load as describe
 DENSE = {"method.solver": "dense"}
 
 
+@pytest.mark.slow
 def test_it_gives_the_motion_of_the_elimination_and_says_what_it_met():
     keys = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "until": 0.5}
     dense, usual = (load("four-bar").simulate(options=o, **keys) for o in (DENSE, {}))
@@ -23,6 +24,7 @@ def test_it_gives_the_motion_of_the_elimination_and_says_what_it_met():
     assert dense.notes == (said,) and not usual.notes
 
 
+@pytest.mark.slow
 def test_redundant_rows():
     times = np.linspace(0.0, 1.0, 11)
     result = robustness.parallel_four_bar().simulate(

@@ -8,6 +8,7 @@ from support.laws_at import LawAt, described
 from symgen.api import load
 
 
+@pytest.mark.slow_cases("andrews")
 @pytest.mark.parametrize("name", ["four-bar", "andrews"])
 def test_independent_coordinates_keep_every_bit(name):
     one = LawAt(described(name), "dependent-correction")

@@ -44,6 +44,7 @@ def test_a_step_meets_the_equations_of_the_scheme(name):
     np.testing.assert_allclose(book.rows(h, q1, v1)[0], 0.0, atol=1e-14)
 
 
+@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2")
 @pytest.mark.parametrize(("name", "until", "keys"), MOTIONS)
 def test_order_two_with_positions_on_their_constraints(name, until, keys):
     results, errors = compared(load(name), until, method="discrete-gradient", max_violation=1e-2, **keys)
@@ -89,6 +90,7 @@ def test_momenta_of_points_are_kept_to_rounding():
     assert energy_errors(result).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_power_of_dampers_is_part_of_the_balance():
     """Damped motion: what the energy loses is the work of the damper, which is integrated with the same means."""
     result = load("flyball-governor").simulate(method="discrete-gradient", step=1e-4, until=0.1)

@@ -67,7 +67,7 @@ def check(emitted, plain, t, q, v, method, tolerance):
     close(found.power, expected.power - multipliers @ expected.nu, f"power, {method}", tolerance)
 
 
-@pytest.mark.fast("direct-correction-options2")
+@pytest.mark.slow
 @pytest.mark.parametrize(("method", "options"), LAWS)
 @RANDOM
 @given(data=st.data())

@@ -59,6 +59,7 @@ def test_it_is_the_scheme_with_projected_stages(shape):
     assert np.abs(behind - own).max() > 1e-10
 
 
+@pytest.mark.slow_cases("bricard-2.0-0.02")
 @pytest.mark.parametrize(("name", "until", "step"), [("four-bar", 2.0, 4e-3), ("bricard", 2.0, 2e-2)])
 def test_the_scheme_keeps_its_order(name, until, step):
     exact = run(name, integrator="dop853", rtol=1e-12, atol=1e-13, until=until, when="step").q.values[-1]

@@ -273,6 +273,7 @@ def test_a_large_mechanism_has_coarse_coordinates_and_its_forces() -> None:
     assert [is_coarse(recording, room) for room in (60 * 730, 60 * 490, 60 * 400)] == [False, True, True]
 
 
+@pytest.mark.slow
 def test_forces_are_in_the_page_of_every_machine_that_has_some() -> None:
     """The scissor lift's page went without them, as it would have been too large."""
     motion = data_of(load("scissor-lift").simulate(until=0.05).view(live=False).html)["motions"][0]
@@ -309,6 +310,7 @@ def test_rounding_is_no_curve_of_a_plot() -> None:
     assert shown["low"] == [0.0] and shown["span"] == [1.0]
 
 
+@pytest.mark.slow
 def test_an_output_alone_is_titled_by_its_name() -> None:
     """Energy lost at a stop is a step, and no energy of the motion: the page of the press begins with its opening."""
     motion = data_of(load("toggle-press").simulate(until=0.1).view().html)["motions"][0]
@@ -330,6 +332,7 @@ def test_sixteen_bits_show_0_where_it_is_0() -> None:
     assert found[1] == 0.0 and found == pytest.approx([-0.13, 0.0, 0.1437], abs=1e-7)
 
 
+@pytest.mark.slow
 def test_points_that_no_joint_ties_are_marked() -> None:
     for name, expected in (("jansen-leg", ["leg.foot"]), ("wiper", ["arm.tip"]), ("four-bar", [])):
         data = data_of(load(name).simulate(until=0.01).view(live=False).html)
@@ -392,6 +395,7 @@ def test_a_film_goes_through_ffmpeg(
     assert "no such codec" in capsys.readouterr().err and not (tmp_path / "c.mp4").exists()
 
 
+@pytest.mark.slow
 def test_a_mode_shape_is_played(tmp_path: Path) -> None:
     """A pendulum's mode is a turn about its pin: points of the page move along the circle's tangent."""
     model = load("pendulum")

@@ -93,6 +93,7 @@ def test_numbers_are_those_of_the_emitted_functions_in_joint_coordinates(name):
     agrees(on_tree(load(name)))
 
 
+@pytest.mark.slow_cases("everything")
 @pytest.mark.parametrize("raw", [EVERYTHING, ROUGH], ids=["everything", "rough"])
 def test_numbers_of_every_kind_and_of_tables(raw):
     agrees(mechanism_of(raw))

@@ -69,7 +69,7 @@ def agree(name, coordinates, folder):
     return rates, corrections
 
 
-@pytest.mark.fast("rolling-disc-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), QUICK)
 def test_rates_and_corrections_are_those_of_numba(name, coordinates, tmp_path):
     rates, corrections = agree(name, coordinates, tmp_path)
@@ -93,7 +93,7 @@ def rows_of(program, *words):
     return head.split(","), np.array([row.split(",") for row in rows], dtype=float)
 
 
-@pytest.mark.fast("slider-crank-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), [("four-bar", "joint"), ("slider-crank", "absolute")])
 def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     model = load(name)
@@ -108,7 +108,7 @@ def test_the_program_runs_as_simulate_does(name, coordinates, tmp_path):
     np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-11, atol=1e-11)
 
 
-@pytest.mark.fast("1e-2-four-bar-lock")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LOCKED)
 @pytest.mark.parametrize("step", ["1e-3", "1e-2"])
 def test_a_program_that_locks_says_what_a_run_says(name, step, tmp_path):
@@ -186,6 +186,7 @@ step = 1e-3
 """
 
 
+@pytest.mark.slow
 def test_events_change_velocities_and_end_the_run(tmp_path):
     # also: a mechanism whose name is one of the mathematical library's
     (tmp_path / "ball.toml").write_text(BALL)
@@ -231,6 +232,7 @@ def test_a_body_in_space_is_changed_whether_its_axes_are_principal_or_not(produc
     np.testing.assert_allclose(rows[-1, 1:], end, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_length_that_changes_closes_the_mechanism_anew(tmp_path):
     model = load("wiper")
     library = called(written(model.mechanism, tmp_path))
@@ -268,6 +270,7 @@ def test_numbers_of_32_bits(tmp_path):
     assert rows[-1, 1] == pytest.approx(result.q.values[-1, 0], abs=1e-4)
 
 
+@pytest.mark.slow
 def test_long_functions_are_divided(tmp_path):
     run = prepare(load("front-suspension").mechanism, Settings("lagrange", shape="straight"), Purpose.STATE)
     from symgen.run.compiling.checked import checked

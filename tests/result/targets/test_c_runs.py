@@ -111,6 +111,7 @@ def assert_same_rows(model, folder, coordinates="absolute", most=1e-9, **keys):
     return result, ran
 
 
+@pytest.mark.slow
 def test_a_program_prints_the_rows_of_a_run_with_error_control(tmp_path):
     result, _ = assert_same_rows(symgen.load("pendulum"), tmp_path)
     assert result.steps < 300  # several of the 1001 rows lie in one step
@@ -124,6 +125,7 @@ def test_a_program_prints_the_rows_of_a_run_with_error_control(tmp_path):
     assert size - 64 < int(run_of(compiled(probe.parent)).stdout) <= size
 
 
+@pytest.mark.slow
 def test_an_input_that_changes_inside_a_step_acts_from_then_on(tmp_path):
     written(loaded(PUSHED, tmp_path).mechanism, tmp_path / "c", integrator="dop853")
     (tmp_path / "c" / "main.c").write_text(TURNING)

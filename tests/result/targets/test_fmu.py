@@ -78,7 +78,7 @@ def test_it_is_valid_and_small(four_bar):
     assert sum(v.derivative is not None for v in description.modelVariables) == 2
 
 
-@pytest.mark.slow_cases("2-1e-09-7.5e-06")
+@pytest.mark.slow_cases("2-1e-09-7.5e-06", "2-1e-11-7.5e-08", "3-1e-09-7.5e-06")
 @pytest.mark.parametrize(("tolerance", "error"), [(1e-9, 7.5e-6), (1e-11, 7.5e-8)])
 def test_model_exchange_neither_drifts_nor_restarts(four_bar, tolerance, error):
     # CVode on the equation reduced by hand to one coordinate is 5e-6 off at 1e-9 and 5e-8 at 1e-11
@@ -116,7 +116,7 @@ def test_parameters_assemble_anew_and_those_that_follow_cannot_be_set(tmp_path):
         np.testing.assert_allclose(rows["energy"], own["energy"], rtol=0, atol=100 * tolerance)
 
 
-@pytest.mark.fast("2-CoSimulation")
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_events_change_velocities_and_end_the_motion(kind, fmi, tmp_path):

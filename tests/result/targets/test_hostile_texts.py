@@ -204,6 +204,7 @@ def titles(*few: str):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[0]))
 def test_packages(title, honest, tmp_path):
     assert_same_packages((), title, honest, tmp_path)
@@ -334,6 +335,7 @@ def test_latex(title, tmp_path, capsys):
     assert bare[1].count("{") == bare[1].count("}") and bare[1].isascii()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[2]))
 def test_saved_runs_and_terminals(title, tmp_path, capsys):
     path = hostile_file(tmp_path, title)

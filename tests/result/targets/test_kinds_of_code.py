@@ -64,6 +64,7 @@ def test_printed_functions_have_names_of_their_own(kind, tmp_path):
     assert not ({*printed} - given) & (defined_names() | RESERVED - HELPERS_OF_C.keys())
 
 
+@pytest.mark.slow
 def test_names_of_templates_are_those_that_compilers_see(tmp_path):
     """What the templates define beside printed functions, as a compiler lists it."""
     model = model_of("everything", "absolute", tmp_path, "fmu")

@@ -171,6 +171,7 @@ def test_thousands_of_pushes_are_seen(tmp_path: Path, integrator: str) -> None:
     assert result["a.vx"][-1] == pytest.approx(0.1 + 10.0 * 0.01 * 30.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
     """One point of 6000, and the same table read along a curve that goes over it twice."""
     x = np.linspace(0.0, 10.0, 6001)
@@ -187,7 +188,7 @@ def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
         assert result["a.vx"][-1] == pytest.approx(0.1 + float(np.trapezoid(there, times)), abs=1e-5)
 
 
-@pytest.mark.fast("settings0")
+@pytest.mark.slow
 @pytest.mark.parametrize("settings", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 0.01}])
 def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, Any]) -> None:
     model = pushed_point(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)

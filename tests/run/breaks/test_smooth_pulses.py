@@ -144,6 +144,7 @@ def test_thousands_of_pulses_are_seen(tmp_path: Path) -> None:
     assert result["a.vx"][-1] - 0.1 == pytest.approx(120.0 * float(ive(0, 0.5 / 0.03**2)), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_what_is_compared_may_be_a_pulse(tmp_path: Path) -> None:
     """A condition that holds for 20 us of 10 s, in a force, an input and as an event: looks are as close as steps."""
     half = 1e-4 * math.sqrt(-math.log(0.99))

@@ -15,11 +15,7 @@ def observed(model):
     return {(o.method, o.integrator): o for o in orders.observe(model, METHODS, INTEGRATORS)}
 
 
-@pytest.mark.fast(
-    "rk4-direct-correction-four-bar",
-    "dopri5-lagrange-four-bar",
-    "dop853-direct-correction-driven-four-bar",
-)
+@pytest.mark.fast("dopri5-lagrange-four-bar")
 @pytest.mark.parametrize("model", orders.MODELS)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("integrator", INTEGRATORS)

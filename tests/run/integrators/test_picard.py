@@ -86,7 +86,7 @@ def test_unknown_rates_leave_out_coordinates_whose_rate_is_a_velocity():
                 assert q.rpartition(".")[0] == v.rpartition(".")[0]
 
 
-@pytest.mark.fast("joint")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
 def test_order_is_at_least_14(coordinates):
     mechanism, until, steps = symgen.load("four-bar").mechanism, 10.0, [90, 100, 110, 120, 130, 140, 160]
@@ -161,6 +161,7 @@ def test_outputs_inside_a_step_across_a_singular_position_belong_to_its_motion()
     assert np.abs(differences[1:-1]).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_velocities_at_outputs_have_the_digits_of_the_tolerance():
     mechanism, times = symgen.load("andrews").mechanism, [float(t) for t in np.linspace(0.0, 0.03, 41)]
     more = {"method": "lagrange", "coordinates": "joint", "until": 0.03, "times": times}

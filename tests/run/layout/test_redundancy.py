@@ -176,7 +176,7 @@ def test_a_pin_held_twice_drifts_no_more_than_one_held_once(integrator: str) -> 
     np.testing.assert_allclose(again["rod.theta"][-1], once["rod.theta"][-1], rtol=0.0, atol=1e-8)
 
 
-@pytest.mark.fast("lagrange dop853 1e-10 joint")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
     (
@@ -216,6 +216,7 @@ def test_rows_at_a_small_angle_do_not_stand_for_others(angle: float, left_out: s
     assert Model(built.build()).assemble(compiled).redundant_rows == (left_out,)
 
 
+@pytest.mark.slow
 def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
     """The compiled start keeps the same rows: the run is the single one, and near no singular position."""
     settings = {"method": "direct-correction", "integrator": "rk4", "step": 2e-3, "times": [0.2], "until": 0.2}

@@ -85,7 +85,7 @@ def test_redundant_rows_and_their_reactions(tmp_path, length):
     assert found.rank.rank == 29 and len(found.rank.redundant_rows) == 1
 
 
-@pytest.mark.fast("9.5367431640625e-07")
+@pytest.mark.slow
 @pytest.mark.parametrize("length", [2.0**-20, 2.0**20])
 def test_light_bodies(tmp_path, length):
     """What is added to M, where light bodies spoil the elimination, suits rows of both kinds."""

@@ -48,6 +48,7 @@ def test_intervals_are_those_of_numpy(period):
             )
 
 
+@pytest.mark.slow_cases("1.0")
 @pytest.mark.parametrize("period", [0.0, REPEATED])
 def test_the_next_point_is_the_first_root_of_a_parabola(period):
     """Beside NumPy's roots of all parabolas, for motions that go on and that turn round."""

@@ -86,7 +86,7 @@ def status_of(found):
     return found.result.status, found.result.reason or ""
 
 
-@pytest.mark.fast("adjoint")
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["forward", "adjoint"])
 def test_what_is_together_for_these_numbers_only_is_in_doubt(tmp_path, models, way):
     text, settings = PULLED.read_text(), {"way": way, "until": 2.5, **TIGHT}

@@ -53,6 +53,7 @@ def test_the_rod_on_a_pin(rod, coordinates):
     assert run.gradient("rod.theta").units == ("rad/(kg m^2)", "rad/m", "rad/(m/s^2)", "rad/kg")
 
 
+@pytest.mark.slow
 def test_a_number_is_the_parameter_in_its_place(tmp_path):
     text = FOUR_BAR.replace('mass = "m2"', "mass = 8.0").replace('at = [["d", 0.0], "D"]', 'at = [[10.0, 0.0], "D"]')
     settings = {"until": 0.5, "times": [0.5], "integrator": "rk4", "step": 1e-2}

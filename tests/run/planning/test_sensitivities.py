@@ -46,6 +46,7 @@ def run(request, four_bar):
     )
 
 
+@pytest.mark.slow_cases("joint")
 def test_lengths_masses_and_gravity_of_the_four_bar(run):
     angle, speed = run.gradient("crank.theta").row(), run.gradient("crank.omega").row()
     assert abs(run.q.row()["crank.theta"] - STATE[0]) < 1e-12
@@ -67,6 +68,7 @@ def test_what_scales_alone_changes_nothing(run):
         assert lengths == pytest.approx(-0.5 * 2.0 * rate, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_sensitivities_of_both_coordinates_agree(four_bar):
     runs = [
         four_bar.simulate(until=0.7, sensitivities=("a", "m2"), coordinates=c, **TIGHT) for c in ("absolute", "joint")
@@ -228,6 +230,7 @@ force = ["push + other", 0.0]
         pushed.simulate(until=2.0, sensitivities="push", inputs={"push": table}, **TIGHT)
 
 
+@pytest.mark.slow
 def test_files_pickles_and_json(four_bar, tmp_path):
     run = four_bar.simulate(until=0.2, sensitivities=("a", "m1"), integrator="dop853")
     again = pickle.loads(pickle.dumps(run))

@@ -27,7 +27,7 @@ def loaded():
     return description
 
 
-@pytest.mark.fast("baumgarte", "direct-correction")
+@pytest.mark.fast("baumgarte")
 @pytest.mark.parametrize("method", METHODS)
 def test_work_of_drivers_and_losses_is_accounted_for(method):
     """E - E0 is the work that the run integrates as a state of its own; and that is the integral of the power."""

@@ -50,7 +50,7 @@ def slider_crank(friction: dict[str, Any]) -> Mechanism:
     return validate(raw, "slider.toml")
 
 
-@pytest.mark.slow_cases("dop853-absolute")
+@pytest.mark.slow_cases("dop853-absolute", "picard-absolute")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "absolute"), ("dop853", "joint")]
 )

@@ -298,6 +298,7 @@ def test_inputs_of_gaps_do_not_jump() -> None:
     assert sim["b.y"] == pytest.approx(0.25, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_an_input_that_starts_a_floor_at_once_strikes() -> None:
     text = INPUT.replace("0.3]", "0.0]")
     for given in ("max(0, t - 0.3037)", "t - 0.3037 if t > 0.3037 else 0", ([0.0, 0.3037, 1.0], [0.0, 0.0, 0.6963])):

@@ -88,7 +88,7 @@ def ended(mechanism, scheme, coordinates, **settings):
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("rk4-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordinates):
     for wire in JUMPING:

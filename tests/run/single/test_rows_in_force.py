@@ -96,7 +96,6 @@ RELEASES = [
 
 @pytest.mark.fast(
     "baumgarte-dop853-1e-12-four-bar-0.8",
-    "direct-correction-picard-1e-12-n-four-bar:3-0.65",
     "udwadia-kalaba-dop853-1e-12-four-bar-0.8",
     "augmented-lagrangian-dop853-1e-09-four-bar-0.8",
     "compliant-constraints-rk4-1e-12-four-bar-0.8",

@@ -350,7 +350,7 @@ reset = { "block.vx" = "1.0 + part" }
     return described(text)
 
 
-@pytest.mark.fast("_pushed-dop853-absolute-settings4")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("make", "integrator", "coordinates", "settings"),
     [

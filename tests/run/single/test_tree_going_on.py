@@ -55,6 +55,7 @@ def test_two_runs_are_the_run_in_one_piece(name, method, integrator):
     assert_the_rest(second, whole, 1e-10 if method == "null-space" else 0.0)
 
 
+@pytest.mark.slow
 def test_through_files_and_a_reset(tmp_path):
     event = {"blow": {"when": "crank.theta < 1.02", "reset": {"crank.omega": "2"}}}
     settings = {**JOINT, "integrator": "abm4", "events": event}

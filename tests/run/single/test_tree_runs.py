@@ -153,6 +153,7 @@ def test_a_tree_needs_no_method():
         assert_same_motion(other.q.values, found[0].q.values)
 
 
+@pytest.mark.slow
 def test_rows_of_a_loop_that_vanish():
     """Where all bars of the flat four-bar are in line, rows of its loop vanish as a whole: no run is ok unwarned."""
     settings = {"until": 1.4, "integrator": "rk4", "step": 1e-3, "output_step": 0.2}

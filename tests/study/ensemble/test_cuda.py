@@ -188,6 +188,7 @@ def test_tables_too_long_for_constant_memory():
 # -- what is emitted and loaded ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_emitted_modules_hold_device_functions_only(tmp_path):
     assert main(["generate", "four-bar", "--target", "cuda", "--all", "-o", str(tmp_path)]) == 0
     modules = sorted(tmp_path.glob("*.py"))

@@ -216,6 +216,7 @@ def test_samples_and_held_values_are_inputs_of_every_run(cart, tmp_path):
 # -- starts ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_joint_coordinates_vary_and_are_held():
     """The crank of a slider-crank is turned by what its pin to the rod shows: phi, rod and pin make a triangle."""
     model = symgen.load("slider-crank")

@@ -71,7 +71,7 @@ def test_whatever_else_is_kept_is_that_of_single_runs():
     assert_rows(found, model, **asked)
 
 
-@pytest.mark.fast("baumgarte-rk4")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-3}], ids=["dop853", "rk4"]
 )

@@ -108,6 +108,7 @@ def test_pieces_are_those_asked_for_whatever_other_threads_ask():
         assert other.seams(values, 1.0) == known.seams(values, 1.0) != ()
 
 
+@pytest.mark.slow
 def test_a_row_whose_input_jumps_too_often_is_a_row_that_failed():
     """The others are run: v = 1 + t under a square wave whose half period is longer than the run."""
     body = {"mass": 1.0, "inertia": 0.1, "velocity": [1.0, 0.0]}

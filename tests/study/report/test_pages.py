@@ -107,6 +107,7 @@ def test_the_page_asks_for_nothing(text, page):
     assert "url(" not in style and "@import" not in style and "&" not in style.replace("&#", "")
 
 
+@pytest.mark.slow
 def test_every_picture_is_whole(page):
     images = page.all("img")
     assert len(images) > 10
@@ -220,6 +221,7 @@ def test_a_variant_has_a_shade_of_its_methods_colour_and_an_integrator_its_marke
     assert len(set(integrator_markers(made).values())) == 2
 
 
+@pytest.mark.slow
 def test_studies_with_nothing_to_draw_still_make_a_page():
     failed = [row("lagrange", 1e-3, None, 0.0, status="failed", reason="no", position_violation_max=float("nan"))]
     for made in (study(failed, traces=(trace(),)), study([], traces=(), interrupted=True)):

@@ -127,6 +127,7 @@ asyncio.run(main())
     assert process.returncode != 0
 
 
+@pytest.mark.slow
 def test_the_catalogue_is_found_in_an_archive(tmp_path: Path) -> None:
     package = Path(symgen.__file__).parent
     archive = tmp_path / "symgen.zip"
