@@ -48,10 +48,10 @@ from symgen.derive.methods._base import (
     augmented_iteration,
     multiplier_law,
 )
-from symgen.derive.methods._formula import Matrix as FormulaMatrix
-from symgen.derive.methods._formula import Scalar as FormulaScalar
 from symgen.derive.methods._formula import System
-from symgen.derive.methods._formula import Vector as FormulaVector
+from symgen.derive.methods._tape import Matrix as FormulaMatrix
+from symgen.derive.methods._tape import Scalar as FormulaScalar
+from symgen.derive.methods._tape import Vector as FormulaVector
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
 from symgen.describe.mechanism import Articulation, Force, Joint

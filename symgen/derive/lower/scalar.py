@@ -18,7 +18,7 @@ from symgen.derive.lower.factor import FactorNodes, factorisation, minimum_degre
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.scalar_mass import OfMass
 from symgen.derive.lower.scalar_values import Outputs, Rows, to_status
-from symgen.derive.methods._formula import FormulaStep, needed
+from symgen.derive.methods._tape import FormulaStep, needed
 
 
 class ScalarNodes(OfMass):

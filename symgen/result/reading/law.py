@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from symgen.base.escapes import latex_text
 from symgen.derive.lower.record import Part, RecordedLaw, record_law
 from symgen.derive.methods import METHODS
-from symgen.derive.methods._formula import FormulaStep, needed
+from symgen.derive.methods._tape import FormulaStep, needed
 from symgen.result.reading.boxes import (
     Box,
     bracket,

@@ -20,7 +20,7 @@ from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.record import BEHIND, EQUATIONS
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.scalar import ScalarNodes
-from symgen.derive.methods._formula import needed
+from symgen.derive.methods._tape import needed
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
