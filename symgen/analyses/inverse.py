@@ -19,7 +19,7 @@ from symgen.base.digits import cleaned
 from symgen.base.errors import InputError, counted
 from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.inputs import are_words_of_data
+from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.over_time import rms
 from symgen.result.reactions import Forces, seats

@@ -17,7 +17,7 @@ from symgen.derive.methods import METHODS
 from symgen.describe.formulas.evaluate import independent_values, parameter_values
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.describe.parts.events import DOES
-from symgen.describe.parts.inputs import are_words_of_data
+from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
 from symgen.result.live_columns import live_columns
