@@ -23,8 +23,9 @@ from symgen.derive.formulate.equations import (
     Omission,
     mass_blocks,
 )
+from symgen.derive.formulate.exertion import exertion
 from symgen.derive.formulate.flexure import exertions
-from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes, exertion
+from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes
 from symgen.derive.formulate.of_time import time_function
 from symgen.derive.formulate.tree import energies_on_tree
 from symgen.describe.bounded import BoundedRow
