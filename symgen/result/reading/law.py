@@ -15,15 +15,14 @@ from symgen.result.reading.boxes import (
     dotted,
     fraction,
     function_box,
-    latex,
     literal_box,
     name,
-    plain,
     power,
     row,
     sign,
     transposed_matrix,
 )
+from symgen.result.reading.notations import latex, plain
 
 _QUANTITIES = {"gamma": "gamma", "nu": "nu", "phi": "Phi", "f": "f", "v": "v"}
 _SIGNS = {"add": "+", "sub": "-"}
