@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.actuators import WHERE, actuated, balance
+from symgen.analyses.actuators import WHERE, actuated
 from symgen.analyses.contacts import Contacts
+from symgen.analyses.effort_balance import balance
 from symgen.analyses.kinematics import Kinematics, driven_motion
 from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
