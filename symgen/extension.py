@@ -54,7 +54,7 @@ from symgen.derive.methods._tape import Scalar as FormulaScalar
 from symgen.derive.methods._tape import Vector as FormulaVector
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
-from symgen.describe.mechanism import Articulation, Force, Joint
+from symgen.describe.mechanism import Force, Joint
 from symgen.describe.parts.fields import (
     Axis,
     AxisPair,
@@ -69,6 +69,7 @@ from symgen.describe.parts.fields import (
     Vector,
 )
 from symgen.describe.parts.scope import Scope
+from symgen.describe.spanning_tree import Articulation
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
 from symgen.run.layout import abi

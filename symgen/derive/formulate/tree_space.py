@@ -26,8 +26,9 @@ from symgen.derive.formulate.of_time import driving_of
 from symgen.derive.formulate.tree import Tree
 from symgen.derive.formulate.tree_inertia import BodyVelocity, Composite, Placed
 from symgen.derive.formulate.vector_algebra import Matrix, Triple, Vectors
-from symgen.describe.mechanism import Articulation, Link, SpatialBody
+from symgen.describe.mechanism import SpatialBody
 from symgen.describe.parts.topology import labels_of
+from symgen.describe.spanning_tree import Articulation, Link
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.measures import ModelNodes

@@ -38,7 +38,8 @@ if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.derive.formulate.equations import Equations
     from symgen.describe.bounded import BoundedRow
-    from symgen.describe.mechanism import Mechanism, Topology
+    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.spanning_tree import Topology
 
 
 #: Characters of gamma and forces up to which they are written without shared terms.
