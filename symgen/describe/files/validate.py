@@ -42,6 +42,7 @@ from symgen.describe.mechanism import (
 from symgen.describe.parts.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.columns import check_columns
+from symgen.describe.parts.context import Context
 from symgen.describe.parts.events import read_event
 from symgen.describe.parts.fields import (
     Flag,
@@ -58,7 +59,7 @@ from symgen.describe.parts.limits import limits_of
 from symgen.describe.parts.numbers import read_defaults, read_points
 from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
-from symgen.describe.parts.scope import Context, Scope
+from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import (
     MechanismSection,
     OutputSection,

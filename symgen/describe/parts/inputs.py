@@ -21,8 +21,8 @@ from symgen.base.vocabulary.measures import FormulaMeasure
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.formulas.readings import Readings
 from symgen.describe.mechanism import Mechanism, Parameter
+from symgen.describe.parts.context import Context
 from symgen.describe.parts.input_data import Data, data_of
-from symgen.describe.parts.scope import Context
 
 T = TypeVar("T")
 #: Parts of a mechanism whose formulas may read inputs.
