@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.vocabulary.expressions import ONE, call
+from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
 from symgen.describe.mechanism import Hold, Joint, Rotor
 from symgen.describe.parts.collected import Errors, Incomplete
@@ -17,7 +18,6 @@ from symgen.describe.parts.topology import articulation_of
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.measures import Marker
-    from symgen.describe.bounded import BoundedRow
     from symgen.describe.parts.scope import Scope
 
 #: Joints in a chain of references.
