@@ -339,42 +339,11 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.compile.store.stats import seconds_in_cache
-        from symgen.result.build import build_result
-        from symgen.result.judge import is_long, unchecked
-        from symgen.result.reruns.verification import part_verified, verified
-        from symgen.run.single.timing import timed
+        from symgen.result.reruns.simulated import simulated
 
         arguments.function("progress", progress)
         settings = changed(settings, changes)
-        before = seconds_in_cache()
-        if by := arguments.words("sensitivities", sensitivities):
-            from symgen.describe.facts.lifted import lifted
-            from symgen.result.sensitivities import Differentiated
-
-            own = lifted("sensitivities", self.mechanism, by)
-            directed = Differentiated(own.mechanism, settings, own.keys)
-            run, integrate = directed.run, directed.integrate
-        else:
-            run = prepare(self.mechanism, settings)
-            integrate = run.integrate
-        runs = timed(lambda: integrate(progress), settings.repeat)
-        outcome, verification = runs.outcome, None
-        if unchecked(run, outcome) is None:
-            free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by
-            run, outcome, verification = verified(run, outcome, free)
-            if settings.verify and run.plan.mechanism.beams:
-                from symgen.result.reruns.discretisation import discretisation
-
-                words = discretisation(run, outcome, settings)
-                note = "; ".join(x for x in (verification.note, words) if x)
-                verification = replace(verification, note=note or None)
-        elif is_long(run, outcome):
-            verification = part_verified(run, outcome)
-        # assembly calls emitted functions too: compiling them belongs to the run
-        outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        result = build_result(run, outcome, runs.spread or 0.0, verification)
-        return directed.result(result) if by else result
+        return simulated(self.mechanism, settings, progress, arguments.words("sensitivities", sensitivities))
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:
