@@ -25,8 +25,9 @@ from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY, RUNS_DONE
 from symgen.study.ensemble.axes import RUN_SIZE
 from symgen.study.ensemble.chunks import Chunk
+from symgen.study.ensemble.ensemble import Ensemble
 from symgen.study.ensemble.kernel import Integers, kernel_of, new_control
-from symgen.study.ensemble.sweep_plan import Ensemble, make_ensemble
+from symgen.study.ensemble.sweep_plan import make_ensemble
 from symgen.study.ensemble.sweep_study import SAVED, Sweep
 from symgen.study.ensemble.table import FolderTable, RowTable, check_folder
 

@@ -44,12 +44,10 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.study.ensemble.ensemble import Ensemble
     from symgen.study.ensemble.row_sensitivities import RowSensitivities
-    from symgen.study.ensemble.samples import contributions
-from symgen.study.ensemble.sweep_plan import Ensemble
 
 Array = NDArray[np.float64]
-
 
 #: Endings of files -> the libraries needed.
 SAVED: Mapping[str, tuple[str, ...]] = {".nc": ("xarray", "h5netcdf", "h5py"), ".csv": ()}
