@@ -131,6 +131,19 @@ def sweep(
         raise InputError("resume", "an output that was begun", "none")
     ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], names, target)
     _check_room(ensemble, path, folder)
+    return _collected(ensemble, path, folder, resume, jobs, scheduler, progress)
+
+
+def _collected(
+    ensemble: Ensemble,
+    path: Path | None,
+    folder: Path | None,
+    resume: bool,
+    jobs: int | None,
+    scheduler: str | Client | None,
+    progress: Callable[[float, int], None] | None,
+) -> Sweep:
+    """Return the results of an ensemble, collected in a folder where there is one, and written to a file."""
     table = (
         RowTable(*ensemble.sizes)
         if folder is None
