@@ -16,7 +16,7 @@ from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.events import in_words
 from symgen.describe.parts.inputs import inputs_of_gaps
-from symgen.result.stepping.advance import Clock, Controller
+from symgen.result.stepping.controllers import Controller, Controllers
 from symgen.result.stepping.readings import StepReadings
 from symgen.result.stepping.saved_state import Saved
 from symgen.run.breaks.motions import refuse_jumps
@@ -70,7 +70,7 @@ class SteppedRun(StepReadings):
         self._mechanism, self._plan, self._prepare, self._adaptive = mechanism, plan, begin, adaptive
         self._changed = dict(plan.parameters)
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
-        self._clocks, self._calling = list[Clock](), False
+        self._controllers = Controllers()
         self._jumps, self._driven = plan.inputs.seams, plan.inputs.driven
         self._foreseen, self._horizon = self._breaks(), plan.spec.until
         self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
@@ -130,7 +130,7 @@ class SteppedRun(StepReadings):
         """
         if type(dt) is not float or not 0.0 < dt < math.inf:  # the complete check is slower
             dt = arguments.number("dt", dt, positive=True)
-        if self._calling or self._advance.unsure:
+        if self._controllers.calling or self._advance.unsure:
             self._ready("step")
         if u is not None:
             self.set(u)
@@ -138,7 +138,7 @@ class SteppedRun(StepReadings):
             self._advance.take_steps_of(dt)
         if self._foreseen and self._clock[_TIME] + dt > self._horizon:
             self._look_ahead(self._clock[_TIME] + dt)
-        if self._clocks or self._jumps:
+        if self._controllers.clocks or self._jumps:
             return self._go(self._clock[_TIME] + dt)
         event = self._advance.to(self._clock[_TIME] + dt)
         self._history.note()
@@ -204,7 +204,7 @@ class SteppedRun(StepReadings):
     @property
     def is_controlled(self) -> bool:
         """Whether functions are called as the run goes on."""
-        return bool(self._clocks)
+        return bool(self._controllers.clocks)
 
     def every(self, interval: float, controller: Controller) -> None:
         """Call a function at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.
@@ -220,10 +220,7 @@ class SteppedRun(StepReadings):
             Takes the time of the call, one multiplication from t0, and this run. It returns values by name or None;
             they are set as by `set` and hold until the next call.
         """
-        interval = arguments.number("interval", interval, positive=True)
-        if controller is None or arguments.function("controller", controller) is None:
-            raise InputError("controller", "a function", "None")
-        self._clocks.append(Clock(controller, self.t, interval))
+        self._controllers.add(controller, self.t, interval)
 
     # -- changing ------------------------------------------------------------------------------------------------------
 
@@ -296,10 +293,9 @@ class SteppedRun(StepReadings):
     def save(self) -> Saved:
         """Return the whole state of the run, as a value that can be pickled."""
         self._advance.recover()
-        clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
-        events = self._loop.events
+        events, beats = self._loop.events, self._controllers.beats
         happened = () if events is None else tuple(events.happened)
-        return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks, happened)
+        return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), beats, happened)
 
     def restore(self, saved: Saved) -> None:
         """Take up what `save` returned, here or in another run of the same model, method and integrator.
@@ -314,10 +310,9 @@ class SteppedRun(StepReadings):
         """
         arguments.of_kind("restore", saved, Saved, "what `save` returned")
         self._ready("restore")
-        saved.check(self._owner, self._loop.save(), tuple(c.interval for c in self._clocks))
+        saved.check(self._owner, self._loop.save(), self._controllers.intervals)
         self._take_up(saved, saved.arrays, self._divided(parameter_values(self._mechanism, saved.parameters)))
-        for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
-            clock.start, clock.beat = start, beat
+        self._controllers.take_up(saved.clocks)
         self._history.forget_after(saved.t)
 
     def _take_up(self, saved: Saved, arrays: Mapping[str, NDArray[Any]], spec: RunSpec) -> None:
@@ -355,8 +350,7 @@ class SteppedRun(StepReadings):
         arrays, origin = (first.arrays, self._first_origin) if start is None else self._arrays_at(start)
         self._take_up(first, arrays, self._first_spec)
         self._jumps, self._origin, self._horizon = self._first_jumps, origin, self._first_spec.until
-        for clock in self._clocks:
-            clock.start, clock.beat = first.t, 0
+        self._controllers.begin_at(first.t)
         self._history.clear()
         if not self._free:
             self._advance.begin()
@@ -412,7 +406,7 @@ class SteppedRun(StepReadings):
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""
-        if self._calling:
+        if self._controllers.calling:
             raise SimulationError(f"a controller cannot call `{what}`: it is called while the run goes on")
         self._advance.recover()
 
@@ -424,7 +418,7 @@ class SteppedRun(StepReadings):
             raise InputError("until", where, f"{until:g}")
         while event is None and loop.is_ahead(until):
             self._call()
-            event = self._advance.to(min((until, *(clock.due for clock in self._clocks))))
+            event = self._advance.to(self._controllers.due_before(until))
             self._history.note()
         return event
 
@@ -433,13 +427,4 @@ class SteppedRun(StepReadings):
         now = self.t
         slack = 0.0 if self._adaptive else self._loop.same(now)
         self._advance.begin()
-        self._calling = True
-        try:
-            for clock in self._clocks:
-                if clock.is_due(now, slack):
-                    values = clock.controller(clock.due, self)
-                    if values is not None:
-                        self.set(arguments.mapping("controller", values, "values by name, or None"))
-                    clock.beat += 1
-        finally:
-            self._calling = False
+        self._controllers.call(self, now, slack)
