@@ -207,3 +207,14 @@ def with_memory(scheme: Any, name: str, array: NDArray[Any]) -> Any:
         return scheme._replace(**{name: array.copy()})
     there[:] = array
     return scheme
+
+
+def with_room(scheme: Any) -> Any:
+    """Return a scheme's record with more room for the factors of the matrix that did not fit."""
+    from symgen.run.loops.sparse import enlarged
+
+    for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
+        if hasattr(scheme, plan):
+            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
+            scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
+    return scheme
