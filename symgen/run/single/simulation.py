@@ -112,8 +112,7 @@ class Simulation:
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
-        self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        self.iterations_before = 0
+        self.before, self.iterations_before = np.zeros(abi.N_CONTROL, dtype=np.int64), 0
         self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
