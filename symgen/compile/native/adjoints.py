@@ -21,7 +21,8 @@ from symgen.compile.native import sines
 from symgen.compile.native.llvm import LlvmPrinter, declarations, taken
 from symgen.compile.native.llvm_values import TYPES, literal
 from symgen.compile.native.read_values import Foreign
-from symgen.compile.native.tangents import Dual, TangentPrinter
+from symgen.compile.native.tangent_rules import Dual
+from symgen.compile.native.tangents import TangentPrinter
 
 #: An element of an array.
 Place = tuple[str, int]
