@@ -146,6 +146,7 @@ class InstanceAccess(Access):
         frames = range(len(self.info.frames))
         own: dict[str, list[str]] = {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"], "state": []}
         own["bound"] = ["row", "entry", *(f"v{i}" for i in frames)]
+        own["rotor"] = own["bound"][1:]
         names = [*(f"f{i}" for i in frames), *own.get(self.info.kind, [f"v{i}" for i in frames])]
         return self.numbered([*names, *self.beside(), "computed"])
 

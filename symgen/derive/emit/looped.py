@@ -14,7 +14,7 @@ from symgen.derive.emit.printer import Access, Printer
 from symgen.derive.emit.whole import Places
 from symgen.derive.lower.looped import statements as data
 from symgen.derive.lower.looped.law import LoopedLaw
-from symgen.derive.lower.looped.layout import GENERIC, HEAD
+from symgen.derive.lower.looped.layout import GENERIC, HEAD, ROTORS
 from symgen.derive.lower.record import ARGUMENTS
 
 _STATUS = {name: i for i, name in enumerate(STATUS)}
@@ -27,6 +27,12 @@ def emit_machine(generator: str) -> str:
     values = {"head": HEAD, "suspicious": SUSPICIOUS, "skip": SKIP, "status": _STATUS}
     values |= {"generic": _GENERIC, "codes": GENERIC}
     return render("looped/machine.py.j2", {"format": FORMAT, "generator": generator, **values})
+
+
+def emit_rotors(generator: str) -> str:
+    """Return the source of the generic code for mechanisms with rotors on joints."""
+    values = {"format": FORMAT, "generator": generator, "rotors": ROTORS, "status": _STATUS}
+    return render("looped/rotors.py.j2", values)
 
 
 #: Calls of generic code: name, arguments after T, p and w, the code with its arguments, and its purpose.

@@ -281,10 +281,7 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
     }
     for rotor in model.mechanism.rotors:
         with finite_numbers(f"joints.{rotor.joint}"):
-            inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
-            angle = _about_axes(model, rotor) or angle
-            rate = angle.rate(g, model.velocities)
-            row, bias, _ = model.pulled(angle.row, angle.bias)
+            inertia, rate, row, bias = rotor_rate(model, rotor)
             energy = g.add(energy, g.mul(g.mul(g.constant(0.5), inertia), g.mul(rate, rate)))
             for i, of_i in row.items():
                 momentum = g.mul(inertia, of_i)
@@ -292,6 +289,15 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
                 for j, of_j in row.items():
                     entries[i, j] = g.add(entries.get((i, j), g.zero), g.mul(momentum, of_j))
     return mass_blocks(entries, len(forces), g.zero), energy
+
+
+def rotor_rate(model: ModelNodes, rotor: Rotor) -> tuple[int, int, dict[int, int], int]:
+    """Return a rotor's inertia, the rate r v of its angle, the entries of r, and b of the second derivative."""
+    inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
+    angle = _about_axes(model, rotor) or angle
+    rate = angle.rate(model.graph, model.velocities)
+    row, bias, _ = model.pulled(angle.row, angle.bias)
+    return inertia, rate, row, bias
 
 
 def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:

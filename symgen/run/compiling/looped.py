@@ -28,6 +28,7 @@ from symgen.derive.lower.looped.forms import FormInfo, form_key, form_stem, lowe
 from symgen.derive.lower.looped.instances import Instance, instances
 from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.derive.lower.looped.law import LoopedLawInfo, refuse_dense
+from symgen.derive.lower.looped.layout import KINDS
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.derive.lower.looped.tables import Builder, IndexTables
 from symgen.derive.lower.record import BEHIND
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
     from symgen.run.compiling.pipeline import MethodChoice
 
 #: Modules other than kernels and laws.
-_MACHINE, _MODEL = "machine", "model"
+_MACHINE, _MODEL, _ROTORS = "machine", "model", "rotors"
 
 
 def shared_folder(generator: str) -> str:
@@ -101,8 +102,7 @@ class Needs:
         choice = self.choice
         if not choice.implicit:
             return {}
-        kinds = ("body", "joint", "bound", "force", "state")
-        keys = {kind: form_key(choice.method, choice.options, kind, self.shifted) for kind in kinds}
+        keys = {kind: form_key(choice.method, choice.options, kind, self.shifted) for kind in KINDS}
         return {stem: form_stem(keys[instance.kind], stem) for stem, instance in self.elements.items()}
 
     @property
@@ -114,7 +114,13 @@ class Needs:
     @property
     def modules(self) -> tuple[str, ...]:
         """All modules."""
-        return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
+        rotors = [_ROTORS] if self.has_rotors else []
+        return (_MACHINE, _MODEL, *rotors, self.law, *self.elements, *self.forms.values())
+
+    @property
+    def has_rotors(self) -> bool:
+        """Whether M couples bodies, which other generic code is for."""
+        return any(instance.kind == "rotor" for instance in self.instances)
 
     def missing(self, exists: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
         """Derive and emit kernels, the law and the generic code, with metadata, except those that exist.
@@ -129,7 +135,7 @@ class Needs:
             Whether the law is one module.
         """
         from symgen.derive.emit.kernel_modules import emit_form, emit_kernel
-        from symgen.derive.emit.looped import emit_looped_law, emit_machine, emit_shared_model
+        from symgen.derive.emit.looped import emit_looped_law, emit_machine, emit_rotors, emit_shared_model
         from symgen.derive.lower.looped.kernels import lower_kernel
         from symgen.derive.lower.looped.law import lower_looped
 
@@ -139,6 +145,8 @@ class Needs:
             modules[_MACHINE] = emit_machine(generator), {}
         if not exists(_MODEL):
             modules[_MODEL] = emit_shared_model(generator), {}
+        if self.has_rotors and not exists(_ROTORS):
+            modules[_ROTORS] = emit_rotors(generator), {}
         if not exists(self.law):
             law = lower_looped(method, options)
             sources = emit_looped_law(law, generator, method.summary, method.reference, whole)
@@ -224,6 +232,7 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
         tables=tables,
         kernels=kernels,
         machine=machine,
+        generic=load_module(path / f"{_ROTORS}.py") if needs.has_rotors else machine,
     )
 
 
@@ -284,7 +293,7 @@ def generate_looped(
 
 
 #: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
-_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
+_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|rotor|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
 
 
 def numbered(stems: Iterable[str]) -> dict[str, str]:

@@ -78,7 +78,7 @@ def form_stem(key: str, stem: str) -> str:
 
 def _recorded(kind: str) -> str:
     """Return the kind of elements whose formula a kind has: a row with bounds is a joint with a force."""
-    return "joint" if kind == "bound" else kind
+    return {"bound": "joint", "rotor": "body"}.get(kind, kind)
 
 
 def _of_bound(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
@@ -120,6 +120,8 @@ def lower_form(
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
     if instance.kind == "bound":
         groups = _of_bound(g, e, groups)
+    if instance.kind == "rotor":
+        groups = [(group, nodes) for group, nodes in groups if group == "v"]
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
     if instance.kind == "state":
         rows = [("z", 1, g.sub(g.input("k_z", 1), e.state_rates[0]))]

@@ -1,4 +1,4 @@
-"""Bodies, joints, rows with bounds, forces and states as instances of kernels: structure apart from numbers.
+"""Bodies, joints, rows with bounds, rotors, forces and states as instances of kernels: structure apart from numbers.
 
 Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
 numbers and formulas of parameters become the parameters ``k0``, ``k1``, ..., states of the file ``z0``, ``z1``, ....
@@ -32,7 +32,7 @@ from symgen.derive.lower.windings import measures_of, turns
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.graph import Formulas
-from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, StateVariable
+from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, Rotor, StateVariable
 
 #: Fields of the vocabulary's structs that hold the name of a body.
 _BODY_FIELDS = frozenset(("body", "a", "b"))
@@ -49,7 +49,7 @@ class Instance:
 
     Parameters
     ----------
-    kind : {"body", "joint", "bound", "force", "state"}
+    kind : {"body", "joint", "bound", "rotor", "force", "state"}
         Kind of element.
     name, label : str
         The element's name, and the readable name of its kind.
@@ -92,6 +92,7 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
         *(rewriting.body(body) for body in mechanism.bodies),
         *(rewriting.element("joint", joint) for joint in mechanism.joints),
         *(rewriting.bound(row) for row in mechanism.bounded),
+        *(rewriting.rotor(rotor) for rotor in mechanism.rotors),
         *(rewriting.element("force", force) for force in mechanism.forces),
         *(rewriting.state(state) for state in mechanism.states),
     )
@@ -159,6 +160,17 @@ class _Rewriting:
         instance = self.instance("bound", row.row, row.family.one, nothing, frames, content)
         angles = turns([row.measure])
         return replace(instance, angles=angles) if angles else instance
+
+    def rotor(self, rotor: Rotor) -> Instance:
+        """Return a rotor on a joint as an instance: its inertia, and the rate of its angle."""
+        self.begin()
+        content = Rotor("e", self.walk(rotor.angle), self.formula(rotor.inertia), self.walk(rotor.axes))
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance("rotor", rotor.joint, "rotor", nothing, frames)
+        abstract = msgspec.structs.replace(instance.abstract, rotors=(content,))
+        angles = turns([rotor.angle])
+        return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(content), angles=angles)
 
     def state(self, state: StateVariable) -> Instance:
         """Return a state of the file as an instance: its rate."""

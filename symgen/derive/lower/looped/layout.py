@@ -16,6 +16,9 @@ SECTIONS = (
     ("stage", "unknowns"),  # k of the descriptor form
 )
 
+#: Kinds of elements, in the order of instances.
+KINDS = ("body", "joint", "bound", "rotor", "force", "state")
+
 #: Lists of kernels that are called in turn, and the functions of kernels that each calls, by kind.
 STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "frames": (("body", "frame"),),
@@ -25,13 +28,13 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "turn": (("body", "turn"),),
     "normalise": (("body", "normalise"),),
     "wind": (("joint", "wind"), ("force", "wind")),
-    "geometry": (("joint", "geometry"), ("bound", "geometry")),
-    "motion": (("body", "motion"), ("joint", "motion"), ("bound", "motion"), ("force", "motion")),
-    "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("force", "motion")),
-    "energy": (("body", "energy"), ("force", "energy")),
+    "geometry": (("joint", "geometry"), ("bound", "geometry"), ("rotor", "geometry")),
+    "motion": (("body", "motion"), *((kind, "motion") for kind in ("joint", "bound", "rotor", "force"))),
+    "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("rotor", "motion"), ("force", "motion")),
+    "energy": (("body", "energy"), ("rotor", "energy"), ("force", "energy")),
     "report": (("joint", "report"),),
-    "residuals": tuple((kind, "residual") for kind in ("body", "joint", "bound", "force", "state")),
-    "slopes": tuple((kind, "tangent") for kind in ("body", "joint", "bound", "force", "state")),
+    "residuals": tuple((kind, "residual") for kind in KINDS),
+    "slopes": tuple((kind, "tangent") for kind in KINDS),
 }
 
 #: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then the beginnings of tables.
@@ -53,3 +56,11 @@ HEAD = (
 
 #: Generic functions that are called through the tables, in the order of their addresses.
 GENERIC = ("rows_times", "columns_times", "blocks_times", "weigh", "gauge", "gram", "augment", "factorise", "solve")
+
+#: Numbers at the head of the tables of rotors, which begin where the number before the table of the factorisation of
+#: D W D^T says: how many there are, and the length of a factor; the sections of ``w`` for a vector of them and for the
+#: factor; then the beginnings of tables.
+ROTORS = (
+    *("rotors", "rotor_size", "rotor_vector", "rotor_lower"),
+    *("rotor_rows", "rotor_weights", "rotor_products", "rotor_beside", "rotor_augmented", "rotor_factor"),
+)

@@ -10,7 +10,7 @@ from symgen.base.ir.program import MODE_NUMBERS, STATUS
 from symgen.derive.lower.looped.forms import FormInfo
 from symgen.derive.lower.looped.instances import Instance
 from symgen.derive.lower.looped.law import LoopedLawInfo
-from symgen.derive.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
+from symgen.derive.lower.looped.layout import GENERIC, HEAD, ROTORS, SECTIONS, STAGES
 from symgen.derive.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
 from symgen.derive.lower.record import BEHIND
 
@@ -132,13 +132,19 @@ class Builder:
             offset += MODE_NUMBERS * len(shape.mode_index)
         for name, size in (*SECTIONS, *self.law.sections):
             sections[name] = (offset, sizes[size])
-            offset += sizes[size]
+            # rotors are rows behind those of D where D M^-1 D^T is solved with
+            offset += sizes[size] + (len(shape.rotors) if size == "m" else 0)
         sections["vectors"] = (offset, self.law.vectors * sizes["longest"])
         head["vectors"], head["vector_size"] = offset, sizes["longest"]
         offset += self.law.vectors * sizes["longest"]
+        for name, length in self.of_rotors:
+            head[name] = offset
+            offset += length
         head["tables"] = offset
         for i, name in enumerate(HEAD):
             self.numbers[i] = head[name] if name in head else sections[name][0]
+        for i, name in enumerate(ROTORS if shape.rotors else ()):
+            self.numbers[self.rotors + i] = head[name]
         for i, (name, _) in enumerate(self.law.sections):
             self.numbers[len(HEAD) + i] = sections[name][0]
         self.numbers += [0] * (len(self.numbers) % 2)
@@ -168,6 +174,8 @@ class Builder:
                 self.numbers += [shape.row_of[k], shape.entry_of[k], shape.coordinate_of[k]]
             elif info.kind == "bound":
                 self.numbers += [shape.row_of[k], shape.entry_of[k], *(b[1] for b in bodies)]
+            elif info.kind == "rotor":
+                self.numbers += [shape.entry_of[k], *(b[1] for b in bodies)]
             elif info.kind == "force":
                 self.numbers += [b[1] for b in bodies]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
@@ -248,6 +256,8 @@ class Builder:
         self.numbers.append(len(runs))
         for width, terms in runs.items():
             self.numbers += [width, len(terms) // (3 if width else 8), *terms]
+        if shape.rotors:
+            self.rotor_tables()
         self.begin("gram_factor")
         self.numbers += shape.gram.table()
         if self.law.augmented:
@@ -294,12 +304,56 @@ class Builder:
         self.begin("weights")
         plain = [x for slot, velocity in shape.products.slots.items() for x in (slot, velocity)]
         self.numbers += [len(plain) // 2, *plain]
-        weights: list[int] = []
-        owner = {v: first for first, width in shape.width.items() for v in range(first, first + width)}
-        for size, velocity, place in large:
-            for b in shape.by_body[owner[velocity]]:
+        self.large = large
+        self.weights(shape.blocks)
+
+    def weights(self, blocks: Sequence[RowBlock]) -> None:
+        """Write which blocks of rows the blocks of M act on: size, place of the entries, place in p of M^-1."""
+        weights, by_body = list[int](), dict[int, list[RowBlock]]()
+        for block in blocks:
+            by_body.setdefault(block.first, []).append(block)
+        owner = {v: first for first, width in self.shape.width.items() for v in range(first, first + width)}
+        for size, velocity, place in self.large:
+            for b in by_body.get(owner[velocity], ()):
                 weights += [size, b.offset + velocity - b.first, place + size * size]
         self.numbers += [len(weights) // 3, *weights]
+
+    @property
+    def of_rotors(self) -> tuple[tuple[str, int], ...]:
+        """Sections of ``w`` that solutions with the rotors' part of M need, and their lengths."""
+        shape = self.shape
+        return (("rotor_vector", len(shape.rotors)), ("rotor_lower", shape.rotor_gram.size)) if shape.rotors else ()
+
+    def rotor_tables(self) -> None:
+        """Write the rows R of rotors, the weights of their entries, their products, and where the head of it stands."""
+        shape = self.shape
+        self.rotors = len(self.numbers)
+        self.numbers += [0] * len(ROTORS)
+        self.head |= {"rotors": len(shape.rotors), "rotor_size": shape.rotor_gram.size}
+        self.begin("rotor_rows")
+        for row in shape.rotor_rows:
+            self.numbers += [len(row), *(x for column, slot in row for x in (slot, column))]
+        self.begin("rotor_weights")
+        plain = [(slot, j) for row in shape.rotor_rows for j, slot in row if j not in shape.coupled]
+        self.numbers += [len(plain), *(x for each in plain for x in each)]
+        self.weights(shape.rotor_blocks)
+        for name, among in (("rotor_products", False), ("rotor_beside", True)):
+            self.begin(name)
+            products = shape.rotor_products(among)
+            self.numbers += [len(products) // 3, *products]
+        self.begin("rotor_augmented")
+        if self.law.augmented:
+            self.augmented_rows(shape.rotor_rows)
+        self.begin("rotor_factor")
+        self.numbers += shape.rotor_gram.table()
+        self.numbers.append(self.rotors)
+
+    def augmented_rows(self, rows: Sequence[Sequence[tuple[int, int]]]) -> None:
+        """Write rows with the targets of the products of their entries in M + D^T a D."""
+        elimination = self.shape.augmented
+        for row in rows:
+            self.numbers += [len(row), *(slot for _, slot in row)]
+            self.numbers += [elimination.target(i, j) for k, (i, _) in enumerate(row) for j, _ in row[: k + 1]]
 
     def augmented_matrix(self) -> None:
         """Write the tables of M + D^T a D: diagonal, blocks of M, then rows of D with the targets of their products."""
@@ -316,8 +370,6 @@ class Builder:
                     x for j in range(i) for x in (place + size * i + j, elimination.target(velocity + i, velocity + j))
                 ]
         self.numbers += [len(beside) // 2, *beside]
-        for row in shape.rows:
-            self.numbers += [len(row), *(slot for _, slot in row)]
-            self.numbers += [elimination.target(i, j) for k, (i, _) in enumerate(row) for j, _ in row[: k + 1]]
+        self.augmented_rows(shape.rows)
         self.begin("augmented_factor")
         self.numbers += elimination.table()
