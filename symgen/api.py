@@ -17,7 +17,7 @@ from symgen.base.keywords import RunKeywords, takes
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
 from symgen.describe.bounds.modes import refuse_bounds
-from symgen.describe.files.load import load as load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
@@ -339,11 +339,11 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.result.reruns.simulated import simulated
+        from symgen.result.reruns.verified_result import verified_result
 
         arguments.function("progress", progress)
         settings = changed(settings, changes)
-        return simulated(self.mechanism, settings, progress, arguments.words("sensitivities", sensitivities))
+        return verified_result(self.mechanism, settings, progress, arguments.words("sensitivities", sensitivities))
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:

@@ -46,7 +46,7 @@ _TOKEN = re.compile(
 )
 
 
-def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None = None) -> Mechanism:
+def load_mechanism(model: str | os.PathLike[str], parameters: Mapping[str, float] | None = None) -> Mechanism:
     """Return the mechanism called `model` in the catalogue or described in the file `model`.
 
     Parameters

@@ -16,7 +16,7 @@ from symgen.compile.native import types
 from symgen.run.layout import abi
 from symgen.run.layout.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem
 from symgen.run.layout.redundancy import rows_fell
-from symgen.run.layout.scales import settle
+from symgen.run.layout.scales import settle_scales
 from symgen.run.loops.frame_parts import (
     ADAPTIVE,
     CROWD,
@@ -71,7 +71,7 @@ def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> i
     sizes, clock, control, times = system.sizes, run.clock, run.control, outputs.times
     if control[abi.BEGUN] == 0:
         remember_rank(sizes, run)
-        settle(sizes, span, run)
+        settle_scales(sizes, span, run)
         copied(sizes.width, run.y, run.trial)
         correct(system, run, clock[abi.TIME], run.trial, False)
         copied(sizes.width, run.trial, run.y)

@@ -356,7 +356,7 @@ def integrate(*arguments: Any) -> int:
 
 
 @jit(types.int64(_F8, _A, _A, _A, _A, _A))
-def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+def observe_no_coordinate(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
     return 0
 

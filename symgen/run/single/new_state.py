@@ -67,7 +67,7 @@ def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
 
 
 def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
-    """Return 1 for coordinates that are lengths, else 0; see `symgen.run.layout.scales.settle` for the velocities."""
+    """Return 1 for coordinates that are lengths, else 0; velocities: `symgen.run.layout.scales.settle_scales`."""
     metric = np.zeros(2 * sizes.width)
     metric[: sizes.nq] = lengths_of(info)
     return metric

@@ -71,7 +71,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 @called
-def follow(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
+def complete_trial(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
     """Set velocities and accelerations, states and their rates, from the changes of positions and states."""
     nq, nv, states, first = system.sizes.nq, system.sizes.nv, system.sizes.states, system.sizes.unknowns
     for i in range(nv):
@@ -106,7 +106,7 @@ def attempt(
         held[c] = k[first + c] = run.memory[width + c]
     last, fresh, converged = math.inf, True, False
     for iteration in range(_MOST_ITERATIONS):
-        follow(system, run, h, shift, k)
+        complete_trial(system, run, h, shift, k)
         system.residual(following, run.trial, k, run.p, run.w, rest)
         for c in range(m):
             weight = 0.5 * h * penalty if scheme.nonholonomic[c] > 0.0 else penalty
@@ -148,7 +148,7 @@ def attempt(
         last = moved
     if not converged:
         return DIVERGED
-    follow(system, run, h, shift, k)
+    complete_trial(system, run, h, shift, k)
     if not lead(system, scheme, run, following, h, penalty, k, shift):
         return TOO_LARGE
     for i in range(nv, count):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
 
-def simulated(
+def verified_result(
     mechanism: Mechanism, settings: Settings, progress: Callable[[float], None] | None, by: Sequence[str]
 ) -> Result:
     """Return the result of a run.
