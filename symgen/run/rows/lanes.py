@@ -29,7 +29,8 @@ from symgen.run.layout.scheme_records import TABLEAU
 from symgen.run.loops import watch as watching
 from symgen.run.loops.frame import integrate
 from symgen.run.loops.schemes import explicit
-from symgen.run.rows.rows import begin_run, end_run, take
+from symgen.run.rows.row_results import end_run
+from symgen.run.rows.rows import begin_run, take
 
 #: rhs(t, z) and accept(t, z).
 LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]))
