@@ -23,7 +23,8 @@ from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.holds import holds_of
 from symgen.result.reading.model_views import Shown
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.planning.prepare import Prepared, prepare
 from symgen.run.planning.starts import start_of
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from symgen.analyses.functions import Functions
     from symgen.result.result import Result
     from symgen.result.stepping.run import SteppedRun
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.planning.package import Package
     from symgen.run.starts.assembly import Start
     from symgen.run.starts.held import Held

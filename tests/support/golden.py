@@ -13,7 +13,8 @@ from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.choices import on_tree
 from symgen.run.compiling.closing import at_start
 from symgen.run.compiling.looped import generate_looped
-from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
+from symgen.run.compiling.pipeline import generate
 
 MODELS = (
     *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),

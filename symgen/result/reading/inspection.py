@@ -30,7 +30,7 @@ from symgen.result.reading.structure import element_terms, shared_terms, structu
 from symgen.result.reading.typeset import LONGEST, texts, texts_by_terms
 from symgen.run.compiling.closing import law_at_start
 from symgen.run.compiling.looped import kernel_stems
-from symgen.run.compiling.pipeline import MethodChoice, choose_method
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import Prepared, prepare
 

@@ -32,7 +32,8 @@ from symgen.describe.parts.topology import (
 )
 from symgen.describe.remembered import remembered
 from symgen.describe.spanning_tree import Topology
-from symgen.run.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops, straight_alone
+from symgen.run.compiling.method_choice import MethodChoice, for_coordinates
+from symgen.run.compiling.pipeline import refuse_loops, straight_alone
 from symgen.run.compiling.side import module_beside
 
 #: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].

@@ -37,7 +37,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
 
 if TYPE_CHECKING:
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
 
 #: Modules other than kernels and laws.
 _MACHINE, _MODEL, _ROTORS = "machine", "model", "rotors"

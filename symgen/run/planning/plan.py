@@ -25,7 +25,7 @@ from symgen.describe.parts.holds import holds_of
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import foreseen_in_run, merged
 from symgen.run.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
-from symgen.run.compiling.pipeline import MethodChoice, for_masses
+from symgen.run.compiling.method_choice import MethodChoice, for_masses
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import adapts
 from symgen.run.loops.run_spec import MAX_ATTEMPTS, RunSpec, Seam

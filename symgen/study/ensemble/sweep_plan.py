@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from symgen.derive.methods._base import Method
     from symgen.describe.mechanism import Event, Mechanism
     from symgen.result.signals import Signal
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.integrator import Integrator
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from symgen.derive.lower.looped.law import is_loopable
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling.choices import straight_seconds
-from symgen.run.compiling.pipeline import choose_method
+from symgen.run.compiling.method_choice import choose_method
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, constant_integrator
 

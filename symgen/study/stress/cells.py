@@ -24,7 +24,8 @@ from symgen.result.points import Points
 from symgen.result.reruns.verification import verified
 from symgen.result.result import INTERRUPTED
 from symgen.run.compiling.choices import choose_coordinates
-from symgen.run.compiling.pipeline import for_coordinates, straight_alone
+from symgen.run.compiling.method_choice import for_coordinates
+from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.loops.integrator import adapts
