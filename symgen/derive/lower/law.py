@@ -75,11 +75,7 @@ def lower_law(
         If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
     """
     correction = method.correction(options)
-    if correction.energy and equations.driving is not None:  # T is not quadratic in v then
-        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
-        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
-    if any(row.held is not None for row in equations.rows):
-        refuse_bounded_rows(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
+    _refuse(equations, method, options, implicit)
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
     eliminates = _eliminates(recorded)
@@ -114,16 +110,11 @@ def lower_law(
         part = recorded.resolved(solver.plan.schur).parts[0]
         blocks += _by_residual(hoister, solver, recorded, part)
     if loose is not None:
-        held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
-        free = replace(law_block(hoister, *loose), name=FREE_RHS)
-        converged = f", or {equations.drags[0].noun} not found" if len(equations.drags) > 1 else ""
-        blocks = [held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force"), *blocks[1:]]
-    unknowns, level = 0, ""
-    pattern: tuple[tuple[int, int], ...] = ()
+        blocks = [*_by_rows_in_force(hoister, equations, blocks[0], loose), *blocks[1:]]
+    unknowns, level, pattern = 0, "", tuple[tuple[int, int], ...]()
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
-        unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
-        unknowns += len(equations.states)
+        unknowns, level = _unknowns(equations, form), form.form
         form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
@@ -147,6 +138,31 @@ def lower_law(
         unique_multipliers=method.unique_multipliers,
     )
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
+
+
+def _by_rows_in_force(
+    hoister: Hoister, equations: Equations, law: Block, loose: tuple[ScalarNodes, Part]
+) -> tuple[Block, Block]:
+    """Return the blocks of a law with rows with bounds in force, and of motions without any."""
+    held = replace(law, name=HELD_RHS, purpose=f"{law.purpose}; with rows with bounds in force")
+    free = replace(law_block(hoister, *loose), name=FREE_RHS)
+    converged = f", or {equations.drags[0].noun} not found" if len(equations.drags) > 1 else ""
+    return held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force")
+
+
+def _unknowns(equations: Equations, form: RecordedLaw) -> int:
+    """Return the number of unknowns of a form for implicit integrators."""
+    multipliers = equations.m * (2 if form.form == "stabilised" else 1)
+    return equations.nq + equations.nv + multipliers + len(equations.states)
+
+
+def _refuse(equations: Equations, method: Method, options: Mapping[str, str], implicit: bool) -> None:
+    """Refuse equations that a method has no law for."""
+    if method.correction(options).energy and equations.driving is not None:  # T is not quadratic in v then
+        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
+        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
+    if any(row.held is not None for row in equations.rows):
+        refuse_bounded_rows(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
 
 
 def refuse_bounded_rows(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:
