@@ -139,12 +139,19 @@ def ratio_at_aim(change: float, fall: float, iterations: int) -> float:
     return ratio
 
 
+def set_end(sizes: Any, run: Any, states: Any) -> None:
+    """Set the trial state to the one at the last node."""
+    copied(sizes.width, run.y, run.trial)
+    for i in range(sizes.ny):
+        run.trial[i] = states[i * NODES + NODES - 1]
+
+
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step; rates, their Legendre coefficients and the next step over this one are kept in working memory."""
     sizes, rows, table = system.sizes, scheme.rows, scheme.table
-    n, width, size = sizes.ny, sizes.width, NODES * sizes.width
+    width, size = sizes.width, NODES * sizes.width
     head, first = part(run.memory, 0, NODES), part(run.memory, NODES, width)
     single, times = part(run.room, 0, NODES), part(run.room, TIMES, NODES)
     squares, weights = part(run.room, SQUARES, 2 * NODES), part(run.room, WIDE + WEIGHED * width, width)
@@ -222,9 +229,7 @@ def attempt(
         ratio = min(_FIRST_GROWTH, 0.9 * max(truncation, 1e-12) ** (-1.0 / 16.0))
     single[RATIO] = min(_FIRST_GROWTH if last == 0.0 else _LONGEST, max(_SHORTEST, ratio))
     place(h, rows, run.y, first, rates, table, states)
-    copied(width, run.y, run.trial)
-    for i in range(n):
-        run.trial[i] = states[i * NODES + NODES - 1]
+    set_end(sizes, run, states)
     if not ADAPTIVE:
         return 0.0
     if truncation > 1.0:
