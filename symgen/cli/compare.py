@@ -150,10 +150,7 @@ def command(
         settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     rows = [row for study in studies for row in study.rows]
-    used = {
-        "--steps": any(row.step is not None for row in rows),
-        "--rtols": any(row.rtol is not None for row in rows),
-    }
+    used = {"--steps": any(r.step is not None for r in rows), "--rtols": any(r.rtol is not None for r in rows)}
     unused = [o for o, asked in (("--steps", step_list), ("--rtols", rtol_list)) if asked and rows and not used[o]]
     _say_left_out(unused, runs.left_out)
     if as_json:
