@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from symgen.base.errors import InputError
@@ -95,22 +95,15 @@ def lower_law(
     if record.form == "direct" and any(row.bounded for row in equations.rows):
         loose = _without_bounded_rows(scalars, recorded, apart, closing, closed)
         accelerations.append(loose)
-    for values, part in accelerations:
-        flag = None if part.flag is None else values.values[part.flag]
-        hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
+    _reserve(hoister, accelerations)
     degrees = 0
     if record.form == "tangent":
         degrees = min(equations.nv, max(1, equations.nv - equations.m + loose_rows) + _SPARE_DEGREES)
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
-    solver = scalars
-    if closing.loops and closed and loose is None:
-        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
-        blocks = [*own, *blocks[1:]]
-    if directed and closed and loose is None and not equations.drags:
-        part = recorded.resolved(solver.plan.schur).parts[0]
-        blocks += _by_residual(hoister, solver, recorded, part)
     if loose is not None:
         blocks = [*_by_rows_in_force(hoister, equations, blocks[0], loose), *blocks[1:]]
+    elif closed:
+        blocks = _in_closed_form(hoister, scalars, recorded, closing, directed, blocks)
     unknowns, level, pattern = 0, "", tuple[tuple[int, int], ...]()
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
@@ -138,6 +131,31 @@ def lower_law(
         unique_multipliers=method.unique_multipliers,
     )
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
+
+
+def _reserve(hoister: Hoister, accelerations: Iterable[tuple[ScalarNodes, Part]]) -> None:
+    """Reserve places for the numbers that laws hoist, before any block is made."""
+    for values, part in accelerations:
+        flag = None if part.flag is None else values.values[part.flag]
+        hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
+
+
+def _in_closed_form(
+    hoister: Hoister,
+    scalars: ScalarNodes,
+    recorded: RecordedLaw,
+    closing: EliminationPlan,
+    directed: bool,
+    blocks: list[Block],
+) -> list[Block]:
+    """Return the blocks of a law whose loops are in closed form where the plan has any, with slopes if `directed`."""
+    solver = scalars
+    if closing.loops:
+        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
+        blocks = [*own, *blocks[1:]]
+    if directed and not scalars.equations.drags:
+        blocks = [*blocks, *_by_residual(hoister, solver, recorded, recorded.resolved(solver.plan.schur).parts[0])]
+    return blocks
 
 
 def _by_rows_in_force(
