@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from symgen.base.errors import InputError, finite_numbers
+from symgen.base.errors import finite_numbers
 from symgen.base.ir.program import MODE_NUMBERS, of_table
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
@@ -29,7 +29,7 @@ from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes
 from symgen.derive.formulate.of_time import time_function
 from symgen.derive.formulate.tree import energies_on_tree
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.by_reaction import held_by_reactions, refuse_repeated
 from symgen.describe.bounds.modes import first_modes, number_of
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
@@ -173,10 +173,7 @@ def _drag(
 ) -> Drag:
     """Return the effort by the reaction of a joint."""
     places = {row.name: i for i, row in enumerate(rows)}
-    for pair in repeats:
-        if set(pair) & set(bounded.pressed):
-            expected = f"a joint whose reaction is determined, for {bounded.family.one} by it"
-            raise InputError(bounded.where, expected, f"rows {' and '.join(pair)}, the same")
+    refuse_repeated(bounded, repeats)
     rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
     with finite_numbers(bounded.where):
         sign, coefficient = (

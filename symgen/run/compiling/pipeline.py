@@ -76,7 +76,7 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has bounds by reactions, or if rows of joints may be off.
+        If rows of joints may be off.
     """
     if what := straight_alone(mechanism):
         raise InputError("shape", f"straight code where a file has {what}", "looped")
@@ -84,11 +84,7 @@ def refuse_loops(mechanism: Mechanism) -> None:
 
 def straight_alone(mechanism: Mechanism) -> str:
     """Return what of a file exists as straight code alone; empty where loops take all of it."""
-    parts = (
-        ("rows that may be off", mechanism.switchable),
-        *((f"{row.family.noun} by reactions", True) for row in held_by_reactions(mechanism)),
-    )
-    return next((what for what, some in parts if some), "")
+    return "rows that may be off" if mechanism.switchable else ""
 
 
 def generate(

@@ -43,7 +43,7 @@ class KernelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     Parameters
     ----------
     kind : str
-        ``body``, ``joint``, ``bound``, ``rotor``, ``force`` or ``state``.
+        ``body``, ``joint``, ``bound``, ``drag``, ``rotor``, ``force`` or ``state``.
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
@@ -129,6 +129,7 @@ _PURPOSES = {
         "force": "applied forces and power",
     },
     "full": "Phi, nu, D and gamma",
+    "press": "bounds over a reaction, with signs, and its components",
     "energy": "energies",
     "wind": "angles whose turns are counted",
     "report": "joint coordinates and their rates",
@@ -301,6 +302,14 @@ class _Kernel:
         energy: Outputs = [(OutputSlot("potential", 0), potential)] if potential != g.zero else []
         return {"motion": motion, "energy": energy, "wind": self.winding()}
 
+    def drag(self) -> dict[str, Outputs]:
+        """Return the outputs of a drag's function: its bound over the reaction, with its sign, and the reaction."""
+        e, g = self.e, self.e.graph
+        (drag,) = e.drags
+        parts = (g.total(g.mul(n, g.input("multipliers", row)) for row, n in line) for line in drag.pressed)
+        nodes = self.copied([g.mul(drag.sign, drag.coefficient), *parts])
+        return {"press": [(OutputSlot("drag", i), n) for i, n in enumerate(nodes)]}
+
     def rotor(self) -> dict[str, Outputs]:
         """Return the outputs of a rotor's functions: R, which is written where D is, -J r b, and its energy."""
         e, g = self.e, self.graph
@@ -328,8 +337,10 @@ class _Kernel:
         raise AssertionError("every velocity belongs to a frame")
 
     def rows(self) -> tuple[RowShape, ...]:
-        """Return the shapes of a joint's rows."""
+        """Return the shapes of a joint's rows; a drag has none of its own."""
         g, varies = self.e.graph, self.instance.kind == "bound"
+        if self.instance.kind == "drag":
+            return ()
         return tuple(
             RowShape(
                 tuple(self.owner(j) for j, _ in row.entries),

@@ -123,11 +123,14 @@ class LoopedShape:
         self.idle: list[tuple[int, int]] = []  # rows with bounds, and slots whose squares stand on the diagonal
         self.rotors: list[int] = []  # their rows R, which are numbered behind those of D; R^T R is their part of M
         self.rotor_blocks: list[RowBlock] = []
+        rows_of: dict[str, int] = {}  # of joints, the first
         for instance, stem in zip(self.instances, self.stems, strict=True):
             info = self.infos[stem]
             for constant in instance.constants:
                 self.constant_index.setdefault(constant, len(self.constant_index))
-            self.row_of.append(len(self.holonomic))
+            self.row_of.append(rows_of[instance.joint] if instance.joint else len(self.holonomic))
+            if instance.kind == "joint":
+                rows_of[instance.name] = self.row_of[-1]
             self.entry_of.append(entry)
             self.coordinate_of.append(coordinate)
             self.computed_of.append(computed)
@@ -164,8 +167,10 @@ class LoopedShape:
             computed += info.computed
         self.m, self.jacobian, self.coordinates, self.computed = len(self.holonomic), entry, coordinate, computed
         self.windings = len(self.angle_index)
-        bounds = [k for k, instance in enumerate(self.instances) if instance.kind == "bound"]
-        self.mode_index = {k: MODE_NUMBERS * i for i, k in enumerate(bounds)}
+        bounds = [instance.name for instance in self.instances if instance.kind == "bound"]
+        self.mode_index = {name: MODE_NUMBERS * i for i, name in enumerate(bounds)}
+        drags = [instance.name for instance in self.instances if instance.kind == "drag"]
+        self.drag_index = {name: i for i, name in enumerate(drags)}  # of rows with bounds that depend on reactions
         states = [instance.name for instance in self.instances if instance.kind == "state"]
         self.state_index = {name: i for i, name in enumerate(states)}
 
