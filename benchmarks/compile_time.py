@@ -24,7 +24,8 @@ from benchmarks.trees import Limb, limb_of, mechanism
 from symgen.api import Model
 from symgen.compile.native import machine
 from symgen.run.compiling.choices import on_tree, operations
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import Ready

@@ -29,7 +29,8 @@ from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import COUNTERS
 from symgen.describe.catalogue import all_names
 from symgen.run.compiling.choices import on_tree
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready, rate_functions
 from symgen.run.planning.prepare import prepare

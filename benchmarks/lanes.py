@@ -25,7 +25,8 @@ from symgen.compile.loopcode.padding import aligned
 from symgen.compile.native import types
 from symgen.compile.native.machine import vector_width
 from symgen.compile.store.jit import jit
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
 from symgen.run.rows.lanes import LANE_FUNCTION
 

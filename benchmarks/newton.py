@@ -41,7 +41,8 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
         Of the code.
     """
     from symgen.api import load
-    from symgen.run.compiling.pipeline import choose_method, compile_model
+    from symgen.run.compiling.method_choice import choose_method
+    from symgen.run.compiling.pipeline import compile_model
     from symgen.run.integrators import INTEGRATORS
     from symgen.run.layout import abi
     from symgen.run.loops import sparse

@@ -73,7 +73,7 @@ def measure(model: str, shape: str, method: str) -> dict[str, Any]:
 def compile_pieces(model: str, method: str, form: str, shape: str) -> dict[str, Any]:
     """Compile a model and say what it took; called in a process of its own."""
     from symgen.api import load
-    from symgen.run.compiling.pipeline import choose_method
+    from symgen.run.compiling.method_choice import choose_method
 
     loaded = load(model)
     choice = replace(choose_method(method, implicit=form == "implicit"), shape=shape)

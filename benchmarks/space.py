@@ -30,7 +30,7 @@ from benchmarks.show import show
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.law import lower_law
 from symgen.derive.lower.model import lower_model
-from symgen.run.compiling.pipeline import choose_method
+from symgen.run.compiling.method_choice import choose_method
 from symgen.study.references.reference import reference as second_derivation
 from symgen.study.report.source import RATIOS
 

@@ -17,13 +17,14 @@ from symgen.base.keywords import RunKeywords, takes
 from symgen.base.plugins import in_sentences
 from symgen.base.settings import COORDINATES, SHAPES, Settings, changed, is_set
 from symgen.describe.bounds.modes import refuse_bounds
-from symgen.describe.files.load import load as load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.holds import holds_of
 from symgen.result.reading.model_views import Shown
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.planning.prepare import Prepared, prepare
 from symgen.run.planning.starts import start_of
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from symgen.analyses.functions import Functions
     from symgen.result.result import Result
     from symgen.result.stepping.run import SteppedRun
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.planning.package import Package
     from symgen.run.starts.assembly import Start
     from symgen.run.starts.held import Held
@@ -339,42 +340,11 @@ class Model(Analysed, Shown):
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.compile.store.stats import seconds_in_cache
-        from symgen.result.build import build_result
-        from symgen.result.judge import is_long, unchecked
-        from symgen.result.reruns.verification import part_verified, verified
-        from symgen.run.single.timing import timed
+        from symgen.result.reruns.verified_result import verified_result
 
         arguments.function("progress", progress)
         settings = changed(settings, changes)
-        before = seconds_in_cache()
-        if by := arguments.words("sensitivities", sensitivities):
-            from symgen.describe.facts.lifted import lifted
-            from symgen.result.sensitivities import Differentiated
-
-            own = lifted("sensitivities", self.mechanism, by)
-            directed = Differentiated(own.mechanism, settings, own.keys)
-            run, integrate = directed.run, directed.integrate
-        else:
-            run = prepare(self.mechanism, settings)
-            integrate = run.integrate
-        runs = timed(lambda: integrate(progress), settings.repeat)
-        outcome, verification = runs.outcome, None
-        if unchecked(run, outcome) is None:
-            free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by
-            run, outcome, verification = verified(run, outcome, free)
-            if settings.verify and run.plan.mechanism.beams:
-                from symgen.result.reruns.discretisation import discretisation
-
-                words = discretisation(run, outcome, settings)
-                note = "; ".join(x for x in (verification.note, words) if x)
-                verification = replace(verification, note=note or None)
-        elif is_long(run, outcome):
-            verification = part_verified(run, outcome)
-        # assembly calls emitted functions too: compiling them belongs to the run
-        outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        result = build_result(run, outcome, runs.spread or 0.0, verification)
-        return directed.result(result) if by else result
+        return verified_result(self.mechanism, settings, progress, arguments.words("sensitivities", sensitivities))
 
     @takes
     def start(self, settings: Settings | None = None, **changes: Unpack[RunKeywords]) -> SteppedRun:

@@ -48,13 +48,13 @@ from symgen.derive.methods._base import (
     augmented_iteration,
     multiplier_law,
 )
-from symgen.derive.methods._formula import Matrix as FormulaMatrix
-from symgen.derive.methods._formula import Scalar as FormulaScalar
 from symgen.derive.methods._formula import System
-from symgen.derive.methods._formula import Vector as FormulaVector
+from symgen.derive.methods._tape import Matrix as FormulaMatrix
+from symgen.derive.methods._tape import Scalar as FormulaScalar
+from symgen.derive.methods._tape import Vector as FormulaVector
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
-from symgen.describe.mechanism import Articulation, Force, Joint
+from symgen.describe.mechanism import Force, Joint
 from symgen.describe.parts.fields import (
     Axis,
     AxisPair,
@@ -69,6 +69,7 @@ from symgen.describe.parts.fields import (
     Vector,
 )
 from symgen.describe.parts.scope import Scope
+from symgen.describe.spanning_tree import Articulation
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
 from symgen.run.layout import abi

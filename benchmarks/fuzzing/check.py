@@ -91,10 +91,10 @@ def _answer(words: list[str]) -> tuple[Any, str, str, str]:
 def _read(path: str) -> tuple[Any, str, str, str]:
     """Return the same for reading the file alone."""
     from symgen.base.errors import SymgenError
-    from symgen.describe.files.load import load
+    from symgen.describe.files.load import load_mechanism
 
     try:
-        load(path)
+        load_mechanism(path)
     except SymgenError as error:
         return error.exit_code, "", f"symgen: {error}\n", ""
     except BaseException:

@@ -223,7 +223,7 @@ class Identification:
         return np.concatenate(residuals), np.concatenate(slopes)
 
 
-def identify(
+def fit_to_data(
     mechanism: Mechanism,
     settings: Settings,
     data: object,

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.actuators import WHERE, actuated, balance
+from symgen.analyses.actuators import WHERE, actuated
 from symgen.analyses.contacts import Contacts
+from symgen.analyses.effort_balance import balance
 from symgen.analyses.kinematics import Kinematics, driven_motion
 from symgen.analyses.prescribed import drivers_of
 from symgen.base import arguments
@@ -19,7 +20,7 @@ from symgen.base.digits import cleaned
 from symgen.base.errors import InputError, counted
 from symgen.describe.bounds.smooth import with_sliding
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.inputs import are_words_of_data
+from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.over_time import rms
 from symgen.result.reactions import Forces, seats

@@ -21,8 +21,9 @@ from symgen.base import arguments
 from symgen.base.errors import AnalysisError, AssemblyError, InputError
 from symgen.describe.facts.lifted import lifted
 from symgen.describe.mechanism import Mechanism, Output
+from symgen.describe.parts.context import Context
 from symgen.describe.parts.inputs import with_formulas
-from symgen.describe.parts.scope import Context, Scope
+from symgen.describe.parts.scope import Scope
 from symgen.result.sensitivities import derivative_unit, place_of
 from symgen.run.layout import abi
 from symgen.run.single.kept_run import Uncovered

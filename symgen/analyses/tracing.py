@@ -187,7 +187,7 @@ class Tracer:
         """Enter the compiled loop."""
         here = np.ascontiguousarray(times)
         model = self.course, *self.functions
-        return int(f.follow(model, here, self.p, self.w, self.stand, rows, self.control))
+        return int(f.follow_motion(model, here, self.p, self.w, self.stand, rows, self.control))
 
     def _shortened(self, code: int) -> bool:
         """Take shorter steps from here on; return whether they are long enough to be taken."""

@@ -112,10 +112,10 @@ def _in_si(name: str, value: Any, model: str) -> Any:
     if not isinstance(value, _Range):
         return numbers_in_si(f"--{name}", value, (model,))
     from symgen.describe.facts.typed_units import units_of_number
-    from symgen.describe.files.load import load
+    from symgen.describe.files.load import load_mechanism
     from symgen.study.ensemble.axes import axis_values
 
-    units = units_of_number(load(model), value.name)
+    units = units_of_number(load_mechanism(model), value.name)
     return value.name, axis_values(value.text, f"{value.flag} {value.name}", units)
 
 

@@ -98,9 +98,11 @@ def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
 
     if not isinstance(numbers, Mapping) or not any(isinstance(x, Typed) for x in numbers.values()):
         return numbers
-    from symgen.describe.files.load import load
+    from symgen.describe.files.load import load_mechanism
 
-    found = [typed_in_si(load(model), numbers, option) for model in models if not model.lower().endswith(".nc")]
+    found = [
+        typed_in_si(load_mechanism(model), numbers, option) for model in models if not model.lower().endswith(".nc")
+    ]
     for other in found[1:]:
         name = next((name for name, x in other.items() if x != found[0][name]), None)
         if name is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -149,15 +150,9 @@ def command(
         settings = Settings(**values)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     rows = [row for study in studies for row in study.rows]
-    used = {
-        "--steps": any(row.step is not None for row in rows),
-        "--rtols": any(row.rtol is not None for row in rows),
-    }
-    for option, requested in (("--steps", step_list), ("--rtols", rtol_list)):
-        if requested and rows and not used[option]:
-            click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
-    if runs.left_out:
-        click.echo(f"symgen: these integrators solve no form of {', '.join(runs.left_out)}: left out", err=True)
+    used = {"--steps": any(r.step is not None for r in rows), "--rtols": any(r.rtol is not None for r in rows)}
+    unused = [o for o, asked in (("--steps", step_list), ("--rtols", rtol_list)) if asked and rows and not used[o]]
+    _say_left_out(unused, runs.left_out)
     if as_json:
         tables = [study.to_json() for study in studies]
         write_json(tables[0] if len(models) == 1 else {"studies": tables})
@@ -183,6 +178,14 @@ def command(
         report: write_report,
     }
     return write_files(_exit_code(studies, files.journal is not None), written)
+
+
+def _say_left_out(unused: Sequence[str], methods: Sequence[str]) -> None:
+    """Say which options counted for nothing, and which methods no integrator solves."""
+    for option in unused:
+        click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
+    if methods:
+        click.echo(f"symgen: these integrators solve no form of {', '.join(methods)}: left out", err=True)
 
 
 def _ranges(steps: tuple[float, ...], rtols: tuple[float, ...], at: bool) -> dict[str, tuple[str, str]]:

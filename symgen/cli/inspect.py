@@ -52,7 +52,8 @@ def command(
     """
     from symgen.api import load
     from symgen.base.settings import Settings
-    from symgen.result.reading.inspection import as_text, equation_facts, method_of, write_page
+    from symgen.result.reading.inspection import equation_facts, method_of, write_page
+    from symgen.result.reading.inspection_text import as_text
 
     named = method or "direct-correction"
     own = {f"method.{key}": value for key, value in _own(options, named).items()}

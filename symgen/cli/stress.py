@@ -62,10 +62,13 @@ def command(
     from symgen.cli._progress import Lines
     from symgen.describe.catalogue import names
     from symgen.study.journal import Journal
-    from symgen.study.stress.stress_rows import save_stress_csv
-    from symgen.study.stress.study import stress
+    from symgen.study.runner import one_thread_each
 
     with ExitStack() as stack:
+        stack.enter_context(one_thread_each())
+        from symgen.study.stress.stress_rows import save_stress_csv  # with numerical libraries
+        from symgen.study.stress.study import stress
+
         journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
 

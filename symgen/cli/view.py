@@ -135,7 +135,7 @@ def command(
 def _live(settings: Settings) -> bool | str:
     """Return the live method of a page: the one that was named, whose gains have sliders, if pages can run it."""
     from symgen.derive.methods import METHODS
-    from symgen.result.viewed import is_live
+    from symgen.result.live_run import is_live
     from symgen.run.planning.automatic import AUTO
 
     if not is_set(settings, "method") or settings.method == AUTO:

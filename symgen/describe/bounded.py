@@ -151,6 +151,11 @@ class BoundedRow(Protocol):
         ...
 
     @property
+    def without_reaction(self) -> BoundedRow:
+        """The row with that part of its effort alone which depends on no reaction."""
+        ...
+
+    @property
     def changing(self) -> bool:
         """Whether its bounds depend on more than parameters."""
         ...

@@ -27,6 +27,9 @@ from symgen.run.single.last_state import LastState
 from symgen.run.single.simulation import SHOWN
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from symgen.result.judge import Verdict
     from symgen.result.points import Verification
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.planning.prepare import Prepared
@@ -61,25 +64,13 @@ def build_result(
     parameters = {name: value for name, value in values.items() if name not in mechanism.inputs}
     forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
-    verdict = judge(run, outcome, verification)
     unknown = None
     if verification is None or not verification.whole:
         unknown = unchecked(run, outcome) or "it went step by step"
-    if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
-        from symgen.result.bending import overbent
-
-        doubt = overbent(mechanism, values, outcome.states[:, : info.nq])
-        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
-    if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
-        verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
-    if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):
-        verdict = replace(verdict, reason=locked)
+    verdict = _verdict(run, outcome, verification, values)
     stiff = () if verdict.status == FAILED else stiff_by_steps(run, outcome)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome), *stiff)
-    verdict = replace(
-        verdict, notes=(*notes, *verdict.notes, *brought_to_rest(outcome), *struck_at_once(outcome), *stopped(outcome))
-    )
-    derived = (compiled,) if run.tree is None else (compiled, run.compiled)
+    notes = (*notes, *verdict.notes, *brought_to_rest(outcome), *struck_at_once(outcome), *stopped(outcome))
     states, status = outcome.states, outcome.status_columns
     q, v = info.parts(states)
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
@@ -96,7 +87,7 @@ def build_result(
         status=verdict.status,
         reason=verdict.reason,
         warnings=(*plan.all_warnings, *start.warnings, *verdict.warnings),
-        notes=verdict.notes,
+        notes=notes,
         parameters=parameters,
         t=outcome.times,
         q=labelled(q, info.coordinates),
@@ -114,13 +105,7 @@ def build_result(
         evaluations=outcome.evaluations,
         iterations=outcome.counters.get("iterations", 0),
         vector_width=outcome.counters.get("vector_width") or None,
-        seconds=Seconds(
-            sum(code.derive_seconds for code in derived),
-            sum(code.emit_seconds for code in derived),
-            outcome.compile_seconds,
-            outcome.run_seconds,
-            run_spread,
-        ),
+        seconds=_seconds(run, outcome, run_spread),
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
@@ -139,6 +124,30 @@ def build_result(
         state=tuple(x.name for x in (*own.coordinates, *own.velocities)),
         ended=partial(_last_state, run, outcome),
     )
+
+
+def _seconds(run: Prepared, outcome: Outcome, run_spread: float) -> Seconds:
+    """Return what the run took, stage by stage; on a tree code of bodies and of the tree has been derived."""
+    derived = (outcome.compiled,) if run.tree is None else (outcome.compiled, run.compiled)
+    derive, emit = sum(code.derive_seconds for code in derived), sum(code.emit_seconds for code in derived)
+    return Seconds(derive, emit, outcome.compile_seconds, outcome.run_seconds, run_spread)
+
+
+def _verdict(
+    run: Prepared, outcome: Outcome, verification: Verification | None, values: Mapping[str, float]
+) -> Verdict:
+    """Judge an outcome in coordinates of bodies; say what bends too far, is undefined, or stands at a dead centre."""
+    mechanism, verdict = run.plan.mechanism, judge(run, outcome, verification)
+    if verdict.status != FAILED and any(force.flexures for force in mechanism.forces):
+        from symgen.result.bending import overbent
+
+        doubt = overbent(mechanism, values, outcome.states[:, : outcome.compiled.info.nq])
+        verdict = verdict if doubt is None else replace(verdict, status=UNVERIFIED, reason=doubt)
+    if verdict.status == FAILED and (undefined := undefined_at_end(mechanism, outcome)):
+        verdict = replace(verdict, reason=f"{str(verdict.reason).partition('; ')[0]}: {undefined}")
+    if verdict.status == FAILED and (locked := dead_centre_at_end(mechanism, outcome)):
+        verdict = replace(verdict, reason=locked)
+    return verdict
 
 
 def _last_state(run: Prepared, outcome: Outcome) -> LastState:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,33 +13,24 @@ from symgen.base.digits import cleaned
 from symgen.base.errors import AssemblyError, InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.methods import METHODS
-from symgen.describe.formulas.evaluate import independent_values, parameter_values
+from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import ACCELERATIONS
-from symgen.describe.parts.events import DOES
-from symgen.describe.parts.inputs import are_words_of_data
+from symgen.describe.parts.input_data import are_words_of_data
 from symgen.result.export import SAVED
 from symgen.result.labelled import Array, Labelled, columns_at, least_scale, unit_scales
-from symgen.result.live_columns import live_columns
-from symgen.result.player.live import NONE, Live, live_part
+from symgen.result.live_run import LIVE_INTEGRATOR, is_live, live_of_run
+from symgen.result.player.live import NONE, Live
 from symgen.result.player.motion_page import Page, live_script, page, page_data
 from symgen.result.player.recording import PlottedGroup, RecordedEvent, Recording, parts_of, position_groups
 from symgen.result.plots import panels
 from symgen.result.saved import check_names, checked_file, dataset_of
 from symgen.result.signals import TABLES
-from symgen.run.integrators import INTEGRATORS
-from symgen.run.layout import abi
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
     from symgen.result.tables import MotionTables
-    from symgen.run.planning.prepare import Prepared
-    from symgen.run.planning.tree import TreeRun
-
-
-#: The scheme of pages.
-LIVE_INTEGRATOR = "rk4"
 
 
 def view(result: MotionTables, beside: MotionTables | None = None, live: bool | str = True) -> Page:
@@ -67,7 +57,7 @@ def view(result: MotionTables, beside: MotionTables | None = None, live: bool | 
     if method and not is_live(method):
         expected = f"a method that '{LIVE_INTEGRATOR}' solves, as pages run no other scheme"
         raise InputError("live", expected, f"'{live}'")
-    return page(first, *(_live(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
+    return page(first, *(live_of_run(first.mechanism, result.run_facts(), method) if live else (None, "")), second)
 
 
 def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], str]:
@@ -87,13 +77,8 @@ def view_data(result: MotionTables, live: bool = True) -> tuple[dict[str, Any], 
         If the motion has no outputs.
     """
     shown = playable_motion(result)
-    part, note = _live(shown.mechanism, result.run_facts()) if live else (None, "")
+    part, note = live_of_run(shown.mechanism, result.run_facts()) if live else (None, "")
     return page_data(shown, part, note, gaps=live), "" if part is None else live_script(part)
-
-
-def is_live(method: str) -> bool:
-    """Whether pages can run a method: its law has to be one for their scheme."""
-    return bool(set(METHODS.get(method).forms) & set(INTEGRATORS.get(LIVE_INTEGRATOR).forms))
 
 
 def playable_motion(result: MotionTables) -> Recording:
@@ -217,104 +202,6 @@ def _titled(table: str, head: str, columns: Labelled) -> Iterator[tuple[str, str
             yield ": ".join(filter(None, (before, what))), unit, logarithmic, part
 
 
-def _live(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tuple[Live | None, str]:
-    """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
-
-    Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
-    """
-    from symgen.base.settings import Settings
-    from symgen.run.planning.plan import Purpose
-    from symgen.run.planning.prepare import prepare
-
-    inputs, formulas, initial = run["inputs"], dict(mechanism.input_formulas), run["start"]
-    if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
-        not set(mechanism.inputs) <= set(inputs)
-    ):
-        return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
-    if initial["t"]:
-        return None, f"{NONE}: the run went on from another one at t = {initial['t']:.6g} s"
-    own = {event.name for event in mechanism.events}
-    for name, action in run["watched"]:
-        if action in DOES and name not in own:
-            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
-    numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
-    parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
-    step = run["step"] or mechanism.defaults.step
-    settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
-    settings = replace(settings, method=method) if method else settings
-    if mechanism.bounded:  # whose run is the loop of this scheme
-        settings = replace(settings, integrator=LIVE_INTEGRATOR)
-    prepared = prepare(mechanism, settings, Purpose.STATE)
-    state = {**initial["q"], **initial["v"]}
-    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
-    names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
-    begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
-    if prepared.tree is not None:
-        return _live_on_tree(prepared, prepared.tree, step, begin)
-    live, note = live_part(
-        mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism, run=prepared
-    )
-    if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
-        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
-        if prepared.tree is not None:
-            return _live_on_tree(prepared, prepared.tree, step, begin)
-    return _with_columns(live, mechanism, prepared), note
-
-
-def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
-    """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
-    from symgen.run.planning.plan import Purpose
-    from symgen.run.planning.prepare import prepare
-    from symgen.run.planning.start_lines import exported_start
-    from symgen.run.planning.tree_starts import begin_on_tree, carried_of
-
-    mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
-    values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
-    turns = start.w[abi.WINDING :][: info.windings].tolist()
-    own_start = exported_start(run.mechanism, run.compiled, start.datum or (), turns)
-    for name, x in values.items():
-        parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
-        try:
-            other = prepare(mechanism, replace(settings, parameters=parameters), Purpose.STATE).start
-        except (AssemblyError, InputError):
-            moving.append(name)
-            continue
-        y, v = start.y.copy(), start.y[info.nq : info.nq + info.nv]
-        y[info.nq : info.nq + info.nv] = 0.0
-        own_start.close(y, v, other.p.copy())
-        if np.abs(y - other.y)[: info.work].max() > 1e-7 * np.abs(y).max(initial=1.0):
-            moving.append(name)
-    if initial is not None:
-        y = np.concatenate([initial, tree.body_start.y[len(initial) :]])
-        of_bodies = replace(tree.body_start, y=y)
-        carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
-        start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
-    live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
-    if live is not None and moving:
-        note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
-    return _with_columns(live, mechanism, run), note
-
-
-def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
-    """Return a live part that works out all columns that it can."""
-    if live is None:
-        return None
-    law = run.compiled.law
-    units = {parameter.name: parameter.unit for parameter in METHODS.get(law.method).parameters}
-    gains = [
-        {"name": f"method.{name}", "unit": units[name], "value": float(x), "follows": False, "place": place}
-        for place, ((name, _), x) in enumerate(
-            zip(law.parameters, run.start.p[law.parameter_offset :], strict=False), law.parameter_offset
-        )
-        if name in units and not name.endswith("tolerance")
-    ]
-    bodies = None if run.tree is None else run.tree.bodies
-    text, spec = live_columns(mechanism, run.compiled, run.start, bodies, run.mechanism)
-    return replace(
-        live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
-    )
-
-
 def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:
     """Return the page of a result in a NetCDF file.
 
@@ -357,7 +244,7 @@ def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live |
             numbers = {name: float(x) for name, x in run["inputs"].items() if name not in formulas}
             settings = Settings(parameters=run["parameters"] | numbers, inputs=formulas, until=run["until"])
             mechanism = put_inputs(mechanism, settings).mechanism
-        return _live(mechanism, run)
+        return live_of_run(mechanism, run)
     except (AssemblyError, InputError) as error:
         return None, f"{NONE}: {' '.join(str(error).split())}"
 

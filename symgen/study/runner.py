@@ -192,7 +192,7 @@ def _spread(cells: Sequence[Cell], compute: Callable[[Any], Outcome | None], pro
             running[pools[which].submit(_computed_there, compute, cell.task)] = which, cell
 
     try:
-        with _one_thread_each():
+        with one_thread_each():
             for which in list(range(count)) * AHEAD:
                 send(which)
         while running:
@@ -241,8 +241,11 @@ def _computed_there(compute: Callable[[Any], Outcome | None], task: Any) -> Outc
 
 
 @contextlib.contextmanager
-def _one_thread_each() -> Iterator[None]:
-    """Give processes that start meanwhile one thread each."""
+def one_thread_each() -> Iterator[None]:
+    """Give one thread each to processes that start meanwhile, and to libraries that this one loads meanwhile.
+
+    Matrices of a mechanism are small: on busy processors threads wait for each other longer than one of them computes.
+    """
     before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     try:

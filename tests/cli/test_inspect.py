@@ -14,7 +14,8 @@ import symgen
 from symgen.cli import main
 from symgen.derive.formulate.formulate import formulate
 from symgen.describe.files.validate import validate
-from symgen.result.reading.boxes import latex, name
+from symgen.result.reading.boxes import name
+from symgen.result.reading.notations import latex
 from symgen.result.reading.quantity_names import functions, input_names
 from symgen.result.reading.symbolic import exact_literal
 from symgen.result.reading.typeset import texts

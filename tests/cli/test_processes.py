@@ -41,6 +41,29 @@ def test_help_imports_nothing_heavy(words):
     assert modules == set()
 
 
+THREADS = """\
+import os, sys
+
+class Finder:
+    def find_spec(self, name, *rest):
+        if name == "numpy":
+            print(os.environ.get("OPENBLAS_NUM_THREADS"), file=sys.stderr)
+
+sys.meta_path.insert(0, Finder())
+from symgen.cli import main
+main(["stress", "five-bar"])
+print(os.environ.get("OPENBLAS_NUM_THREADS"), file=sys.stderr)
+"""
+
+
+def test_a_study_in_one_process_computes_with_one_thread():
+    """Small matrices of two threads took ten times the processor time on busy cores."""
+    command, plain = [sys.executable, "-c", THREADS], {k: v for k, v in os.environ.items() if "NUM_THREADS" not in k}
+    found = subprocess.run(command, capture_output=True, text=True, timeout=600, check=True, env=plain)
+    lines = found.stderr.splitlines()
+    assert (lines[0], lines[-1]) == ("1", "None"), found.stderr
+
+
 def test_running_a_generated_model_imports_no_heavy_library():
     arguments = ("run", "four-bar", "--until", "0.05", "--json")
     assert symgen(arguments).returncode == 0  # now it is in the cache

@@ -12,12 +12,12 @@ import pytest
 
 from describe.measured import Posed, complex_value
 from symgen.base.vocabulary.expressions import ZERO
-from symgen.describe import load
+from symgen.describe import load_mechanism
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "andrews_ivp.json").read_text())
 PARAMETERS = DATA["parameters"]
 START = np.array([float(value) for value in DATA["start"]])
-MODEL = load("andrews")
+MODEL = load_mechanism("andrews")
 
 
 def place(seven) -> dict[str, tuple]:

@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe import load
+from symgen.describe import load_mechanism
 from symgen.describe.files.load import LARGEST_FILE, parse_toml
 from symgen.describe.files.validate import errors_of, validate
 
@@ -276,7 +276,7 @@ def write(tmp_path, content):
 )
 def test_files_that_cannot_be_read(tmp_path, content, sentence):
     with pytest.raises(InputError) as error:
-        load(write(tmp_path, content))
+        load_mechanism(write(tmp_path, content))
     assert sentence in str(error.value)
     assert "\n" not in str(error.value)
 
@@ -297,7 +297,7 @@ def test_files_that_cannot_be_read(tmp_path, content, sentence):
 )
 def test_models_that_do_not_exist(model, sentence):
     with pytest.raises(InputError) as error:
-        load(model)
+        load_mechanism(model)
     assert sentence in str(error.value)
 
 
@@ -311,10 +311,10 @@ def test_models_that_do_not_exist(model, sentence):
 )
 def test_other_values_are_checked_as_the_files_are(values, sentence):
     with pytest.raises(InputError) as error:
-        load("four-bar", values)
+        load_mechanism("four-bar", values)
     assert sentence in str(error.value)
     with pytest.raises(InputError, match=r"'x'; it has no parameters$"):
-        load("n-four-bar", {"x": 1.0})
+        load_mechanism("n-four-bar", {"x": 1.0})
 
 
 def test_injected_text_is_never_run(tmp_path):

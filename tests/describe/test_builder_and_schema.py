@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from support.texts import texts
 
 from symgen.base.errors import InputError
-from symgen.describe import MechanismBuilder, catalogue, load
+from symgen.describe import MechanismBuilder, catalogue, load_mechanism
 from symgen.describe.files.builder import to_toml
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.schema import schema
@@ -172,17 +172,17 @@ def test_the_schema_is_json_and_knows_every_kind():
 def test_load_takes_paths_and_names(tmp_path):
     path = tmp_path / "rod.toml"
     path.write_text(PENDULUM)
-    assert load(path) == load(str(path))
+    assert load_mechanism(path) == load_mechanism(str(path))
     windows = tmp_path / "windows.toml"
     windows.write_bytes(PENDULUM.replace("\n", "\r\n").encode())
-    assert load(windows) == load(path)
+    assert load_mechanism(windows) == load_mechanism(path)
 
 
 def test_load_takes_other_values_for_parameters():
-    changed = load("four-bar", {"crank_mass": 3})
+    changed = load_mechanism("four-bar", {"crank_mass": 3})
     assert [p.value for p in changed.parameters] == [3.0, 8.0, 5.0]
     assert changed.parameters[0].unit == "kg"
-    assert changed.bodies == load("four-bar").bodies
+    assert changed.bodies == load_mechanism("four-bar").bodies
 
 
 @pytest.mark.parametrize(("until", "step"), [(10.0, 1e-3), (2e-3, 1e-3), (1e-3, 1e-3), (5e-4, 5e-6), (2e-9, 2e-11)])

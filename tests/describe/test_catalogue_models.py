@@ -12,7 +12,7 @@ import pytest
 
 from describe.measured import Posed
 from symgen.base.errors import InputError
-from symgen.describe import catalogue, load
+from symgen.describe import catalogue, load_mechanism
 from symgen.describe.files.builder import to_toml
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.template import template
@@ -47,24 +47,24 @@ def test_the_catalogue_lists_what_it_holds():
 def test_every_entry_says_how_it_runs(name):
     section = read_raw(name)[0]["run"]
     assert {"until", "step", "output_step"} <= set(section)
-    assert load(name).defaults.source
+    assert load_mechanism(name).defaults.source
 
 
 @pytest.mark.parametrize("name", SIZES)
 def test_names_and_sizes(name):
-    mechanism = load(name)
+    mechanism = load_mechanism(name)
     assert mechanism.name == name
     assert (len(mechanism.bodies), len(rows(mechanism))) == SIZES[name]
 
 
 @pytest.mark.parametrize("model", [*sorted(SIZES), "n-four-bar", "n-four-bar:7", *FILES], ids=str)
 def test_every_start_closes_the_joints(model):
-    residuals = Posed(load(model)).residuals()
+    residuals = Posed(load_mechanism(model)).residuals()
     assert max(map(abs, residuals.values())) < 2e-15
 
 
 def test_four_bar_data():
-    posed = Posed(load("four-bar"))
+    posed = Posed(load_mechanism("four-bar"))
     joints = {joint.name: joint for joint in posed.mechanism.joints}
     pins = {name: posed.point(joint.rows[0].measure.a) for name, joint in joints.items()}
     np.testing.assert_allclose(pins["A"], [0.0, 0.0])
@@ -79,7 +79,7 @@ def test_four_bar_data():
 
 @pytest.mark.parametrize("size", [1, 2, 5])
 def test_n_four_bar_data(size):
-    mechanism = load(f"n-four-bar:{size}")
+    mechanism = load_mechanism(f"n-four-bar:{size}")
     names = {f"vertical{i}" for i in range(size + 1)} | {f"coupler{i}" for i in range(size)}
     assert {body.name for body in mechanism.bodies} == names
     assert len(rows(mechanism)) == 2 * (3 * size + 1)
@@ -95,11 +95,11 @@ def test_n_four_bar_data(size):
 
 
 def test_n_four_bar_has_a_default_size():
-    assert load("n-four-bar") == load("n-four-bar:2")
+    assert load_mechanism("n-four-bar") == load_mechanism("n-four-bar:2")
 
 
 def test_pendulum_data():
-    mechanism = load("pendulum")
+    mechanism = load_mechanism("pendulum")
     (bob,) = mechanism.bodies
     posed = Posed(mechanism)
     assert (bob.name, bob.is_point, bob.coordinates) == ("bob", True, ("x", "y"))
@@ -108,7 +108,7 @@ def test_pendulum_data():
 
 
 def test_driven_four_bar_is_the_four_bar_with_a_motor():
-    free, driven = load("four-bar"), load("driven-four-bar")
+    free, driven = load_mechanism("four-bar"), load_mechanism("driven-four-bar")
     assert driven.joints[:-1] == free.joints
     assert [body.mass for body in driven.bodies] == [body.mass for body in free.bodies]
     (row,) = driven.joints[-1].rows
@@ -120,14 +120,14 @@ def test_driven_four_bar_is_the_four_bar_with_a_motor():
 
 
 def test_there_are_examples_beyond_the_catalogue():
-    names = {load(path).name for path in FILES}
+    names = {load_mechanism(path).name for path in FILES}
     assert len(names) == len(FILES) >= 3
     assert not names & set(catalogue.all_names())
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_example_files_state_their_source_and_carry_their_name(path):
-    mechanism = load(path)
+    mechanism = load_mechanism(path)
     assert mechanism.name == path.stem
     assert mechanism.defaults.source
 
@@ -137,7 +137,7 @@ def test_the_script_writes_a_file_that_describes_a_closed_chain(tmp_path):
     output = subprocess.run([sys.executable, script, "9"], capture_output=True, text=True, check=True).stdout
     path = tmp_path / "chain.toml"
     path.write_text(output)
-    mechanism = load(path)
+    mechanism = load_mechanism(path)
     assert (len(mechanism.bodies), len(rows(mechanism)), len(mechanism.forces)) == (9, 20, 8)
     assert max(map(abs, Posed(mechanism).residuals().values())) < 1e-12
     spec = importlib.util.spec_from_file_location("hanging_chain", script)
@@ -169,4 +169,4 @@ def test_the_template_is_a_mechanism_with_every_key_explained(space):
 def test_every_description_survives_being_written_and_read(model):
     raw, source = read_raw(model)
     assert tomllib.loads(to_toml(raw)) == raw
-    assert validate(tomllib.loads(to_toml(raw)), source) == load(model)
+    assert validate(tomllib.loads(to_toml(raw)), source) == load_mechanism(model)

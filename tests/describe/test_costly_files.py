@@ -9,7 +9,7 @@ from support.emitted import mechanism_of
 from symgen.base.errors import LONGEST_PART, InputError, nearest, quoted
 from symgen.base.escapes import printable
 from symgen.derive.formulate.formulate import formulate
-from symgen.describe.files.load import LONGEST_KEY, load, parse_toml
+from symgen.describe.files.load import LONGEST_KEY, load_mechanism, parse_toml
 from symgen.describe.files.validate import validate
 
 HEAD = '[mechanism]\nname = "x"\n'
@@ -90,7 +90,7 @@ def test_the_look_at_the_text_refuses_nothing_else(text):
 
 def test_the_catalogue_is_far_within_the_bounds():
     for size in ("four-bar", "n-four-bar:300", "chain:200"):
-        load(size)
+        load_mechanism(size)
     assert LONGEST_KEY >= 2 * len("bodies.rod.points.tip".split("."))
 
 
@@ -154,7 +154,7 @@ def test_names_of_files_are_printable_too(tmp_path):
     path = tmp_path / "a\x1b[31m\nb.toml"
     path.write_text("[mechanism]\n")
     with pytest.raises(InputError) as error:
-        load(path)
+        load_mechanism(path)
     assert str(error.value).isprintable() and "a\\x1b[31m\\nb.toml: mechanism.name" in str(error.value)
 
 

@@ -6,16 +6,17 @@ import sys
 import pytest
 
 HEAVY = {"sympy", "numpy", "numba", "scipy", "jinja2", "rich", "click", "matplotlib", "pandas"}
+LOAD = "from symgen.describe import load_mechanism as load"
 
 
 @pytest.mark.parametrize(
     "statement",
     [
-        "from symgen.describe import load; [load(name) for name in ('andrews', 'n-four-bar:3', 'driven-four-bar')]",
+        f"{LOAD}; [load(name) for name in ('andrews', 'n-four-bar:3', 'driven-four-bar')]",
         "import symgen.describe.files.schema as s; s.schema()",
         "from symgen.describe import catalogue; catalogue.entries()",
         "from symgen.describe.files.template import template; template()",
-        "from symgen.describe.facts.digest import digest; from symgen.describe import load; digest(load('four-bar'))",
+        f"{LOAD}; from symgen.describe.facts.digest import digest; digest(load('four-bar'))",
     ],
 )
 def test_nothing_heavy_is_imported(statement):
@@ -26,7 +27,7 @@ def test_nothing_heavy_is_imported(statement):
 
 def test_kinds_are_imported_only_when_asked_for():
     code = (
-        "from symgen.describe import load; load('four-bar')\nimport sys\n"
+        f"{LOAD}; load('four-bar')\nimport sys\n"
         "print(*sorted(m for m in sys.modules if m.startswith(('symgen.describe.joints.', 'symgen.describe.forces.'))))"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from symgen.describe import catalogue, load
+from symgen.describe import catalogue, load_mechanism
 from symgen.describe.facts.digest import canonical, digest
 from symgen.describe.files.validate import validate
 
@@ -114,7 +114,7 @@ def test_the_order_of_bodies_and_joints_counts():
 
 
 def test_all_models_differ():
-    digests = {digest(load(name)) for name in (*catalogue.names(), "n-four-bar:3")}
+    digests = {digest(load_mechanism(name)) for name in (*catalogue.names(), "n-four-bar:3")}
     assert len(digests) == len(catalogue.names()) + 1
 
 
@@ -134,4 +134,4 @@ def test_the_same_in_every_process():
             [sys.executable, "-c", code], capture_output=True, text=True, check=True, env={"PYTHONHASHSEED": seed}
         )
         found.add(result.stdout.strip())
-    assert found == {digest(load("andrews"))}
+    assert found == {digest(load_mechanism("andrews"))}

@@ -12,7 +12,7 @@ import pytest
 from symgen.api import Model
 from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.describe.files.load import load
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.files.validate import validate
 from symgen.describe.formats import Import, format_of, read_robot
 from symgen.describe.formats._frames import Pose, axis_rotation, of_quaternion, of_rpy, quaternion, times
@@ -331,7 +331,7 @@ def test_the_command_and_every_other_command(tmp_path: Path, capsys: pytest.Capt
     answer = json.loads(capsys.readouterr().out)
     assert answer["format"] == "urdf" and answer["bodies"] == 1 and len(answer["left_out"]) == 4
     assert target.read_text(encoding="utf-8").startswith("# left out, and the motion may depend on it: contacts")
-    assert load(target).bodies == load(path).bodies
+    assert load_mechanism(target).bodies == load_mechanism(path).bodies
     assert main(["import", str(path), "-o", str(target)]) == 2  # never overwrites
     asked = (
         main(["import", str(path), "--json"]),

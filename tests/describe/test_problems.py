@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe import load
+from symgen.describe import load_mechanism
 from symgen.describe.files.load import LARGEST_FILE
 from symgen.describe.files.problems import problems, with_line
 from symgen.describe.files.validate import errors_of, validate
@@ -212,7 +212,7 @@ def wrong(tmp_path):
 
 def test_an_error_has_its_line_where_it_is_printed(wrong):
     with pytest.raises(InputError) as error:
-        load(wrong)
+        load_mechanism(wrong)
     assert str(error.value) == "cart.toml: bodies.load.mass: expected a value above 0, got -1.0"
     assert with_line(error.value) == "cart.toml:22: bodies.load.mass: expected a value above 0, got -1.0"
 
@@ -220,7 +220,7 @@ def test_an_error_has_its_line_where_it_is_printed(wrong):
 @pytest.mark.parametrize("later", [GOOD.replace("[mechanism]", "[mechanism"), b"\xff", "#" * (LARGEST_FILE + 1), None])
 def test_an_error_keeps_its_sentence_where_the_file_was_changed(wrong, later):
     with pytest.raises(InputError) as error:
-        load(wrong)
+        load_mechanism(wrong)
     if later is None:
         wrong.unlink()
     else:

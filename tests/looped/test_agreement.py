@@ -32,7 +32,8 @@ COUNTS = 0.2
 
 #: A small one; slow are those that have every kind of element, and the other entries of the catalogue, by turns.
 FAST = "slider-crank"
-OWN = ("four-bar", "spatial-slider-crank", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial")
+OWN = ("four-bar", "spatial-slider-crank", "chain:3", "everything", "geared", "reading", "rough", "parallelogram")
+OWN += ("spatial", "spatial-geared")
 OTHERS = (*OWN, "n-four-bar:3", *(name for name in catalogue.names() if name not in (FAST, *OWN)))
 OF_TURN = of_turn(OTHERS, 3)
 MECHANISMS = [FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in OF_TURN)]

@@ -18,7 +18,8 @@ from symgen.derive.lower.model import lower_model
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.looped import compile_looped
-from symgen.run.compiling.pipeline import choose_method, generator_digest, model_info
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generator_digest, model_info
 
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")

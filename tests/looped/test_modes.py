@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import symgen
-from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.describe import MechanismBuilder
 from symgen.describe.files.load import read_raw
@@ -120,11 +119,3 @@ def test_short_and_long_code_agree_on_a_rubbing_chain():
     np.testing.assert_allclose(looped.q.values, straight.q.values, rtol=0.0, atol=1e-9)
     for name in straight.outputs.names:
         np.testing.assert_allclose(looped[name], straight[name], rtol=0.0, atol=1e-7)
-
-
-def test_friction_by_reactions_has_straight_code_alone():
-    raw, source = read_raw("four-bar")
-    raw = copy.deepcopy(raw)
-    raw["joints"]["A"]["friction"] = {"coefficient": 0.1, "radius": 0.01}
-    with pytest.raises(InputError, match="shape: expected straight code where a file has dry friction by reactions"):
-        symgen.load(validate(raw, source)).simulate(until=0.1, shape="looped")

@@ -22,7 +22,8 @@ from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import MultiplierMethod
 from symgen.run.compiling.choices import choose_shape
 from symgen.run.compiling.looped import generate_looped
-from symgen.run.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
+from symgen.run.compiling.pipeline import compile_model, generator_digest
 from symgen.run.planning import automatic
 from symgen.run.planning.prepare import make_plan
 from symgen.run.starts import decisions

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.emitted import Emitted
 
-from symgen.describe import load
+from symgen.describe import load_mechanism
 from symgen.describe.formulas.evaluate import scalars
 from symgen.describe.formulas.start import described_start
 
@@ -26,7 +26,7 @@ SIZES = {
 @pytest.mark.slow_cases("stewart-platform")
 @pytest.mark.parametrize("name", SIZES)
 def test_sizes_and_ranks(name):
-    mechanism = load(name)
+    mechanism = load_mechanism(name)
     assert mechanism.name.startswith(name.partition(":")[0])
     emitted = Emitted(mechanism)
     values = {p.name: p.value for p in mechanism.parameters}

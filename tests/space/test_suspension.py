@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.spatial_runs import columns, point, run, start_of
 
-from symgen.describe import load
+from symgen.describe import load_mechanism
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.result.points import Points
 from symgen.study.references.reference import reference
@@ -20,7 +20,7 @@ def place(mechanism, result, body, name):
 
 @pytest.mark.slow
 def test_places_and_loads_of_the_benchmark():
-    mechanism = load("front-suspension")
+    mechanism = load_mechanism("front-suspension")
     _, result = run("front-suspension", integrator="rk4", step=1e-3, until=2e-3)
     for side, sign in (("left", 1.0), ("right", -1.0)):
         expected = {

@@ -52,12 +52,29 @@ def test_budgets_go_by_what_a_run_evaluates():
 
 def test_explicit_runs_of_a_quick_study_have_less_and_implicit_ones_as_much():
     plans = [plan_of("four-bar", "lagrange", name) for name in ("rk4", "dop853")]
-    for searched in (False, True):
+    for searched, part in ((False, 1), (True, effort.SEARCHED)):
         budgets = {effort.budget_of(plan, mechanism, searched, quick=True) for plan, mechanism in plans}
-        assert budgets == {effort.QUICK_BUDGET} == set(effort.explicit_limits(quick=True))
-    dry = effort.budget_of(*plan_of("dry-four-bar", "lagrange", "rk4"), quick=True)
-    assert dry == effort.QUICK_BUDGET // effort.QUICK_BOUNDED
+        assert budgets == {most // part for most in effort.explicit_limits(quick=True)} == {effort.QUICK_BUDGET // part}
     assert effort.budget_of(*plan_of("four-bar", "ggl", "radau5"), quick=True) == effort.IMPLICIT_BUDGET
+
+
+def test_runs_with_bounds_end_in_a_quick_study_where_their_modes_change_at_every_step():
+    """A run that follows the motion of a belt takes a third more evaluations than steps without events."""
+    most = effort.QUICK_BUDGET // effort.QUICK_BOUNDED
+    short, dry = plan_of("dry-four-bar", "lagrange", "rk4", step=1e-3, until=1.0)
+    assert effort.budget_of(short, dry, quick=True) == effort.EVENTFUL * 4 * 1000 < most
+    assert effort.budget_of(short, dry) == effort.BUDGET // effort.BOUNDED
+    for integrator, until in (("rk4", 100.0), ("dop853", 1.0)):
+        plan, _ = plan_of("dry-four-bar", "lagrange", integrator, until=until)
+        assert effort.budget_of(plan, dry, quick=True) == most
+
+
+def test_the_smallest_step_takes_all_evaluations():
+    plan, _ = plan_of("four-bar", "lagrange", "rk4", step=1e-3, until=2.0)
+    least = effort.smallest_step(plan, 80_000)
+    assert least == pytest.approx(1e-4)
+    finest, _ = plan_of("four-bar", "lagrange", "rk4", step=least, until=2.0)
+    assert effort.predicted(finest, 0.0) == pytest.approx(80_000)
 
 
 def test_a_run_off_its_constraints_does_not_go_on_for_ever():

@@ -11,7 +11,7 @@ from symgen.study.runner import Cell, Status
 from symgen.study.stress.cell_outcome import ACCURATE, OUTCOMES, Run, classify, false_success
 from symgen.study.stress.findings import cause, explained, findings, largest_root
 from symgen.study.stress.progress import Whole
-from symgen.study.stress.searches import largest_near, largest_number, largest_steps
+from symgen.study.stress.searches import largest_steps
 from symgen.study.stress.stress_rows import Map, Stress
 
 REGULAR = np.ones(11)
@@ -60,55 +60,72 @@ def test_a_run_is_not_believed():
         assert not false_success("unverified", outcome) and not false_success("failed", outcome)
 
 
-@pytest.mark.parametrize("limit", [3e-6, 0.9e-3, 1.1e-3, 0.02, 0.7])
-def test_the_largest_step_is_found_within_a_percent_or_so(limit):
+def power(limit, order=4.0, beyond=math.inf):
+    """Return errors that follow a power of the step, 1e-3 at a limit, and fail beyond a step; and the steps tried."""
     tried = []
 
-    def holds(step):
+    def error(step):
         tried.append(step)
-        return step <= limit
+        return 1e-3 * (step / limit) ** order if step <= beyond else math.inf
 
-    found = largest_number(holds, 1e-3, 1.0)
-    assert limit / 1.012 < found <= limit
-    assert len(tried) < 30
-    near = [largest_near(holds, 1e-3, 1.0, factor * limit) for factor in (1.0, 0.6, 1.9)]
-    assert limit > 1e-3 or near == [found] * 3, "to the last digit the same"
+    return error, tried
 
 
-def test_a_search_from_where_the_limit_is_expected_tries_few_steps_that_hold():
-    tried = []
-
-    def holds(step):
-        tried.append(step <= 3e-6)
-        return tried[-1]
-
-    largest_number(holds, 1e-3, 1.0)
-    whole = sum(tried)
-    tried.clear()
-    largest_near(holds, 1e-3, 1.0, 3e-6)
-    assert len(tried) == 2 and sum(tried) == 1 < whole
-    near = largest_near(holds, 1e-3, 1.0, 5e-6, halvings=4)
-    assert near == largest_number(holds, 1e-3, 1.0, halvings=4) and 3e-6 / 1.1 < near <= 3e-6
+@pytest.mark.parametrize("limit", [3e-6, 0.9e-3, 1.1e-3, 0.02, 0.7])
+@pytest.mark.parametrize(("order", "beyond"), [(1.0, math.inf), (4.0, math.inf), (4.0, 1.0), (0.1, math.inf)])
+def test_the_largest_step_is_found_within_a_percent_or_so(limit, order, beyond):
+    """`beyond` is a multiple of the limit: all steps that do not fail are within it."""
+    found = []
+    for factor in (math.inf, 1.0, 0.6, 1.9):
+        error, tried = power(limit, order, beyond * limit)
+        (step,) = largest_steps(error, 1e-3, 1.0, factor * limit, [1e-3])
+        assert limit / 1.012 < step <= limit * (1.0 + 1e-12)
+        assert len(tried) == len(set(tried)) < 25
+        found.append(step)
+    assert found == [found[0]] * 4, "to the last digit the same"
 
 
-def test_a_search_near_a_step_gives_up_at_the_ends_of_the_scan():
-    assert largest_near(lambda step: True, 1e-3, 1.0, 1e-4) is None
-    assert largest_near(lambda step: False, 1e-3, 1.0, 1e-4) is None
-    assert largest_near(lambda step: True, 1e-3, 1.0, 1e-9) is None, "below the scan"
+def test_errors_that_follow_a_power_of_the_step_tell_where_the_limit_is():
+    error, tried = power(3e-6)
+    largest_steps(error, 1e-3, 1.0, math.inf, [1e-3])
+    smallest = min(tried)
+    assert sum(step <= 3e-6 for step in tried) <= 2 and smallest > 2e-6, "no step far below, each of which is long"
+    error, tried = power(3e-6)
+    both = largest_steps(error, 1e-3, 1.0, math.inf, [0.1, 1e-3])
+    assert sum(step <= 1e-5 for step in tried) <= 5 and both[0] == pytest.approx(3e-6 * 100**0.25, rel=0.012)
+
+
+def test_a_search_from_where_the_limit_is_expected_tries_few_steps_within():
+    error, tried = power(3e-6, 0.0, 3e-6)
+    largest_steps(error, 1e-3, 1.0, 3e-6, [1e-3])
+    assert len(tried) == 2 and sum(step <= 3e-6 for step in tried) == 1
+    near = [largest_steps(error, 1e-3, 1.0, at, [1e-3], halvings=4) for at in (5e-6, math.inf)]
+    assert near[0] == near[1] and 3e-6 / 1.1 < near[0][0] <= 3e-6
+
+
+def test_no_step_below_the_smallest_is_tried():
+    error, tried = power(3e-6)
+    assert largest_steps(error, 1e-3, 1.0, math.inf, [1e-3], smallest=5e-6) == [None]
+    assert 5e-6 < min(tried) < 5.1e-6
+    assert largest_steps(error, 1e-3, 1.0, 1e-4, [1e-3], smallest=2e-6) == largest_steps(
+        error, 1e-3, 1.0, math.inf, [1e-3]
+    )
+    assert largest_steps(error, 1e-3, 1.0, math.inf, [1e-3], smallest=2.0) == [None], "only the largest was tried"
 
 
 def test_what_is_accurate_is_stable_beyond_a_step_that_is_not():
-    def attempt(step):
-        return step < 2e-5 or 4e-5 < step < 8e-5, step < 8e-5
+    def error(step):
+        return 1e-4 if step < 2e-5 or 4e-5 < step < 8e-5 else math.inf if step > 8e-5 else 0.5
 
-    stable, accurate = largest_steps(attempt, 1e-3, 1.0, 2e-5)
-    assert stable == accurate and 8e-5 / 1.012 < accurate < 8e-5
-    assert largest_steps(attempt, 1e-3, 1.0, np.inf) == (stable, accurate)
+    for expected in (2e-5, 7e-5, math.inf):
+        stable, accurate = largest_steps(error, 1e-3, 1.0, expected, [0.1, 1e-3])
+        assert stable >= accurate and any(limit / 1.012 < accurate < limit for limit in (2e-5, 8e-5))
 
 
 def test_no_largest_step():
-    assert largest_number(lambda step: True, 1e-3, 1.0) == 1.0
-    assert largest_number(lambda step: False, 1e-3, 1.0) is None
+    for expected in (math.inf, 1e-4, 1e-9):  # the last is below the scan
+        assert largest_steps(lambda step: 0.0, 1e-3, 1.0, expected, [1e-3]) == [1.0]
+        assert largest_steps(lambda step: math.inf, 1e-3, 1.0, expected, [0.1, 1e-3]) == [None, None]
 
 
 def test_roots_of_the_feedback():

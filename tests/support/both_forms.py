@@ -11,7 +11,8 @@ from support.both_shapes import off_constraints, report
 from symgen.api import Model
 from symgen.base.ir.program import STATUS
 from symgen.derive.lower.record import BEHIND
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 
 #: Methods whose constraints differ; all mechanisms see the first.
 METHODS = (

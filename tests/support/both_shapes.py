@@ -5,12 +5,13 @@
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 
 import numpy as np
 
 from support.emitted import mechanism_of
-from support.models import EVERYTHING, READING, ROUGH, parallelogram
+from support.models import EVERYTHING, GEARED, READING, ROUGH, parallelogram
 from symgen.api import Model, load
 from symgen.base.errors import AssemblyError
 from symgen.base.ir.program import BY_PIVOTS, COUNTERS, STATUS
@@ -25,9 +26,9 @@ from symgen.run.layout.abi import N_COUNTERS
 PENALTY = {"penalty": 1e3}
 
 
-def spatial() -> Model:
+def spatial(name: str = "spatial", rotor: Mapping[str, float] = MappingProxyType({})) -> Model:
     """A body with products of inertia on a ball joint, one hinged to it, and a free one."""
-    builder = MechanismBuilder("spatial", space="spatial", gravity=[0.0, 0.4, -9.81])
+    builder = MechanismBuilder(name, space="spatial", gravity=[0.0, 0.4, -9.81])
     tensor = [[0.02, 0.001, 0.002], [0.001, 0.03, 0.0], [0.002, 0.0, 0.01]]
     for name, inertia in zip("abc", (tensor, np.diag([0.02, 0.01, 0.03]), tensor), strict=True):
         builder.body(
@@ -36,7 +37,7 @@ def spatial() -> Model:
             **{"points": {"O": [0.0, -0.5, 0.1], "P": [0.0, 0.5, 0.0]}, "centre_of_mass": [0.01, 0.0, 0.02]},
         )
     builder.joint("ball", "spherical", between=["ground", "a"], at=[[0.0, 0.0, 0.0], "O"])
-    builder.joint("hinge", "revolute", between=["a", "b"], at=["P", "O"], axis=[1.0, 0.3, 0.0])
+    builder.joint("hinge", "revolute", between=["a", "b"], at=["P", "O"], axis=[1.0, 0.3, 0.0], **rotor)
     builder.force("aim", "force", body="c", force=["b.P.x*c.O.vz", "sin(hinge.angle)", "a.P.vy - 0.3*hinge.rate"])
     builder.force("turn", "torque", body="c", torque=["hinge.angle", 0.0, "c.P.y"])
     return load(builder.build())
@@ -45,10 +46,11 @@ def spatial() -> Model:
 def models() -> dict[str, Model]:
     """Return the mechanisms that are tried, by name."""
     found = {name: load(name) for name in (*catalogue.names(), "n-four-bar:3", "chain:3")}
-    for description in (EVERYTHING, READING, ROUGH, parallelogram()):
+    for description in (EVERYTHING, GEARED, READING, ROUGH, parallelogram()):
         mechanism = mechanism_of(description)
         found[mechanism.name] = load(mechanism)
     found["spatial"] = spatial()
+    found["spatial-geared"] = spatial("spatial-geared", {"rotor_inertia": 2e-3, "gear_ratio": 5.0})
     return found
 
 
@@ -178,7 +180,7 @@ def report(evaluated, cases, is_tried) -> None:
 
 
 #: Mechanisms that every method is tried on; the others see those that every part of the code is in.
-DEEP = ("slider-crank", "everything", "rough", "spatial", "n-four-bar:3")
+DEEP = ("slider-crank", "everything", "geared", "rough", "spatial", "spatial-geared", "n-four-bar:3")
 FEW = ({"lagrange": {}}, {"direct-correction": {"weight": "mass"}}, {"penalty": {}}, {"mass-orthogonal-projection": {}})
 
 if __name__ == "__main__":

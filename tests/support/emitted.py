@@ -17,7 +17,8 @@ from symgen.compile.store.emitted import CodeOrigin, EmittedFunction, imported
 from symgen.compile.store.identity import combined_digest
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.pipeline import choose_method, for_coordinates, generate
+from symgen.run.compiling.method_choice import choose_method, for_coordinates
+from symgen.run.compiling.pipeline import generate
 from symgen.run.layout.compiled import ModelInfo
 
 _counter = itertools.count()

@@ -8,12 +8,13 @@ from pathlib import Path
 from symgen.derive.lower.looped.law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
-from symgen.describe import load
+from symgen.describe import load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.choices import on_tree
 from symgen.run.compiling.closing import at_start
 from symgen.run.compiling.looped import generate_looped
-from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
+from symgen.run.compiling.pipeline import generate
 
 MODELS = (
     *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),
@@ -37,7 +38,7 @@ def folder(model: str) -> str:
 def described(model: str) -> Mechanism:
     """Return a mechanism, on its tree where its name says so."""
     name, _, coordinates = model.partition(" ")
-    return on_tree(load(name)) if coordinates == "joint" else load(name)
+    return on_tree(load_mechanism(name)) if coordinates == "joint" else load_mechanism(name)
 
 
 def choices(model: str) -> tuple[MethodChoice, ...]:
@@ -87,7 +88,7 @@ def emitted(model: str, whole: bool = True) -> dict[str, str]:
     if model in OTHER_TARGETS:
         core = tuple(choose_method(name) for name in CORE)
         for target in ("cuda", "lanes"):
-            mechanism = load(model)
+            mechanism = load_mechanism(model)
             closed = tuple(at_start(mechanism, choice) for choice in core)
             made |= generate(mechanism, closed, target=target, whole=whole).modules
     # the free velocities of closed loops are named in the cache alone
@@ -97,7 +98,7 @@ def emitted(model: str, whole: bool = True) -> dict[str, str]:
 @cache
 def emitted_looped(model: str, whole: bool = True) -> dict[str, str]:
     """Return stem -> source of looped modules."""
-    made = generate_looped(load(model), looped_choices(model), GENERATOR, whole)
+    made = generate_looped(load_mechanism(model), looped_choices(model), GENERATOR, whole)
     return {stem: source for stem, (source, _) in made.items() if source}
 
 
@@ -128,5 +129,5 @@ SHOWN = {
 def shown() -> dict[str, dict[str, str]]:
     """Return the modules that are checked in, by folder."""
     found = {name: {stem: everything()[name]()[stem] for stem in stems} for name, stems in SHOWN.items()}
-    looped = generate_looped(load("four-bar"), [choose_method("direct-correction")], GENERATOR, True)
+    looped = generate_looped(load_mechanism("four-bar"), [choose_method("direct-correction")], GENERATOR, True)
     return found | {"four_bar_looped": {stem: source for stem, (source, _) in looped.items() if source}}

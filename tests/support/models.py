@@ -107,6 +107,16 @@ READING = EVERYTHING | {
     },
 }
 
+#: Rotors between bodies, one to the ground, and two on slides, whose part of M changes with the motion.
+GEARED = EVERYTHING | {
+    "mechanism": {"name": "geared", "gravity": ["0.3*k1", -9.81]},
+    "joints": EVERYTHING["joints"]
+    | {
+        name: EVERYTHING["joints"][name] | {"rotor_inertia": inertia, "gear_ratio": ratio}
+        for name, inertia, ratio in (("pin", "0.02*k1", 3.0), ("knee", 0.001, "10*k2"), ("rail", 0.03, 7.0))
+    },
+}
+
 #: A weld, and formulas that are not smooth: tables, conditions, minima.
 ROUGH = {
     "mechanism": {"name": "rough", "gravity": [0.0, -9.81]},

@@ -67,10 +67,10 @@ def identify(
     AnalysisError
         If the model has no motion with the values it begins with.
     """
-    from symgen.analyses.identification import identify as fitted
+    from symgen.analyses.identification import fit_to_data
 
     own = settings_of("identify", settings, changes, COUNTING)
-    return fitted(model.mechanism, own, data, free, quantities, bias, weights)
+    return fit_to_data(model.mechanism, own, data, free, quantities, bias, weights)
 
 
 def objective(

@@ -30,6 +30,10 @@ NUMBERS: dict[str, float] = {
     "most_iterations": 30,
     "floor": 1e-6,  # a change of v', relative to v', below which an iteration may end because it stalls
     "tolerance": 1e-13,  # default where a method has no such parameter
+    # efforts that depend on reactions
+    "tiny": TINY,
+    "drag_rounds": 30,
+    "drag_rest": 1e-30,  # square of a last change over that of the forces
     # partitions of coordinates
     "poor": 0.3,  # part of the best determinant since the choice, below which another partition is chosen
     "exchange": 1.01,  # least growth of the determinant by an exchange of columns

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from symgen.compile.native import language as lang
-from symgen.compile.native.c99 import OF_INTEGERS, RESERVED, CPrinter, broken_line, with_helpers
+from symgen.compile.native.c99 import OF_INTEGERS, CPrinter
+from symgen.compile.native.c99_words import RESERVED, broken_line, with_helpers
 from symgen.compile.native.printing import ordered
 
 #: Types of functions with the arguments of machine code.

@@ -8,7 +8,7 @@ from symgen.base.vocabulary.functions import steepest
 from symgen.compile.native.llvm_values import literal
 
 if TYPE_CHECKING:
-    from symgen.compile.native.tangents import TangentPrinter
+    from symgen.compile.native.tangent_rules import TangentRules
 
 
 class PrintedNumbers:
@@ -16,7 +16,7 @@ class PrintedNumbers:
 
     one = literal(1.0)
 
-    def __init__(self, printer: TangentPrinter) -> None:
+    def __init__(self, printer: TangentRules) -> None:
         self.printer = printer
 
     def constant(self, value: float) -> str:

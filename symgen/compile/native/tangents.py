@@ -2,28 +2,21 @@
 
 A float has L directions beside it, one vector of LLVM. Directions of an array lie behind it: element i has its own
 at ``place + L i``, counted from the beginning of the array. Control flow follows the values; integers, booleans, tables
-and comparisons have no directions, and neither has a number that a caller outside hands over. Rules for elementary
-functions are the slopes in `symgen.base.vocabulary.functions`. At a kink of ``abs``, ``min`` or ``max`` the directions
-belong to the branch taken.
+and comparisons have no directions, and neither has a number that a caller outside hands over.
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from symgen.base.ir.graph import CARRIED
-from symgen.base.vocabulary.functions import ELEMENTARY
 from symgen.compile.native import language as lang
 from symgen.compile.native import sines
 from symgen.compile.native.llvm import LlvmPrinter, declarations, head, taken
 from symgen.compile.native.llvm_values import TYPES, literal, slot
-from symgen.compile.native.printed_numbers import PrintedNumbers, steepest_text
 from symgen.compile.native.read_values import Foreign
-
-#: A float and its directions, None where these are 0.
-Dual = tuple[str, str | None]
+from symgen.compile.native.tangent_rules import Dual, TangentRules, full_directions
 
 
 def tangent_module(
@@ -75,7 +68,7 @@ def tangent_module(
     return "\n".join([*texts, *declarations(texts), ""])
 
 
-class TangentPrinter(LlvmPrinter):
+class TangentPrinter(TangentRules):
     """Prints one function with directions.
 
     Parameters
@@ -178,7 +171,7 @@ class TangentPrinter(LlvmPrinter):
 
     def keep(self, name: str, directions: str | None) -> None:
         """Print an assignment to the directions of a variable."""
-        self.lines.append(f"  store {self.kind} {_full(directions)}, ptr {slot(name + '.d')}, align 8")
+        self.lines.append(f"  store {self.kind} {full_directions(directions)}, ptr {slot(name + '.d')}, align 8")
 
     def store(self, statement: lang.Store) -> None:
         """Print an assignment to an element of an array."""
@@ -188,7 +181,7 @@ class TangentPrinter(LlvmPrinter):
         value, directions = self.dual(statement.value)
         own, place = self.places_of(statement.array, statement.index)
         self.lines.append(f"  store double {value}, ptr {own}")
-        self.lines.append(f"  store {self.kind} {_full(directions)}, ptr {place}, align 8")
+        self.lines.append(f"  store {self.kind} {full_directions(directions)}, ptr {place}, align 8")
 
     def end(self, value: lang.Expression) -> None:
         """Print the end of the function; the directions of its result are not handed to a caller outside."""
@@ -197,7 +190,7 @@ class TangentPrinter(LlvmPrinter):
             return
         (number, directions), kind = self.dual(value), self.returned("float")
         one = self.put(f"insertvalue {kind} poison, double {number}, 0")
-        both = self.put(f"insertvalue {kind} {one}, {self.kind} {_full(directions)}, 1")
+        both = self.put(f"insertvalue {kind} {one}, {self.kind} {full_directions(directions)}, 1")
         self.lines.append(f"  ret {kind} {both}")
 
     def places_of(self, array: str, index: lang.Expression) -> tuple[str, str]:
@@ -279,7 +272,7 @@ class TangentPrinter(LlvmPrinter):
         for a in arguments:
             if not isinstance(a, str) and a.type == "float":
                 value, directions = self.dual(a)
-                parts += [f"double {value}", f"{self.kind} {_full(directions)}"]
+                parts += [f"double {value}", f"{self.kind} {full_directions(directions)}"]
                 continue
             parts += self.handed(a)
             if isinstance(a, str) and a in self.shadows:
@@ -295,127 +288,7 @@ class TangentPrinter(LlvmPrinter):
             self.begin(label)
             value, direction = self.dual(part)
             values.append(f"[{value}, %{self.label}]")
-            directions.append(f"[{_full(direction)}, %{self.label}]")
+            directions.append(f"[{full_directions(direction)}, %{self.label}]")
             self.jump(end)
         self.begin(end)
         return self.put(f"phi double {', '.join(values)}"), self.put(f"phi {self.kind} {', '.join(directions)}")
-
-    # -- rules
-
-    def differentiated(self, e: lang.ScalarOperation) -> Dual:
-        """Print an operation by its rule."""
-        name, g = e.name.removeprefix("math."), PrintedNumbers(self)
-        if any(a.type != "float" for a in e.arguments):
-            return self.power(e) if name == "pow" else (super().value(e), None)
-        if name in ("sin", "cos"):
-            return self.turned(name, e.arguments[0])
-        (a, da), *others = [self.dual(argument) for argument in e.arguments]
-        b, db = others[0] if others else ("", None)
-        if name in ("add", "sub", "mul", "div", "neg"):
-            return self.arithmetic(name, a, b, da, db)
-        if name in ("min", "max"):
-            return self.extreme(name, a, b, da, db)
-        if name in ("abs", "fabs"):
-            return g.call("fabs", a), self.times(da, lambda: g.call("copysign", g.one, a))
-        if name == "copysign":
-            return g.call(name, a, b), self.times(da, lambda: g.call(name, g.one, g.mul(a, b)))
-        if name == "atan2":
-            square = steepest_text(g, g.add(g.mul(a, a), g.mul(b, b)), 1e-200)
-            one, other = self.times(da, lambda: g.div(b, square)), self.times(db, lambda: g.div(a, square))
-            return g.call(name, a, b), self.difference(one, other)
-        if name == "pow":
-            return self.raised(e, (a, da), (b, db))
-        if name not in ELEMENTARY:
-            raise Foreign(f"directions of the function '{name}'")
-        slope: Any = ELEMENTARY[name].slope
-        result = g.call(name, a)
-        return result, self.times(da, lambda: str(slope(g, a, result)))
-
-    def arithmetic(self, name: str, a: str, b: str, da: str | None, db: str | None) -> Dual:
-        """Print a sum, a product or a quotient."""
-        g = PrintedNumbers(self)
-        if name == "add":
-            return g.add(a, b), self.sum(da, db)
-        if name == "sub":
-            return g.sub(a, b), self.difference(da, db)
-        if name == "mul":
-            return g.mul(a, b), self.sum(self.times(da, lambda: b), self.times(db, lambda: a))
-        if name == "neg":
-            return g.neg(a), self.difference(None, da)
-        quotient = g.div(a, b)
-        inner = self.difference(da, self.times(db, lambda: quotient))
-        return quotient, self.times(inner, lambda: g.div(g.one, b))
-
-    def extreme(self, name: str, a: str, b: str, da: str | None, db: str | None) -> Dual:
-        """Print the least or greatest of two values; as in Python, the first where they do not compare."""
-        sign = "olt" if name == "min" else "ogt"
-        test = self.put(f"fcmp{self.flag} {sign} double {b}, {a}")
-        value = self.put(f"select i1 {test}, double {b}, double {a}")
-        if da is None and db is None:
-            return value, None
-        return value, self.put(f"select i1 {test}, {self.kind} {_full(db)}, {self.kind} {_full(da)}")
-
-    def power(self, e: lang.ScalarOperation) -> Dual:
-        """Print a power with a whole exponent."""
-        exponent = e.arguments[1]
-        assert isinstance(exponent, lang.Constant), "a power with a literal exponent"
-        n, (base, directions) = int(exponent.value), self.dual(e.arguments[0])
-        if n == 0:
-            return literal(1.0), None
-        g, lower = PrintedNumbers(self), self.product(base, n - 1)
-        return g.mul(lower, base), self.times(directions, lambda: g.mul(literal(float(n)), lower))
-
-    def raised(self, e: lang.ScalarOperation, base: Dual, exponent: Dual) -> Dual:
-        """Print a power with any exponent; at 0 raised to less than 1 its slope rises without bound."""
-        g, (a, da), (b, db), constant = PrintedNumbers(self), base, exponent, e.arguments[1]
-        value = g.call("pow", a, b)
-        if isinstance(constant, lang.Constant) and 0.0 < constant.value < 1.0:
-            rest = literal(1.0 - constant.value)
-            return value, self.times(da, lambda: g.div(b, steepest_text(g, g.call("pow", a, rest))))
-        positive = a if isinstance(constant, lang.Constant) else steepest_text(g, a)
-        one = self.times(da, lambda: g.mul(b, g.call("pow", positive, g.sub(b, g.one))))
-        return value, self.sum(one, self.times(db, lambda: g.mul(value, g.call("log", positive))))
-
-    def turned(self, name: str, angle: lang.Expression) -> Dual:
-        """Print a sine or cosine; the other one is its slope."""
-        g, (a, da) = PrintedNumbers(self), self.dual(angle)
-        values = [self.sines.get((f"math.{own}", angle)) if sines.is_simple(angle) else None for own in ("sin", "cos")]
-        sine, cosine = (v or g.call(own, a) for v, own in zip(values, ("sin", "cos"), strict=True))
-        if name == "sin":
-            return sine, self.times(da, lambda: cosine)
-        return cosine, self.times(da, lambda: g.neg(sine))
-
-    # -- directions
-
-    def sum(self, a: str | None, b: str | None) -> str | None:
-        """Print the sum of two vectors of directions."""
-        if a is None or b is None:
-            return b if a is None else a
-        return self.put(f"fadd{self.flag} {self.kind} {a}, {b}")
-
-    def difference(self, a: str | None, b: str | None) -> str | None:
-        """Print the difference of two vectors of directions."""
-        if b is None:
-            return a
-        return self.put(f"fneg {self.kind} {b}" if a is None else f"fsub{self.flag} {self.kind} {a}, {b}")
-
-    def times(self, directions: str | None, factor: Callable[[], str]) -> str | None:
-        """Print the product of directions and a number, which is only printed where directions exist."""
-        if directions is None:
-            return None
-        return self.put(f"fmul{self.flag} {self.kind} {directions}, {self.spread(factor())}")
-
-    def spread(self, number: str) -> str:
-        """Return a vector of equal numbers."""
-        if not number.startswith("%"):
-            return f"<{', '.join([f'double {number}'] * self.lanes)}>"
-        if ("spread", number) not in self.printed:
-            one = self.put(f"insertelement {self.kind} poison, double {number}, i32 0")
-            vector = f"shufflevector {self.kind} {one}, {self.kind} poison, <{self.lanes} x i32> zeroinitializer"
-            self.printed["spread", number] = self.put(vector)
-        return self.printed["spread", number]
-
-
-def _full(directions: str | None) -> str:
-    """Return directions, zeros where there are none."""
-    return "zeroinitializer" if directions is None else directions

@@ -186,7 +186,8 @@ class AdjointFunction(EmittedFunction):
 
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
-        from symgen.compile.native.adjoints import adjoint_module, correction
+        from symgen.compile.native.adjoints import adjoint_module
+        from symgen.compile.native.correction import correction
         from symgen.compile.native.machine import compiled
 
         function, ends = self.read(arguments[: self.py_func.__code__.co_argcount]), "ydot"

@@ -69,9 +69,10 @@ def _function(block: Block, access: InstanceAccess, stride: int) -> ModulePiece:
 
 #: Array, and the summands of the index of its first element, for inputs and outputs of functions of kernels.
 _READ = {"q": ("y", "q"), "v": ("y", "nq", "v"), "change": ("w", "change", "v")}
+_READ["multipliers"] = ("w", "multipliers", "row")
 _WRITTEN = {
     **{"record": ("w", "f0"), "ydot": ("out", "q"), "y": ("y", "q"), "force=": ("w", "force", "v")},
-    "own": ("out", "own0"),
+    **{"own": ("out", "own0"), "drag": ("w", "drag")},
     **{"jacobian": ("w", "jacobian", "entry"), "left": ("w", "left", "entry"), "report": ("out", "m", "coordinate")},
     **{"mass_diagonal": ("p", "mass_diagonal", "v"), "inverse_mass": ("p", "inverse_mass", "v")},
 }
@@ -146,13 +147,18 @@ class InstanceAccess(Access):
         frames = range(len(self.info.frames))
         own: dict[str, list[str]] = {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"], "state": []}
         own["bound"] = ["row", "entry", *(f"v{i}" for i in frames)]
+        own |= {"rotor": own["bound"][1:], "drag": ["row", "drag"]}
         names = [*(f"f{i}" for i in frames), *own.get(self.info.kind, [f"v{i}" for i in frames])]
         return self.numbered([*names, *self.beside(), "computed"])
 
     def beside(self) -> list[str]:
         """Return the names of the places of counted turns, of states and of modes."""
         turns = [f"u{i}" for i in range(self.info.windings)]
-        return [*turns, *(f"own{i}" for i in range(self.info.states)), *["modes"] * (self.info.kind == "bound")]
+        return [
+            *turns,
+            *(f"own{i}" for i in range(self.info.states)),
+            *["modes"] * (self.info.kind in ("bound", "drag")),
+        ]
 
     def numbered(self, names: list[str]) -> list[tuple[str, str]]:
         """Return the numbers of a table, constants last; records and coordinates are counted from 0."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symgen.base.ir.graph import Graph
-from symgen.base.ir.numerics import SKIP, SUSPICIOUS
-from symgen.base.ir.program import FORMAT, STATUS, Block, OutputSlot
+from symgen.base.ir.numerics import NUMBERS, SKIP, SUSPICIOUS
+from symgen.base.ir.program import FORMAT, MODES, STATUS, Block, OutputSlot
 from symgen.derive.emit.emit import law_header
 from symgen.derive.emit.module import ModulePiece, function_source, render
 from symgen.derive.emit.parts import PartsLayout, law_modules
@@ -14,7 +14,7 @@ from symgen.derive.emit.printer import Access, Printer
 from symgen.derive.emit.whole import Places
 from symgen.derive.lower.looped import statements as data
 from symgen.derive.lower.looped.law import LoopedLaw
-from symgen.derive.lower.looped.layout import GENERIC, HEAD
+from symgen.derive.lower.looped.layout import BESIDE, GENERIC, HEAD, PRESSED, ROTORS
 from symgen.derive.lower.record import ARGUMENTS
 
 _STATUS = {name: i for i, name in enumerate(STATUS)}
@@ -27,6 +27,12 @@ def emit_machine(generator: str) -> str:
     values = {"head": HEAD, "suspicious": SUSPICIOUS, "skip": SKIP, "status": _STATUS}
     values |= {"generic": _GENERIC, "codes": GENERIC}
     return render("looped/machine.py.j2", {"format": FORMAT, "generator": generator, **values})
+
+
+def emit_rotors(generator: str) -> str:
+    """Return the source of the generic code for mechanisms with rotors on joints."""
+    values = {"format": FORMAT, "generator": generator, "rotors": ROTORS, "status": _STATUS}
+    return render("looped/rotors.py.j2", values)
 
 
 #: Calls of generic code: name, arguments after T, p and w, the code with its arguments, and its purpose.
@@ -56,6 +62,9 @@ _GENERIC = (
 )
 
 
+#: The right-hand side at given efforts that depend on reactions.
+PUSHED = "rhs_pushed"
+
 #: Names that the modules ``machine`` and ``model`` define.
 _MACHINE = (*(name for name, *_ in _GENERIC), "run", "tables", *_MODES)
 _SHARED = ("geometry", "spread", "measure", "observe", "move", "turn", "normalise")
@@ -66,26 +75,43 @@ def emit_shared_model(generator: str) -> str:
     return render("looped/model.py.j2", {"format": FORMAT, "generator": generator, "status": _STATUS})
 
 
+def pressed_rates() -> ModulePiece:
+    """Return the right-hand side around one at given efforts that depend on reactions."""
+    places = {"effort": MODES.index("effort"), **{name: i for i, name in enumerate(BESIDE)}}
+    body = render("looped/pressed.j2", {"drag": places, "number": NUMBERS}).strip("\n").split("\n")
+    purpose = "Rates of the state with efforts that depend on reactions; 1 where a pivot of S is suspicious."
+    calls = {"GRAM_FACTOR", PUSHED, "run", "tables", "numpy", "math"}
+    return function_source("rhs", ", ".join(ARGUMENTS["rhs"]), purpose, body, calls=calls)
+
+
 def emit_looped_law(
-    law: LoopedLaw, generator: str, summary: str, reference: str, whole: bool = False
+    law: LoopedLaw, generator: str, summary: str, reference: str, whole: bool = False, pressed: bool = False
 ) -> dict[str, str]:
-    """Return the source of the modules of a law; the last one is its own, as for `symgen.derive.emit.emit.emit_law`."""
+    """Return the source of the modules of a law; the last one is its own, as for `symgen.derive.emit.emit.emit_law`.
+
+    `pressed`: for mechanisms with efforts that depend on reactions.
+    """
     info = law.info
+    layout = TableLayout([name for name, _ in info.parameters])
+    names = {"rhs": PUSHED} if pressed else {}
+    printed = [(f.part.role, print_function(f, names.get(f.part.name, f.part.name))) for f in law.functions]
+    if pressed:
+        printed.append(("acceleration", pressed_rates()))
     nothing = function_source("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     versions = f"format {FORMAT}, generator {generator}"
     origins = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
     return law_modules(
         law,
-        TableLayout([name for name, _ in info.parameters]),
-        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing)],
+        layout,
+        [*printed, ("preparation", nothing)],
         any(f.flagged for f in law.functions),
         "for any mechanism, in the looped shape",
         versions,
         origins | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
         f"Method `{info.method}`, for any mechanism, in the looped shape.",
         law_header(info, summary, reference, versions, "parameter {}:"),
-        f"law_{info.key}",
+        f"law_{info.key}{PRESSED if pressed else ''}",
         offsets={name: (at, "places in w and T") for name, at in {**_STATUS, **places}.items()},
         places=Places() if whole else None,
     )
@@ -139,8 +165,8 @@ class TableLayout(PartsLayout):
         return ["T = tables(w)", *lines], calls, own
 
 
-def print_function(f: data.LoopedFunction) -> ModulePiece:
-    """Print statements: loops over elements j, sums, numbers and calls."""
+def print_function(f: data.LoopedFunction, called_as: str) -> ModulePiece:
+    """Print statements as a function of some name: loops over elements j, sums, numbers and calls."""
     access, lines = LoopAccess(), list[str]()
     called: set[str] = set()
     for statement in f.statements:
@@ -159,7 +185,7 @@ def print_function(f: data.LoopedFunction) -> ModulePiece:
     purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
     sections = own | access.status
     arguments = ", ".join(ARGUMENTS[f.part.name])
-    return function_source(f.part.name, arguments, purpose, [*before, *lines], calls=called, sections=sections)
+    return function_source(called_as, arguments, purpose, [*before, *lines], calls=called, sections=sections)
 
 
 def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> list[str]:

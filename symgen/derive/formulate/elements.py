@@ -8,11 +8,11 @@ body's *record*, which is filled once for all elements on that body.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from symgen.base.ir.graph import Graph
-from symgen.derive.formulate.equations import Equations
-from symgen.derive.formulate.formulate import formulate
+from symgen.derive.formulate.equations import ConstraintRow, Equations
+from symgen.derive.formulate.formulate import formulate, rotor_rate, with_rotors
 from symgen.derive.formulate.measures import ModelNodes
 from symgen.describe.mechanism import Mechanism
 
@@ -98,4 +98,21 @@ def derive_element(abstract: Mechanism) -> Element:
         nq, nv = len(body.coordinates), len(body.speeds)
         frames.append(FrameRecord(tuple(range(q, q + nq)), tuple(range(v, v + nv)), slots))
         q, v = q + nq, v + nv
+    if abstract.rotors:
+        equations = _of_rotor(model, equations)
     return Element(equations, tuple(frames))
+
+
+def _of_rotor(model: ModelNodes, equations: Equations) -> Equations:
+    """Return the equations of a rotor without the bodies that it joins.
+
+    M is R^T R: with its inertia J and the rate r v of its angle the only row is R = sqrt(J) r, without Phi, nu, gamma.
+    """
+    g, forces = model.graph, [model.graph.zero] * len(model.velocities)
+    mass, kinetic = with_rotors(model, (), forces)
+    (rotor,) = model.mechanism.rotors
+    inertia, _, row, _ = rotor_rate(model, rotor)
+    root = g.call("sqrt", inertia)
+    entries = tuple((i, g.mul(root, node)) for i, node in sorted(row.items()))
+    rows = (ConstraintRow("R", "e", "rad", None, entries, g.zero, g.zero, None),)
+    return replace(equations, mass=mass, rows=rows, forces=tuple(forces), kinetic=kinetic)

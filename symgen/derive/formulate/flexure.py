@@ -24,7 +24,8 @@ from collections.abc import Sequence
 from functools import cached_property
 
 from symgen.base.vocabulary.measures import Exerted, Flexed, Flexure
-from symgen.derive.formulate.measures import Exertion, ModelNodes, exertion
+from symgen.derive.formulate.exertion import Exertion, exertion
+from symgen.derive.formulate.measures import ModelNodes
 from symgen.derive.formulate.vector_algebra import Triple, Vectors
 from symgen.describe.mechanism import Force
 

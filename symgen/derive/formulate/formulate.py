@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from symgen.base.errors import InputError, finite_numbers
+from symgen.base.errors import finite_numbers
 from symgen.base.ir.program import MODE_NUMBERS, of_table
 from symgen.base.vocabulary.expressions import ZERO
 from symgen.base.vocabulary.measures import GROUND, Dot, Holonomic, Row, StiffHolonomic, Sum
@@ -23,12 +23,13 @@ from symgen.derive.formulate.equations import (
     Omission,
     mass_blocks,
 )
+from symgen.derive.formulate.exertion import exertion
 from symgen.derive.formulate.flexure import exertions
-from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes, exertion
+from symgen.derive.formulate.measures import DerivedMeasure, ModelNodes
 from symgen.derive.formulate.of_time import time_function
 from symgen.derive.formulate.tree import energies_on_tree
 from symgen.describe.bounded import BoundedRow
-from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.bounds.by_reaction import held_by_reactions, refuse_repeated
 from symgen.describe.bounds.modes import first_modes, number_of
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism, Rotor, SpatialBody
@@ -172,10 +173,7 @@ def _drag(
 ) -> Drag:
     """Return the effort by the reaction of a joint."""
     places = {row.name: i for i, row in enumerate(rows)}
-    for pair in repeats:
-        if set(pair) & set(bounded.pressed):
-            expected = f"a joint whose reaction is determined, for {bounded.family.one} by it"
-            raise InputError(bounded.where, expected, f"rows {' and '.join(pair)}, the same")
+    refuse_repeated(bounded, repeats)
     rate = model.measure(bounded.measure).rate(model.graph, model.velocities)
     with finite_numbers(bounded.where):
         sign, coefficient = (
@@ -280,10 +278,7 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
     }
     for rotor in model.mechanism.rotors:
         with finite_numbers(f"joints.{rotor.joint}"):
-            inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
-            angle = _about_axes(model, rotor) or angle
-            rate = angle.rate(g, model.velocities)
-            row, bias, _ = model.pulled(angle.row, angle.bias)
+            inertia, rate, row, bias = rotor_rate(model, rotor)
             energy = g.add(energy, g.mul(g.mul(g.constant(0.5), inertia), g.mul(rate, rate)))
             for i, of_i in row.items():
                 momentum = g.mul(inertia, of_i)
@@ -291,6 +286,15 @@ def with_rotors(model: ModelNodes, mass: tuple[MassBlock, ...], forces: list[int
                 for j, of_j in row.items():
                     entries[i, j] = g.add(entries.get((i, j), g.zero), g.mul(momentum, of_j))
     return mass_blocks(entries, len(forces), g.zero), energy
+
+
+def rotor_rate(model: ModelNodes, rotor: Rotor) -> tuple[int, int, dict[int, int], int]:
+    """Return a rotor's inertia, the rate r v of its angle, the entries of r, and b of the second derivative."""
+    inertia, angle = model.expression(rotor.inertia), model.measure(rotor.angle)
+    angle = _about_axes(model, rotor) or angle
+    rate = angle.rate(model.graph, model.velocities)
+    row, bias, _ = model.pulled(angle.row, angle.bias)
+    return inertia, rate, row, bias
 
 
 def _about_axes(model: ModelNodes, rotor: Rotor) -> DerivedMeasure | None:

@@ -18,7 +18,6 @@ from symgen.base.vocabulary.measures import (
     Direction,
     Dot,
     Driven,
-    Effort,
     Exerted,
     Flexed,
     FormulaMeasure,
@@ -37,7 +36,6 @@ from symgen.base.vocabulary.measures import (
 from symgen.derive.formulate.euler_parameters import matrix_of, turning
 from symgen.derive.formulate.frames import FRAME_SLOTS, SPATIAL_SLOTS
 from symgen.derive.formulate.measure_kernels import derive
-from symgen.derive.formulate.of_time import potential_of
 from symgen.derive.formulate.tree import Tree
 from symgen.derive.formulate.tree_plane import PlanarTree
 from symgen.derive.formulate.tree_space import SpatialTree
@@ -378,43 +376,3 @@ class ModelNodes(Formulas):
                     row[self.first[body] + offset] = nodes[position]
                 position += 1
         return DerivedMeasure(nodes[0], row, nodes[-1])
-
-
-@dataclass(frozen=True)
-class Exertion:
-    """An effort in a model, as nodes.
-
-    Attributes
-    ----------
-    row : mapping of int to int
-        Velocity index -> entry of J, with s' = J v.
-    rate : int
-        s'.
-    total : int
-        -dU/ds + F.
-    power : int
-        F s', the power of the part without potential.
-    energy : int
-        U.
-    """
-
-    row: Mapping[int, int]
-    rate: int
-    total: int
-    power: int
-    energy: int
-
-
-def exertion(model: ModelNodes, effort: Effort) -> Exertion:
-    """Return the force of an effort."""
-    g, measure = model.graph, model.motion(effort.measure)
-    rate = measure.rate(g, model.velocities)
-    zero = g.zero
-    conservative, energy = (
-        (zero, zero) if effort.potential == ZERO else potential_of(model, effort.potential, measure.value)
-    )
-    magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-    total = g.add(conservative, magnitude)
-    # what drifts changes the potential, and the force moves no body by it
-    power = g.sub(g.mul(magnitude, measure.along(g, model.velocities)), g.mul(conservative, measure.drift))
-    return Exertion(measure.row, rate, total, power, energy)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from symgen.base.ir.graph import Graph
     from symgen.derive.formulate.measures import ModelNodes
-    from symgen.describe.mechanism import Topology
+    from symgen.describe.spanning_tree import Topology
 
 
 def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from symgen.derive.formulate.equations import DriverPower, MassBlock, mass_blocks
 from symgen.derive.formulate.of_time import Coordinate, prescribed_coordinates
-from symgen.describe.mechanism import Link, SpatialBody
+from symgen.describe.mechanism import SpatialBody
 from symgen.describe.parts.topology import state_measures
+from symgen.describe.spanning_tree import Link
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.measures import ModelNodes

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 
 from symgen.base.vocabulary.measures import GROUND
 from symgen.derive.formulate.vector_algebra import Matrix, Triple, Vectors
-from symgen.describe.mechanism import Link, SpatialBody
+from symgen.describe.mechanism import SpatialBody
+from symgen.describe.spanning_tree import Link
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -21,8 +21,9 @@ from symgen.derive.formulate.equations import DriverPower, MassBlock
 from symgen.derive.formulate.of_time import driving_of
 from symgen.derive.formulate.tree import Tree
 from symgen.derive.formulate.vector_algebra import Pair, PlaneVectors
-from symgen.describe.mechanism import Body, Link, Vec
+from symgen.describe.mechanism import Body, Vec
 from symgen.describe.parts.topology import labels_of
+from symgen.describe.spanning_tree import Link
 
 if TYPE_CHECKING:
     pass

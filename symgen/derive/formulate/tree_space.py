@@ -26,8 +26,9 @@ from symgen.derive.formulate.of_time import driving_of
 from symgen.derive.formulate.tree import Tree
 from symgen.derive.formulate.tree_inertia import BodyVelocity, Composite, Placed
 from symgen.derive.formulate.vector_algebra import Matrix, Triple, Vectors
-from symgen.describe.mechanism import Articulation, Link, SpatialBody
+from symgen.describe.mechanism import SpatialBody, Vec
 from symgen.describe.parts.topology import labels_of
+from symgen.describe.spanning_tree import Articulation, Link
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.measures import ModelNodes
@@ -90,27 +91,7 @@ class SpatialTree(Tree):
         parent.children.append(link.body)
         joint = link.articulation
         motions: dict[int, BodyVelocity] = {}
-        rate = gained = v.zero  # of the arm, in the parent's axes, and the prescribed part of its rate
-        if joint is None:
-            reference = body.centre_of_mass
-            first = self.count
-            slides = [self.velocity() for _ in range(3)]
-            arm = v.triple([g.input("q", first + k) for k in range(3)])
-            rate = v.triple([g.input("v", i) for i in slides])
-            directions = dict(zip(slides, v.units, strict=True))
-        else:
-            carrier, own = (joint.a, joint.b) if link.forward else (joint.b, joint.a)
-            reference = own.point
-            arm = v.triple(model.local(carrier))
-            sign = g.one if link.forward else g.constant(-1.0)
-            directions = dict[int, Triple]()
-            for label, direction in zip(labels_of(model.mechanism, link)[0], joint.slides, strict=True):
-                c = self.coordinate(link.body, label)
-                e = v.scale(sign, self._carried(joint, link, direction))
-                arm = v.add(arm, v.scale(c.value, e))
-                rate = v.add(rate, v.scale(c.rate, e))
-                gained = v.add(gained, v.scale(c.acceleration, e))
-                directions[c.number] = e
+        reference, arm, rate, gained, directions = self._arm(link, body)
         model.references[link.body] = reference
         own_turn = joint is None or joint.turn == "ball"
         relative = extra = v.zero
@@ -181,6 +162,32 @@ class SpatialTree(Tree):
             euler,
             self._hinge(link, body),
         )
+
+    def _arm(self, link: Link, body: SpatialBody) -> tuple[Vec, Triple, Triple, Triple, dict[int, Triple]]:
+        """Return the point at which a link holds its body, and the arm to it in the parent's axes.
+
+        Behind it stand its rate, the prescribed part of its acceleration, and directions of slides by velocity.
+        """
+        g, v, model, joint = self.graph, self.v, self.model, link.articulation
+        rate = gained = v.zero
+        if joint is None:
+            first = self.count
+            slides = [self.velocity() for _ in range(3)]
+            arm = v.triple([g.input("q", first + k) for k in range(3)])
+            rate = v.triple([g.input("v", i) for i in slides])
+            return body.centre_of_mass, arm, rate, gained, dict(zip(slides, v.units, strict=True))
+        carrier, own = (joint.a, joint.b) if link.forward else (joint.b, joint.a)
+        arm = v.triple(model.local(carrier))
+        sign = g.one if link.forward else g.constant(-1.0)
+        directions = dict[int, Triple]()
+        for label, direction in zip(labels_of(model.mechanism, link)[0], joint.slides, strict=True):
+            c = self.coordinate(link.body, label)
+            e = v.scale(sign, self._carried(joint, link, direction))
+            arm = v.add(arm, v.scale(c.value, e))
+            rate = v.add(rate, v.scale(c.rate, e))
+            gained = v.add(gained, v.scale(c.acceleration, e))
+            directions[c.number] = e
+        return own.point, arm, rate, gained, directions
 
     def _hinge(self, link: Link, body: SpatialBody) -> tuple[Triple, Triple] | None:
         """Return the axis of a body that only rotates about it, zeros for a ball joint, else None."""

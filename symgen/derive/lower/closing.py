@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from symgen.base.ir.loops import Pair, loop_order
 from symgen.base.ir.program import FixedVelocities
 from symgen.derive.formulate.equations import Equations
-from symgen.derive.lower.blocks import SaddleMatrix, mass_entries
+from symgen.derive.lower.blocks import SaddleMatrix
+from symgen.derive.lower.fixed_velocities import mass_entries
 
 
 def loop_pairs(equations: Equations, fixed: Sequence[FixedVelocities]) -> tuple[Pair, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from symgen.base.errors import InputError
@@ -75,11 +75,7 @@ def lower_law(
         If velocities shall be scaled to the energy where drivers prescribe coordinates of a tree.
     """
     correction = method.correction(options)
-    if correction.energy and equations.driving is not None:  # T is not quadratic in v then
-        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
-        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
-    if any(row.held is not None for row in equations.rows):
-        refuse_bounded_rows(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
+    _refuse(equations, method, options, implicit)
     names = [p.name for p in method.parameters]
     recorded = record_law(method, options, equations.driving is not None)
     eliminates = _eliminates(recorded)
@@ -99,31 +95,19 @@ def lower_law(
     if record.form == "direct" and any(row.bounded for row in equations.rows):
         loose = _without_bounded_rows(scalars, recorded, apart, closing, closed)
         accelerations.append(loose)
-    for values, part in accelerations:
-        flag = None if part.flag is None else values.values[part.flag]
-        hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
+    _reserve(hoister, accelerations)
     degrees = 0
     if record.form == "tangent":
         degrees = min(equations.nv, max(1, equations.nv - equations.m + loose_rows) + _SPARE_DEGREES)
     blocks = [law_block(hoister, scalars, part) for part in record.parts]
-    solver = scalars
-    if closing.loops and closed and loose is None:
-        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
-        blocks = [*own, *blocks[1:]]
-    if directed and closed and loose is None and not equations.drags:
-        part = recorded.resolved(solver.plan.schur).parts[0]
-        blocks += _by_residual(hoister, solver, recorded, part)
     if loose is not None:
-        held = replace(blocks[0], name=HELD_RHS, purpose=f"{blocks[0].purpose}; with rows with bounds in force")
-        free = replace(law_block(hoister, *loose), name=FREE_RHS)
-        converged = f", or {equations.drags[0].noun} not found" if len(equations.drags) > 1 else ""
-        blocks = [held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force"), *blocks[1:]]
-    unknowns, level = 0, ""
-    pattern: tuple[tuple[int, int], ...] = ()
+        blocks = [*_by_rows_in_force(hoister, equations, blocks[0], loose), *blocks[1:]]
+    elif closed:
+        blocks = _in_closed_form(hoister, scalars, recorded, closing, directed, blocks)
+    unknowns, level, pattern = 0, "", tuple[tuple[int, int], ...]()
     if implicit:
         form = record_form(method, options, driven=equations.driving is not None)
-        unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
-        unknowns += len(equations.states)
+        unknowns, level = _unknowns(equations, form), form.form
         form_blocks, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += form_blocks
     blocks.insert(0, replace(hoister.prepare(), role="preparation"))
@@ -147,6 +131,56 @@ def lower_law(
         unique_multipliers=method.unique_multipliers,
     )
     return LawProgram(info, record.form, correction.stages, correction, layout, tuple(blocks), degrees)
+
+
+def _reserve(hoister: Hoister, accelerations: Iterable[tuple[ScalarNodes, Part]]) -> None:
+    """Reserve places for the numbers that laws hoist, before any block is made."""
+    for values, part in accelerations:
+        flag = None if part.flag is None else values.values[part.flag]
+        hoister.reserve([*(node for _, node in part_outputs(values, part)), *([] if flag is None else [flag])])
+
+
+def _in_closed_form(
+    hoister: Hoister,
+    scalars: ScalarNodes,
+    recorded: RecordedLaw,
+    closing: EliminationPlan,
+    directed: bool,
+    blocks: list[Block],
+) -> list[Block]:
+    """Return the blocks of a law whose loops are in closed form where the plan has any, with slopes if `directed`."""
+    solver = scalars
+    if closing.loops:
+        solver, own = _with_closed_loops(hoister, scalars, recorded.resolved(False), closing, blocks[0])
+        blocks = [*own, *blocks[1:]]
+    if directed and not scalars.equations.drags:
+        blocks = [*blocks, *_by_residual(hoister, solver, recorded, recorded.resolved(solver.plan.schur).parts[0])]
+    return blocks
+
+
+def _by_rows_in_force(
+    hoister: Hoister, equations: Equations, law: Block, loose: tuple[ScalarNodes, Part]
+) -> tuple[Block, Block]:
+    """Return the blocks of a law with rows with bounds in force, and of motions without any."""
+    held = replace(law, name=HELD_RHS, purpose=f"{law.purpose}; with rows with bounds in force")
+    free = replace(law_block(hoister, *loose), name=FREE_RHS)
+    converged = f", or {equations.drags[0].noun} not found" if len(equations.drags) > 1 else ""
+    return held, replace(free, purpose=f"{free.purpose}{converged}; no row with bounds in force")
+
+
+def _unknowns(equations: Equations, form: RecordedLaw) -> int:
+    """Return the number of unknowns of a form for implicit integrators."""
+    multipliers = equations.m * (2 if form.form == "stabilised" else 1)
+    return equations.nq + equations.nv + multipliers + len(equations.states)
+
+
+def _refuse(equations: Equations, method: Method, options: Mapping[str, str], implicit: bool) -> None:
+    """Refuse equations that a method has no law for."""
+    if method.correction(options).energy and equations.driving is not None:  # T is not quadratic in v then
+        expected = f"coordinates in which no driver prescribes one of the state, for '{method.name}'"
+        raise InputError("--coordinates", expected, "those of joints that are driven", "--coordinates absolute")
+    if any(row.held is not None for row in equations.rows):
+        refuse_bounded_rows(method, options, implicit, next((drag.noun for drag in equations.drags), ""))
 
 
 def refuse_bounded_rows(method: Method, options: Mapping[str, str], implicit: bool, pressed: str) -> None:

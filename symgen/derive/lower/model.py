@@ -55,7 +55,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         law_block(hoister, scalars, spread),
         measure(hoister, scalars),
         observe(hoister, scalars),
-        hoister.block("masses", "diagonal of M", _diagonal(scalars), ("p", "w")),
+        hoister.block("masses", "diagonal of M", diagonal_at_origin(scalars), ("p", "w")),
         *manifold_blocks(hoister, equations),
     ]
     if equations.bodies:
@@ -77,7 +77,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     )
 
 
-def _diagonal(scalars: ScalarNodes) -> Outputs:
+def diagonal_at_origin(scalars: ScalarNodes) -> Outputs:
     """Return the diagonal of M; where it changes with the position, that at coordinates and time of 0."""
     equations, g = scalars.equations, scalars.graph
     diagonal = [(OutputSlot("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]

@@ -8,8 +8,8 @@ from dataclasses import replace
 from symgen.base.ir.graph import PARAMETER
 from symgen.base.ir.program import EliminationPlan
 from symgen.derive.formulate.equations import Equations, without_bounded_rows
-from symgen.derive.lower.blocks import fixed_velocities
 from symgen.derive.lower.closing import closed_loops
+from symgen.derive.lower.fixed_velocities import fixed_velocities
 from symgen.derive.lower.record import record_multipliers
 from symgen.derive.lower.scalar import ScalarNodes
 

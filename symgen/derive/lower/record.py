@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from typing import assert_never
 
 from symgen.derive.methods._base import Acceleration, Dense, Iteration, Law, Method, Tangent, multiplier_law
-from symgen.derive.methods._formula import ALTERNATIVES, Factor, FormulaStep, Scalar, System, Value, Vector
+from symgen.derive.methods._formula import System
+from symgen.derive.methods._tape import ALTERNATIVES, Factor, FormulaStep, Scalar, Value, Vector
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from symgen.base.errors import InputError
 from symgen.derive.lower.record import EQUATIONS, Part, RecordedLaw
 from symgen.derive.methods._base import Descriptor, Method
-from symgen.derive.methods._formula import Scalar, System, Value, Vector
+from symgen.derive.methods._formula import System
+from symgen.derive.methods._tape import Scalar, Value, Vector
 
 
 def record_form(method: Method, options: Mapping[str, str], kind: str = "whole", driven: bool = False) -> RecordedLaw:

@@ -7,7 +7,7 @@ from typing import Any
 
 from symgen.base.ir.graph import ARITHMETIC, Graph
 from symgen.base.ir.program import STATUS
-from symgen.derive.methods._formula import FormulaStep
+from symgen.derive.methods._tape import FormulaStep
 
 Nodes = tuple[int, ...]
 

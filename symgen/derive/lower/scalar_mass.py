@@ -13,7 +13,7 @@ from symgen.derive.formulate.equations import MassBlock
 from symgen.derive.lower.factor import FactorNodes, factorisation, minimum_degree
 from symgen.derive.lower.replay import Nodes
 from symgen.derive.lower.scalar_values import NodeValues, Rows
-from symgen.derive.methods._formula import FormulaStep
+from symgen.derive.methods._tape import FormulaStep
 
 
 class OfMass(NodeValues):

@@ -13,7 +13,7 @@ from symgen.derive.formulate.equations import Drag, Equations
 from symgen.derive.lower.drag import length
 from symgen.derive.lower.factor import FactorNodes
 from symgen.derive.lower.replay import Nodes, Replay
-from symgen.derive.methods._formula import FormulaStep
+from symgen.derive.methods._tape import FormulaStep
 
 Outputs = list[tuple[OutputSlot, int]]
 #: A sparse matrix: for each row its (column, node) entries in increasing order of column.

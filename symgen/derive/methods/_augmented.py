@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from symgen.derive.methods._base import MethodParameter
-from symgen.derive.methods._formula import System, Vector
+from symgen.derive.methods._formula import System
+from symgen.derive.methods._tape import Vector
 
 SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
 

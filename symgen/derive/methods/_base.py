@@ -19,7 +19,8 @@ from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest
 from symgen.base.ir.program import Correction
-from symgen.derive.methods._formula import Scalar, System, Vector
+from symgen.derive.methods._formula import System
+from symgen.derive.methods._tape import Scalar, Vector
 
 
 @dataclass(frozen=True)

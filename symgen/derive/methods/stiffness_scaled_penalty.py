@@ -16,7 +16,8 @@ from symgen.derive.methods._base import (
     augmented_iteration,
     multiplier_law,
 )
-from symgen.derive.methods._formula import System, Vector
+from symgen.derive.methods._formula import System
+from symgen.derive.methods._tape import Vector
 
 #: The largest penalty over the mean mass, and how often what a solution leaves of the force is solved for again: each
 #: pass leaves a part m / a of it.

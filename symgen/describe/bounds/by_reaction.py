@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
+from symgen.base.errors import InputError
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, Expr, Reading, call, dot
 from symgen.base.vocabulary.measures import GROUND, Dot, Driven, Holonomic, Measure, Turn, axes
@@ -70,6 +71,20 @@ def reaction_of(row: BoundedRow) -> Expr:
 def held_by_reactions(mechanism: Mechanism) -> tuple[BoundedRow, ...]:
     """Return the rows whose bounds depend on a reaction."""
     return tuple(row for row in mechanism.bounded if row.pressed)
+
+
+def refuse_repeated(row: BoundedRow, repeats: Iterable[tuple[str, str]]) -> None:
+    """Refuse bounds over a reaction of which one row repeats another, so that both share it.
+
+    Raises
+    ------
+    InputError
+        With the rows.
+    """
+    for pair in repeats:
+        if set(pair) & set(row.pressed):
+            expected = f"a joint whose reaction is determined, for {row.family.one} by it"
+            raise InputError(row.where, expected, f"rows {' and '.join(pair)}, the same")
 
 
 def jamming_names(mechanism: Mechanism) -> dict[str, int]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
+import msgspec
+
 from symgen.base.ir.program import JAMMING
 from symgen.base.vocabulary.expressions import ONE, ZERO, Expr, Name, Number, Reading, call, sum_of_terms
 from symgen.base.vocabulary.measures import Effort, Exerted, Holonomic, Measure
@@ -216,6 +218,14 @@ class Friction(Bounds, frozen=True):
     def coefficient(self) -> Expr:
         """Bound in motion over the size of the reaction, a formula of ``rate``."""
         return self.bound_in_motion(Name("rate"))
+
+    @property
+    def without_reaction(self) -> Friction:
+        """The row with its viscous part, and the number ``effort``, where its bounds depend on a reaction."""
+        if not self.pressed:
+            return self
+        none = {"sliding": ZERO, "static": ZERO, "stribeck_speed": None, "exponent": None}
+        return msgspec.structs.replace(self, pressed=(), across=(), **none)
 
     @property
     def taking(self) -> Expr:

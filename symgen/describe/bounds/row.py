@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import msgspec
 
@@ -49,3 +49,8 @@ class Bounds(msgspec.Struct, frozen=True):
     def coefficient(self) -> Expr:
         """Bound in motion over the size of the reaction."""
         return ZERO
+
+    @property
+    def without_reaction(self) -> Self:
+        """The row with that part of its effort alone which depends on no reaction."""
+        return self

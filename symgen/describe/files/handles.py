@@ -15,7 +15,8 @@ from symgen.describe.files.changes import is_decimal_number
 from symgen.describe.files.places import Path
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.parts.scope import CENTRE, Context, Scope
+from symgen.describe.parts.context import Context
+from symgen.describe.parts.scope import CENTRE, Scope
 
 #: Joints whose two points are one point.
 PINS = ("revolute", "rigid")

@@ -18,13 +18,15 @@ from typing import Any
 from symgen.base import arguments
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.describe.files.origins import Source, errors_in
-from symgen.describe.files.validate import DEEPEST, validate
+from symgen.describe.files.validate import validate
 from symgen.describe.formulas.parser import LONGEST_TEXT
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.own_units import in_si
 
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
 
+#: Levels of tables in a file.
+DEEPEST = 20
 #: Maximum bytes of a file, and operators in all formulas together.
 LARGEST_FILE = 1_000_000
 MOST_OPERATORS = 50_000
@@ -44,7 +46,7 @@ _TOKEN = re.compile(
 )
 
 
-def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None = None) -> Mechanism:
+def load_mechanism(model: str | os.PathLike[str], parameters: Mapping[str, float] | None = None) -> Mechanism:
     """Return the mechanism called `model` in the catalogue or described in the file `model`.
 
     Parameters

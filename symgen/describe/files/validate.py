@@ -11,14 +11,14 @@ import msgspec
 from symgen.base.errors import InputError, nearest, quoted
 from symgen.base.memory import uncollected
 from symgen.base.units import unit_of
-from symgen.base.vocabulary.expressions import ONE, call
-from symgen.base.vocabulary.measures import GROUND, Marker
+from symgen.base.vocabulary.measures import GROUND
 from symgen.describe.bounded import BoundedRow
 from symgen.describe.bounds.checks import check_bounds
-from symgen.describe.bounds.keys import SectionOfFiles, keys_of_any_joint, rows_of_joint, sections_of_files
+from symgen.describe.bounds.keys import SectionOfFiles, sections_of_files
 from symgen.describe.bounds.losses import losses
 from symgen.describe.bounds.modes import with_bounded_outputs
 from symgen.describe.bounds.smooth import with_smooth
+from symgen.describe.files.joint_tables import JointTables
 from symgen.describe.files.origins import errors_in, keep_origin
 from symgen.describe.files.section_names import NAMED, SECTIONS
 from symgen.describe.formulas.names import check_identifier, check_mechanism_name, line
@@ -34,7 +34,6 @@ from symgen.describe.mechanism import (
     OperatingLimit,
     Output,
     Parameter,
-    Rotor,
     Shape,
     StateVariable,
     Vec,
@@ -42,37 +41,32 @@ from symgen.describe.mechanism import (
 from symgen.describe.parts.bodies import planar_body, shapes_of, spatial_body
 from symgen.describe.parts.collected import Errors, Incomplete
 from symgen.describe.parts.columns import check_columns
+from symgen.describe.parts.context import Context
 from symgen.describe.parts.events import read_event
 from symgen.describe.parts.fields import (
-    Flag,
-    JointStart,
     OutputFunction,
-    Scalar,
     read_table,
     read_value,
     words_of,
 )
-from symgen.describe.parts.holds import body_holds, holds_of, joint_holds
-from symgen.describe.parts.kinds import FORCES, JOINTS
+from symgen.describe.parts.holds import body_holds, holds_of
+from symgen.describe.parts.kinds import FORCES, kind_and_keys
 from symgen.describe.parts.limits import limits_of
 from symgen.describe.parts.numbers import read_defaults, read_points
 from symgen.describe.parts.own_units import check_own_unit
 from symgen.describe.parts.parameters import Parameters
-from symgen.describe.parts.scope import Context, Scope
+from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.sections import (
     MechanismSection,
     OutputSection,
     StateSection,
 )
-from symgen.describe.parts.topology import articulation_of
 
 if TYPE_CHECKING:
     from symgen.describe.beams.beams import Beams
 
 Raw = Mapping[str, Any]
 T = TypeVar("T")
-#: Levels of tables in a file, and joints in a chain of references.
-DEEPEST = 20
 
 
 @uncollected()
@@ -107,20 +101,12 @@ def errors_of(raw: Raw, source: str) -> tuple[InputError, ...]:
 
 
 class _Validator:
-    """One description being read, section by section; joints may refer to each other and are resolved on demand."""
+    """One description being read, section by section."""
 
     def __init__(self, raw: Raw, source: str, errors: Errors) -> None:
         self.raw, self.source = raw, source
         self.errors = errors
         self._entries: dict[str, list[tuple[str, Any]]] = {}
-        self._joints: dict[str, Joint | None] = {}
-        self._seats: dict[str, Marker] = {}
-        self._open = 0  # joints being resolved, each because the one before refers to it
-        self._cuts: list[str] = []
-        self._rotors: dict[str, Rotor] = {}
-        self._scopes: dict[str, tuple[Scope, Joint]] = {}  # of joints, in the order in which they are resolved
-        self._keys = tuple(keys_of_any_joint())
-        self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
         self._parts: frozenset[str] = frozenset()  # names of nodes and elements of beams
         self._numbers = FormulaNames("a number or an expression of parameters", {})
         self._limits: list[OperatingLimit] = []  # of parameters and outputs
@@ -128,8 +114,11 @@ class _Validator:
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
 
-    def scope(self, section: str, name: str) -> Scope:
-        return Scope(self.context, f"{section}.{name}", name)
+    def scope(self, section: str, name: str, kind: str = "") -> Scope:
+        return Scope(self.context, f"{section}.{name}", name, kind)
+
+    def joint(self, name: str, where: str) -> Joint:
+        return self.joints.joint(name, where)
 
     def each(self, section: str, read: Callable[[str, Any], T]) -> tuple[T, ...]:
         """Return what `read` makes of name and content of a section's entries, each apart from the others."""
@@ -183,6 +172,7 @@ class _Validator:
         scope = Scope(self.context, "mechanism")
         read_body = spatial_body if head.space == "spatial" else planar_body
         beams = self.beams(read_body)
+        self.joints = JointTables(self.raw.get("joints", {}), self.errors, self.where, self.scope)
         gravity: Vec = ()
         with self.errors.apart():
             gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
@@ -192,7 +182,7 @@ class _Validator:
         forces = self.each("forces", self.force)
         self.context = msgspec.structs.replace(self.context, forces={force.name: force for force in forces})
         holds, shapes = self.holds_and_shapes(bodies)
-        holds += [hold for joint in joints for hold in self._starts.get(joint.name, ())]
+        holds += [hold for joint in joints for hold in self.joints.starts.get(joint.name, ())]
         bounded = self.bounded(joints)
         self.context = msgspec.structs.replace(self.context, losses=losses(bounded))
         defaults = self.defaults(line(head.source))
@@ -211,11 +201,11 @@ class _Validator:
             joints=joints,
             forces=forces,
             defaults=defaults,
-            rotors=tuple(self._rotors[joint.name] for joint in joints if joint.name in self._rotors),
+            rotors=tuple(self.joints.rotors[joint.name] for joint in joints if joint.name in self.joints.rotors),
             bounded=tuple(row for row in bounded if not row.smooth),
             states=states,
             outputs=outputs,
-            seats=tuple(self._seats.items()),
+            seats=tuple(self.joints.seats.items()),
             cuts=self._joints_with_multipliers(joints, outputs),
             holds=tuple(holds),
             shapes=tuple(shapes),
@@ -236,7 +226,8 @@ class _Validator:
         """Return joints that carry nothing in a tree, as their reactions are read: those that cut, and of outputs."""
         read = {row.rpartition(".")[0] for output in outputs for row in rows_read(output.value)}
         drivers = {joint.name for joint in joints if joint.kind == "driver"}
-        return (*self._cuts, *(j.name for j in joints if j.name in read - drivers - set(self._cuts)))
+        cuts = self.joints.cuts
+        return (*cuts, *(j.name for j in joints if j.name in read - drivers - set(cuts)))
 
     # Names ---------------------------------------------------------------------------------------------------------
 
@@ -263,14 +254,7 @@ class _Validator:
 
     def bounded(self, joints: Sequence[Joint]) -> tuple[BoundedRow, ...]:
         """Return the rows with bounds, those whose force has two bounds first."""
-        of_joints, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
-        for name, (scope, joint) in self._scopes.items():  # behind all joints, as formulas may read any
-            with self.errors.apart(name):
-                of_joints[name] = tuple(rows_of_joint(scope, joint, self.raw["joints"][name]))
-            if name in self._cuts or any(row.pressed for row in of_joints.get(name, ())):
-                cuts.append(name)  # its reaction is a multiplier
-        self._cuts = cuts
-        rows = [row for joint in joints for row in of_joints.get(joint.name, ())]
+        rows = self.joints.bounded(joints)
         for section, kind in sections_of_files().items():
             rows += self._entries_of(section, kind)
         return tuple(sorted(rows, key=lambda row: row.one_sided))
@@ -371,93 +355,10 @@ class _Validator:
         self._limits += limits_of(name, section, unit, self._numbers, where, si=False)
         return Output(name, value, unit.text)
 
-    # Joints and forces ---------------------------------------------------------------------------------------------
-
-    def split(self, path: str, raw: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:
-        """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
-        where = self.where(path)
-        if not isinstance(raw, Mapping):
-            raise InputError(where, "a table", words_of(raw))
-        kind = raw.get("type")
-        if not isinstance(kind, str):
-            got = "no such key" if kind is None else words_of(kind)
-            raise InputError(f"{where}.type", f"a {what}", got)
-        return kind, {key: value for key, value in raw.items() if key not in ("type", *common)}
-
-    def joint(self, name: str, where: str) -> Joint:
-        """Return the joint `name`, resolved now if another one asks for it first."""
-        if name not in self.raw.get("joints", {}):
-            got = f"the unknown joint {quoted(name)}"
-            raise InputError(where, "the name of a joint", got, nearest(name, self.raw.get("joints", {})))
-        if name in self._joints:
-            self.errors.need(name)
-            resolved = self._joints[name]
-            if resolved is None:
-                raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
-            return resolved
-        self._joints[name] = None
-        self._open += 1
-        with self.errors.apart(name):
-            if self._open > DEEPEST:
-                raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
-            self._joints[name] = joint = self.read_joint(name)
-            self._open -= 1
-            return joint
-        self._open -= 1
-        raise Incomplete
-
-    def read_joint(self, name: str) -> Joint:
-        """Return the joint `name`, and note what else its table says."""
-        path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type", *self._keys)
-        struct = JOINTS.get(kind, self.where(f"{path}.type"))
-        scope = Scope(self.context, path, name, JOINTS.canonical(kind))
-        scope.check_space(struct.SPACES)
-        section = read_table(struct, table, self.where(path), ("type", *self._keys))
-        joint = section.build(scope)
-        scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
-        at = getattr(section, "at", None)
-        if at is not None:
-            point = at[0] if hasattr(section, "between") else at
-            self._seats[name] = scope.marker("at", joint.bodies[0], point)
-        if "start" in self.raw["joints"][name]:
-            coordinates = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
-            self._starts[name] = joint_holds(scope, coordinates, joint)
-        if read_value(Flag, self.raw["joints"][name].get("cut", False), self.where(f"{path}.cut")):
-            if articulation_of(joint) is None:
-                got = f"a {joint.kind} joint, which has rows in any case"
-                raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
-            self._cuts.append(name)
-        self.rotor(scope, joint, self.raw["joints"][name])
-        self._scopes[name] = scope, joint
-        return joint
-
-    def rotor(self, scope: Scope, joint: Joint, raw: Raw) -> None:
-        """Note the rotor of a joint, where it has one."""
-        if "rotor_inertia" not in raw:
-            if "gear_ratio" in raw:
-                raise scope.error("gear_ratio", "the key rotor_inertia beside it", "no such key")
-            return
-        angles = [measure for label, measure in joint.coordinates if Joint.unit(label) == "rad"]
-        if not angles and len(joint.coordinates) == 1:  # a slide, which the rotor drives by a spindle or a belt
-            angles = [measure for _, measure in joint.coordinates]
-        if len(angles) != 1:
-            got = f"a {joint.kind} joint with {len(angles) or 'none'}"
-            raise scope.error("rotor_inertia", "a joint with one angle, or one displacement alone", got)
-        inertia, ratio = (
-            scope.constant(key, read_value(Scalar, raw.get(key, 1.0), scope.where(key)), positive=positive)
-            for key, positive in (("rotor_inertia", True), ("gear_ratio", False))
-        )
-        if ratio != ONE:
-            inertia = call("mul", inertia, call("mul", ratio, ratio))
-        way = articulation_of(joint)
-        axes = (way.of_a[2], way.of_b[2]) if way is not None and way.turn == "axis" and way.of_a else ()
-        self._rotors[joint.name] = Rotor(joint.name, angles[0], inertia, axes)
-
     def force(self, name: str, raw: object) -> Force:
-        path = f"forces.{name}"
-        kind, table = self.split(path, raw, "force type")
-        struct = FORCES.get(kind, self.where(f"{path}.type"))
-        scope = Scope(self.context, path, name, FORCES.canonical(kind))
+        where = self.where(f"forces.{name}")
+        kind, table = kind_and_keys(where, raw, "force type")
+        struct = FORCES.get(kind, f"{where}.type")
+        scope = self.scope("forces", name, FORCES.canonical(kind))
         scope.check_space(struct.SPACES)
-        return read_table(struct, table, self.where(path), ("type",)).build(scope)
+        return read_table(struct, table, where, ("type",)).build(scope)

@@ -23,6 +23,7 @@ from symgen.describe.formats._frames import (
     transpose,
     unit,
 )
+from symgen.describe.formats._names import DescriptionNames
 from symgen.describe.formats._robot import (
     GROUND,
     Connection,
@@ -34,37 +35,12 @@ from symgen.describe.formats._robot import (
     turned_inertia,
 )
 from symgen.describe.formats._solids import SolidMass, sum_of_solids
-from symgen.describe.formulas.names import LONGEST, RESERVED
+from symgen.describe.formulas.names import LONGEST
 from symgen.describe.parts.bodies import MOST
 
 _ANGLE, _SLIDE = "angle", "displacement"
 #: Share of the largest number of a vector or tensor below which a number is rounding.
 _ROUNDING = 1e-14
-
-
-class _Names:
-    """Names of a file as names of a description: letters, digits and ``_``, each used once."""
-
-    def __init__(self) -> None:
-        self._used, self._names = {name.lower() for name in RESERVED}, dict[tuple[str, str], str]()
-
-    def of(self, sort: str, name: str) -> str:
-        """Return the name of a link, joint or input, always the same one."""
-        import keyword
-
-        if (sort, name) in self._names:
-            return self._names[sort, name]
-        stem = re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
-        stem = (stem if stem[:1].isalpha() and stem.isascii() else f"{sort}_{stem}").rstrip("_")[: LONGEST - 12]
-        cured, k = stem, 1
-        if cured.lower() in self._used or keyword.iskeyword(cured):
-            cured = f"{stem}_{sort}"
-        while cured.lower() in self._used:
-            k += 1
-            cured = f"{stem}_{sort}{k}"
-        self._used.add(cured.lower())
-        self._names[sort, name] = cured
-        return cured
 
 
 def describe(robot: Robot, source: str, stops: bool = False) -> tuple[dict[str, Any], tuple[LeftOut, ...], Path]:
@@ -90,7 +66,7 @@ class _Description:
     """Bodies, joints and forces of a robot."""
 
     def __init__(self, robot: Robot, stops: bool) -> None:
-        self.robot, self.names, self.stops = robot, _Names(), stops
+        self.robot, self.names, self.stops = robot, DescriptionNames(), stops
         self.left_out = list(robot.left_out)
         self.carriers = self._carriers()
         self.joints = {c.name: c for c in robot.connections if c.kind not in ("fixed", "floating")}

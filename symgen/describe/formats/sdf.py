@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
 from symgen.base.errors import InputError, nearest, quoted
-from symgen.describe.formats._frames import Pose, Vector, matrix_vector, of_quaternion, of_rpy, transpose
+from symgen.describe.formats._frames import Pose, Vector, matrix_vector, transpose
 from symgen.describe.formats._reader import RobotReader, tensor
 from symgen.describe.formats._robot import (
     GROUND,
@@ -22,26 +21,10 @@ from symgen.describe.formats._robot import (
     actuators_of,
     turned_inertia,
 )
-from symgen.describe.formats._sdf_joints import (
-    GEARBOX,
-    TWO_AXES,
-    UP,
-    Gearbox,
-    follower_of,
-    pitch_of,
-    read_axis,
-)
+from symgen.describe.formats._sdf_frames import MODEL, WORLD, PlacedFrame, SdfFrames
+from symgen.describe.formats._sdf_joints import GEARBOX, TWO_AXES, UP, Gearbox, follower_of, pitch_of, read_axis
 from symgen.describe.formats._solids import SolidMass, box, capsule, cylinder, ellipsoid, sum_of_solids
-from symgen.describe.formats._xml import (
-    colour_of,
-    decimals,
-    inner_flag,
-    inner_number,
-    inner_text,
-    positive,
-    three_sizes,
-    triple,
-)
+from symgen.describe.formats._xml import colour_of, inner_flag, inner_number, inner_text, positive, three_sizes, triple
 
 _KINDS: dict[str, Kind] = {
     "fixed": "fixed",
@@ -52,7 +35,6 @@ _KINDS: dict[str, Kind] = {
     "universal": "universal",
     "screw": "screw",
 }
-_MODEL, _WORLD = "__model__", "world"
 #: Density of collisions without one [kg/m^3].
 _DENSITY = 1000.0
 #: Elements of models and links that are left out, with the reason.
@@ -76,15 +58,6 @@ class Sdf:
         return _Reader(path).robot()
 
 
-@dataclass(frozen=True)
-class _Placed:
-    """A frame of the file: the frame that its pose is in, and the link or frame that it moves with."""
-
-    base: str
-    pose: Pose
-    attached: str
-
-
 class _Reader(RobotReader):
     """The robot of a file; names have their models before them, ``arm::hand``."""
 
@@ -93,9 +66,8 @@ class _Reader(RobotReader):
     def __init__(self, path: Path) -> None:
         super().__init__(path)
         self.version = self._version(self.tree.get("version", ""))
-        self.frames = {_WORLD: _Placed("", Pose(), _WORLD)}
-        self.places = {_WORLD: Pose()}
         self.links = dict[str, RobotLink]()
+        self.frames = SdfFrames(self.source, self.links)
         self.elements = list[tuple[str, ET.Element]]()  # joints, each with the prefix of its model
         self.static = list[str]()
 
@@ -105,7 +77,7 @@ class _Reader(RobotReader):
 
     def frame(self, where: str, element: ET.Element) -> Pose:
         """Return the pose of a look."""
-        return self._pose(element)
+        return self.frames.pose(element)
 
     def colour(self, where: str, look: ET.Element) -> str:
         """Return the colour of a material."""
@@ -128,9 +100,9 @@ class _Reader(RobotReader):
         for model in models:
             own = self.name(model)
             prefix = "" if len(models) == 1 else f"{own}::"
-            self._model(model, prefix, _WORLD, self._pose(model, "", _WORLD), False)
+            self._model(model, prefix, WORLD, self.frames.pose(model, "", WORLD), False)
         for name, link in self.links.items():
-            link.place = self._place(name)
+            link.place = self.frames.place(name)
         connections, followers, gears = list[Connection](), list[CoupledCoordinate](), list[Gearbox]()
         for prefix, element in self.elements:
             if element.get("type", "") == GEARBOX:
@@ -162,95 +134,30 @@ class _Reader(RobotReader):
         where = f"{self.source}: model {quoted(self.name(model))}"
         if model.get("placement_frame"):
             raise InputError(where, "a model placed by its own frame", "a placement_frame", "write its pose instead")
-        own, static = f"{prefix}{_MODEL}", static or inner_flag(model, "static")
+        own, static = f"{prefix}{MODEL}", static or inner_flag(model, "static")
         links = [prefix + self.name(link) for link in model.findall("link")]
         inner = [(nested, f"{prefix}{self.name(nested)}") for nested in model.findall("model")]
         canonical = model.get("canonical_link", "")
         attached = prefix + canonical if canonical else next(iter(links), "")
         if not attached and inner:
-            attached = f"{inner[0][1]}::{_MODEL}"
-        self._add(own, _Placed(base, pose, attached), where)
+            attached = f"{inner[0][1]}::{MODEL}"
+        self.frames.add(own, PlacedFrame(base, pose, attached), where)
         for link in model.findall("link"):
             name = prefix + self.name(link)
-            self._add(name, _Placed(self._base(link, prefix, own), self._pose(link), name), where)
+            self.frames.add_element(link, name, prefix, own, name, where)
             self.links[name] = self._link(link, name)
             self.static += [name] * static
         for frame in model.findall("frame"):
             to = frame.get("attached_to", "")
             to = prefix + to if to else own
-            self._add(prefix + self.name(frame), _Placed(self._base(frame, prefix, to), self._pose(frame), to), where)
+            self.frames.add_element(frame, prefix + self.name(frame), prefix, to, to, where)
         for joint in model.findall("joint"):
             child = inner_text(joint, "child")
-            to = _WORLD if child == _WORLD else prefix + child
-            self._add(prefix + self.name(joint), _Placed(self._base(joint, prefix, to), self._pose(joint), to), where)
+            to = WORLD if child == WORLD else prefix + child
+            self.frames.add_element(joint, prefix + self.name(joint), prefix, to, to, where)
             self.elements.append((prefix, joint))
         for nested, name in inner:
-            self._model(nested, f"{name}::", self._base(nested, prefix, own), self._pose(nested), static)
-
-    def _add(self, name: str, placed: _Placed, where: str) -> None:
-        if name in self.frames:
-            raise InputError(where, "a name used once", f"{quoted(name)} twice")
-        self.frames[name] = placed
-
-    def _base(self, element: ET.Element, prefix: str, otherwise: str) -> str:
-        """Return the frame that the pose of an element is in."""
-        pose = element.find("pose")
-        name = "" if pose is None else pose.get("relative_to", pose.get("frame", ""))
-        return prefix + name if name else otherwise
-
-    def _pose(self, element: ET.Element, where: str = "", base: str = "") -> Pose:
-        """Return the pose of an element; at the top of a file it has no other base."""
-        pose = element.find("pose")
-        if pose is None:
-            return Pose()
-        where = f"{self.source}: pose of {quoted(element.get('name', element.tag))}"
-        if base == _WORLD and pose.get("relative_to", _WORLD) != _WORLD:
-            raise InputError(where, "a pose in the world", quoted(pose.get("relative_to", "")))
-        text, factor = pose.text or "", 1.0
-        if not text.strip():
-            return Pose()
-        if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
-            x, y, z, *e = decimals(where, text, 7)
-            if not any(e):
-                raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
-            return Pose((x, y, z), of_quaternion((e[3], *e[:3])))
-        if pose.get("degrees", "false") in ("true", "1"):
-            factor = 0.017453292519943295
-        x, y, z, *angles = decimals(where, text, 6)
-        return Pose((x, y, z), of_rpy([factor * angle for angle in angles]))
-
-    def _frame(self, name: str, where: str) -> str:
-        """Return the name of a frame; a model is its own frame."""
-        if name not in self.frames and f"{name}::{_MODEL}" in self.frames:
-            name = f"{name}::{_MODEL}"
-        if name not in self.frames:
-            raise InputError(where, "the name of a frame", quoted(name), nearest(name, self.frames))
-        return name
-
-    def _place(self, name: str) -> Pose:
-        """Return the place of a frame in the ground frame."""
-        chain, at = list[str](), name
-        while at not in self.places:
-            if at in chain:
-                raise InputError(f"{self.source}: frame {quoted(at)}", "poses in chains", "a ring of them")
-            chain.append(at)
-            at = self._frame(self.frames[at].base, f"{self.source}: pose of {quoted(at)}, relative_to")
-        for at in reversed(chain):
-            base = self._frame(self.frames[at].base, self.source)
-            self.places[at] = self.places[base] @ self.frames[at].pose
-        return self.places[name]
-
-    def _link_of(self, name: str, where: str) -> str:
-        """Return the link that a frame moves with; empty for the ground."""
-        passed, at = set[str](), self._frame(name, where)
-        while at not in self.links:
-            if at == _WORLD:
-                return GROUND
-            if at in passed or not self.frames[at].attached:
-                raise InputError(where, "a frame that a link carries", quoted(name))
-            passed.add(at)
-            at = self._frame(self.frames[at].attached, where)
-        return at
+            self._model(nested, f"{name}::", self.frames.base(nested, prefix, own), self.frames.pose(nested), static)
 
     # -- links -------------------------------------------------------------------------------------------------------
 
@@ -260,7 +167,7 @@ class _Reader(RobotReader):
         if inertial is not None and inertial.get("auto", "false") in ("true", "1"):
             solid = self._from_shapes(element, inertial, where)
         else:  # what a file leaves out is 1 there
-            at = Pose() if inertial is None else self._pose(inertial)
+            at = Pose() if inertial is None else self.frames.pose(inertial)
             mass = inner_number(where, inertial, "mass", 1.0)
             inertia = None if inertial is None else inertial.find("inertia")
             own = tensor(lambda key: inner_number(where, inertia, key, 1.0 if key[1] == key[2] else 0.0))
@@ -279,7 +186,7 @@ class _Reader(RobotReader):
         for collision in element.findall("collision"):
             at = f"{where}, collision {quoted(collision.get('name', ''))}"
             density = inner_number(at, collision, "density", usual)
-            solid, pose = self._solid(collision, at), self._pose(collision)
+            solid, pose = self._solid(collision, at), self.frames.pose(collision)
             tensor = turned_inertia(solid.inertia, pose.rotation)
             solids.append(SolidMass(solid.mass, pose.point(solid.centre), tensor).times(density))
         if not solids:
@@ -319,7 +226,7 @@ class _Reader(RobotReader):
         axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
         if sort in (TWO_AXES, "universal") and None in axes:
             raise InputError(where, f"two axes of a {sort} joint", "less")
-        at = self._place(name)
+        at = self.frames.place(name)
         if sort == TWO_AXES:
             between = RobotLink(f"{name}_between", at)
             self.links[between.name] = between
@@ -340,7 +247,7 @@ class _Reader(RobotReader):
     def _ends(self, element: ET.Element, prefix: str, where: str) -> tuple[str, str]:
         """Return the links of a joint."""
         parent, child = (
-            self._link_of(_WORLD if text == _WORLD else prefix + text, f"{where}, {tag}")
+            self.frames.link_of(WORLD if text == WORLD else prefix + text, f"{where}, {tag}")
             for tag, text in ((tag, inner_text(element, tag)) for tag in ("parent", "child"))
         )
         return parent, child
@@ -348,7 +255,7 @@ class _Reader(RobotReader):
     def _gearbox(self, element: ET.Element, prefix: str) -> Gearbox:
         """Return a gearbox: two links that turn against a third one, about axes in the ground frame."""
         name = prefix + self.name(element)
-        where, place = f"{self.source}: joint {quoted(name)}", self._place(name)
+        where, place = f"{self.source}: joint {quoted(name)}", self.frames.place(name)
         axes = [self._axis(element, tag, name, prefix, where) for tag in ("axis", "axis2")]
         turned = [matrix_vector(place.rotation, axis) for axis in axes if axis is not None]
         if len(turned) < 2:
@@ -356,7 +263,7 @@ class _Reader(RobotReader):
         reference = inner_text(element, "gearbox_reference_body")
         if not reference:
             raise InputError(where, "the element gearbox_reference_body", "none")
-        carrier = self._link_of(_WORLD if reference == _WORLD else prefix + reference, f"{where}, reference body")
+        carrier = self.frames.link_of(WORLD if reference == WORLD else prefix + reference, f"{where}, reference body")
         ratio = inner_number(where, element, "gearbox_ratio", 1.0)
         return Gearbox(name, where, carrier, self._ends(element, prefix, where), (turned[0], turned[1]), ratio)
 
@@ -371,11 +278,11 @@ class _Reader(RobotReader):
             raise InputError(where, "an axis other than 0 0 0", "0 0 0")
         frame = "" if xyz is None else xyz.get("expressed_in", "")
         if inner_flag(axis, "use_parent_model_frame") or self.version < (1, 5):
-            frame = frame or _MODEL
+            frame = frame or MODEL
         if not frame:
             return direction
-        own = self._place(self._frame(prefix + frame, f"{where}, expressed_in"))
-        return matrix_vector(transpose(self._place(name).rotation), matrix_vector(own.rotation, direction))
+        own = self.frames.place(self.frames.found(prefix + frame, f"{where}, expressed_in"))
+        return matrix_vector(transpose(self.frames.place(name).rotation), matrix_vector(own.rotation, direction))
 
     def _mimic(self, element: ET.Element, prefix: str, names: list[str]) -> Iterator[CoupledCoordinate]:
         mimic = element.find("axis/mimic")

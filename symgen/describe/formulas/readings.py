@@ -63,7 +63,7 @@ from symgen.base.vocabulary.measures import (
 from symgen.describe.mechanism import Force, Joint, Mechanism
 
 if TYPE_CHECKING:
-    from symgen.describe.parts.scope import Context
+    from symgen.describe.parts.context import Context
 
 
 #: Names of a joint's reaction.

@@ -7,9 +7,10 @@ from typing import ClassVar
 from symgen.base.vocabulary.measures import Component
 from symgen.describe.joints._paired import Axial
 from symgen.describe.joints._space import angle, frames, markers, on_axis, parallel
-from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
+from symgen.describe.spanning_tree import Articulation
 
 
 class Cylindrical(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):

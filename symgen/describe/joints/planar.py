@@ -7,10 +7,11 @@ from typing import ClassVar
 from symgen.base.vocabulary.measures import Component, Holonomic
 from symgen.describe.joints._paired import Paired
 from symgen.describe.joints._space import angle, frames, markers, parallel
-from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import AxisPair, DirectionPair
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
+from symgen.describe.spanning_tree import Articulation
 
 
 class Planar(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -9,10 +9,11 @@ from symgen.base.vocabulary.expressions import ONE, call, literal_of
 from symgen.base.vocabulary.measures import Component, Holonomic, Sum
 from symgen.describe.joints._paired import Axial
 from symgen.describe.joints._space import angle, frames, markers, on_axis, parallel
-from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Scalar
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
+from symgen.describe.spanning_tree import Articulation
 
 
 class Screw(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -6,8 +6,9 @@ from typing import ClassVar
 
 from symgen.describe.joints._paired import Paired
 from symgen.describe.joints._space import coincident, markers
-from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.scope import Scope
+from symgen.describe.spanning_tree import Articulation
 
 
 class Spherical(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):

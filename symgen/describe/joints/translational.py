@@ -7,10 +7,11 @@ from typing import ClassVar
 from symgen.base.vocabulary.measures import Angle, Component, Holonomic
 from symgen.describe.joints._paired import Axial
 from symgen.describe.joints._space import frames, markers, not_turned, on_axis, parallel
-from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import Scalar
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_triads
+from symgen.describe.spanning_tree import Articulation
 
 
 class Translational(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -8,10 +8,11 @@ from symgen.base.vocabulary.expressions import literal_of
 from symgen.base.vocabulary.measures import Dot, Holonomic, Sum, Turn
 from symgen.describe.joints._paired import Paired
 from symgen.describe.joints._space import coincident, markers, third
-from symgen.describe.mechanism import Articulation, Joint
+from symgen.describe.mechanism import Joint
 from symgen.describe.parts.fields import DirectionPair
 from symgen.describe.parts.scope import Scope
 from symgen.describe.parts.triads import make_cross
+from symgen.describe.spanning_tree import Articulation
 
 
 class Universal(Paired, frozen=True, kw_only=True, forbid_unknown_fields=True):

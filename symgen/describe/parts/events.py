@@ -12,9 +12,10 @@ from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, call, n
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.names import check_identifier
 from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.parts.context import Context
 from symgen.describe.parts.fields import Condition, NewValues, read_table, words_of
 from symgen.describe.parts.inputs import with_formulas
-from symgen.describe.parts.scope import Context, Scope
+from symgen.describe.parts.scope import Scope
 
 RISING, FALLING, ANY = "rising", "falling", "any"
 RECORD, STOP, RESET = "record", "stop", "reset"

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Protocol
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
+from symgen.base.errors import InputError
 from symgen.base.registry import Registry
+from symgen.describe.parts.fields import words_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Force, Joint
@@ -42,3 +45,14 @@ JOINTS: Registry[type[JointKind]] = Registry(
     },
 )
 FORCES: Registry[type[ForceKind]] = Registry("symgen.describe.forces", "force type")
+
+
+def kind_and_keys(where: str, table: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:
+    """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
+    if not isinstance(table, Mapping):
+        raise InputError(where, "a table", words_of(table))
+    kind = table.get("type")
+    if not isinstance(kind, str):
+        got = "no such key" if kind is None else words_of(kind)
+        raise InputError(f"{where}.type", f"a {what}", got)
+    return kind, {key: value for key, value in table.items() if key not in ("type", *common)}

@@ -14,17 +14,9 @@ from symgen.base.vocabulary.expressions import Number, readings
 from symgen.base.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
 from symgen.base.vocabulary.quantities import Quantity
 from symgen.describe.formulas.readings import integrals
-from symgen.describe.mechanism import (
-    ACCELERATIONS,
-    Articulation,
-    Joint,
-    Link,
-    Mechanism,
-    Prescribed,
-    SpatialBody,
-    Topology,
-)
+from symgen.describe.mechanism import ACCELERATIONS, Joint, Mechanism, SpatialBody
 from symgen.describe.parts.kinds import JOINTS
+from symgen.describe.spanning_tree import Articulation, Link, Prescribed, Topology
 
 #: Units of the coordinates and velocities of bodies.
 UNITS = {

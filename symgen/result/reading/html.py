@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
-from symgen.result.reading.boxes import Box, mathml
+from symgen.result.reading.boxes import Box
+from symgen.result.reading.notations import mathml
 from symgen.result.reading.sheet import Equation
 from symgen.result.reading.typeset import broken
 

@@ -15,13 +15,13 @@ from symgen.base.files import check_path, write_whole
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.looped.instances import instances
 from symgen.derive.lower.model import lower_model
-from symgen.describe.bounds.keys import lines_of_rows
 from symgen.describe.bounds.modes import families_of, unit_of_effort
 from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Parameter
 from symgen.describe.parts.topology import state_names
 from symgen.result.player.motion_page import PAGES
+from symgen.result.reading.inspection_text import as_text
 from symgen.result.reading.jamming import jamming_numbers
 from symgen.result.reading.page import MOST_STRAIGHT, EquationPage, check_size
 from symgen.result.reading.quantity_names import input_names
@@ -30,7 +30,7 @@ from symgen.result.reading.structure import element_terms, shared_terms, structu
 from symgen.result.reading.typeset import LONGEST, texts, texts_by_terms
 from symgen.run.compiling.closing import law_at_start
 from symgen.run.compiling.looped import kernel_stems
-from symgen.run.compiling.pipeline import MethodChoice, choose_method
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import Prepared, prepare
 
@@ -38,13 +38,12 @@ if TYPE_CHECKING:
     from symgen.base.settings import Settings
     from symgen.derive.formulate.equations import Equations
     from symgen.describe.bounded import BoundedRow
-    from symgen.describe.mechanism import Mechanism, Topology
+    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.spanning_tree import Topology
 
 
 #: Characters of gamma and forces up to which they are written without shared terms.
 SHORT = 110
-#: A wider Jacobian is listed entry by entry only.
-WIDEST = 150
 
 
 @dataclass(frozen=True)
@@ -348,86 +347,3 @@ def _facts_of_row(row: BoundedRow, jamming: float | None) -> dict[str, Any]:
     """Return what is said of a row with bounds."""
     reaction = {} if row.one_sided else {"reaction": list(row.pressed), "jamming_number": jamming}
     return {"name": row.name, "row": row.row, "unit": unit_of_effort(row), **reaction, **row.facts()}
-
-
-def as_text(facts: dict[str, Any]) -> str:
-    """Return the text of ``symgen inspect``."""
-    sizes, lines = facts["sizes"], list[str]()
-
-    def section(title: str) -> None:
-        lines.extend(["", title, "-" * len(title)])
-
-    lines.append(f"{facts['mechanism']}: {facts['title']}")
-    lines.append(
-        f"{counted(sizes['coordinates'], 'coordinate')}, {counted(sizes['velocities'], 'velocity', 'velocities')}, "
-        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}, "
-        f"{counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start"
-    )
-    lines += [f"note: {note}" for note in facts["notes"]]
-    shape = facts["shape"]
-    kinds = Counter[str]()
-    for name, count in shape["kernels"].items():  # a kind, and a digest of what the kernel computes
-        kinds[name.rpartition("_")[0]] += count
-    kernels = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
-    lines.append(f"shape: {shape['shape']}, as {shape['reason']}")
-    lines.append(f"as loops: {counted(len(shape['kernels']), 'kernel')} for {kernels}")
-    if "tree" in facts:
-        cut = ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
-        lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {cut}")
-        lines += [
-            f"  {x['body']} " + (f"on {x['on']} by {x['joint']}" if x["joint"] else "free") for x in facts["tree"]
-        ]
-    for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
-        lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
-    lines += lines_of_rows(facts)
-    section("Coordinates q and velocities v")
-    lines += [f"{q['name']} [{q['unit']}]" for q in facts["coordinates"]]
-    lines += [f"{v['name']} [{v['unit']}]" for v in facts["velocities"]]
-    for title in ("parameters", "inputs"):
-        if facts[title]:
-            section(title.capitalize())
-            written = [(p["name"], p.get("as_written", p)) for p in facts[title]]
-            lines += [f"{name} = {x['value']:g} [{x['unit']}]" for name, x in written]
-    if facts["rows"]:
-        space = facts["space"] == "spatial"  # there rows in Euler parameters show little
-        section("Rows in words" + ", and by vectors of bodies" * space)
-        for r in facts["rows"]:
-            vectors = f"; {r['vectors']}" if space and r["vectors"] else ""
-            lines.append(f"{r['name']}: {r['words']}{vectors}")
-    section("Constraints Phi = 0")
-    lines += [f"{r['name']} [{r['unit']}]: {r['phi'] or 'none (nonholonomic)'}" for r in facts["rows"]]
-    section("Jacobian D: D v = nu")
-    if sizes["velocities"] <= WIDEST:
-        width = max((len(r["name"]) for r in facts["rows"]), default=0)
-        lines += [f"{r['name']:<{width}}  {line}" for r, line in zip(facts["rows"], facts["pattern"], strict=True)]
-        lines.append("x: varies; 1: constant, of any value; .: zero in every position")
-    lines += [f"D[{r['name']}, {v}] = {entry}" for r in facts["rows"] for v, entry in r["jacobian"].items()]
-    lines += [f"nu[{r['name']}] = {r['nu']}" for r in facts["rows"] if r["nu"] != "0"] or ["nu = 0"]
-    section("Quadratic velocity terms gamma: D v' = gamma")
-    lines += [f"gamma[{name}] = {gamma}" for name, gamma in facts["gamma_by_terms"].items()]
-    section("Mass matrix M")
-    lines += [f"M[{', '.join(b['velocities'])}] = {_matrix(b['matrix'])}" for b in facts["mass"]]
-    section("Forces f: M v' + D^T lambda = f" if facts["rows"] else "Forces f: M v' = f")
-    lines += [f"f[{name}] = {force}" for name, force in facts["forces_by_terms"].items()]
-    if facts["terms"]:
-        section("Shared terms of gamma and f")
-        lines += [f"{name} = {term}" for name, term in facts["terms"].items()]
-    if "states" in facts:
-        section("States of the file")
-        lines += [f"{name}' = {x['rate']} [{x['unit']}/s]" for name, x in facts["states"].items()]
-    section("Energies")
-    lines += [f"{name} = {expression}" for name, expression in facts["energies"].items()]
-    section("Operations, each quantity with its common subexpressions")
-    lines += [f"{name}: {n['after']}" for name, n in facts["operations"].items()]
-    if "method" in facts:
-        method = facts["method"]
-        section(f"Functions emitted for {method['name']}")
-        lines += [f"{name}: {f['after']}  {f['purpose']}" for name, f in method["functions"].items()]
-        lines.append(f"elimination order: {', '.join(method['elimination_order'])}; fill-ins: {method['fill']}")
-    section("Left out")
-    lines += [f"{o['what']}: {o['why']}" for o in facts["left_out"]]
-    return "\n".join(lines) + "\n"
-
-
-def _matrix(entries: list[list[str]]) -> str:
-    return entries[0][0] if len(entries) == 1 else "[" + ", ".join("[" + ", ".join(r) + "]" for r in entries) + "]"

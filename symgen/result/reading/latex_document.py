@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.base.errors import InputError, nearest, sizes_of
 from symgen.base.escapes import latex_text
 from symgen.describe.parts.own_units import as_written
-from symgen.result.reading.boxes import latex
+from symgen.result.reading.notations import latex
 from symgen.result.reading.row_words import row_words
 from symgen.result.reading.sheet import LINE, Equation, Sheet
 from symgen.result.reading.typeset import broken

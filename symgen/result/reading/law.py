@@ -8,22 +8,21 @@ from dataclasses import dataclass
 from symgen.base.escapes import latex_text
 from symgen.derive.lower.record import Part, RecordedLaw, record_law
 from symgen.derive.methods import METHODS
-from symgen.derive.methods._formula import FormulaStep, needed
+from symgen.derive.methods._tape import FormulaStep, needed
 from symgen.result.reading.boxes import (
     Box,
     bracket,
     dotted,
     fraction,
     function_box,
-    latex,
     literal_box,
     name,
-    plain,
     power,
     row,
     sign,
     transposed_matrix,
 )
+from symgen.result.reading.notations import latex, plain
 
 _QUANTITIES = {"gamma": "gamma", "nu": "nu", "phi": "Phi", "f": "f", "v": "v"}
 _SIGNS = {"add": "+", "sub": "-"}

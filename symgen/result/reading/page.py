@@ -44,7 +44,7 @@ from symgen.run.compiling.closing import law_at_start
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Joint, Mechanism
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.planning.prepare import Prepared
 
 #: Largest page [bytes]; emitted code is left out of a page that would be larger.

@@ -13,7 +13,8 @@ from symgen.base.errors import InputError
 from symgen.base.ir.graph import Graph
 from symgen.derive.formulate.equations import Equations
 from symgen.derive.formulate.translate import TO_SYMPY, NotReal, Translator, table_function
-from symgen.result.reading.boxes import Box, dotted, latex, matrix_box, name
+from symgen.result.reading.boxes import Box, dotted, matrix_box, name
+from symgen.result.reading.notations import latex
 from symgen.result.reading.quantity_names import input_names
 from symgen.result.reading.typeset import Writer
 

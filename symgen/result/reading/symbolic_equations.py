@@ -17,6 +17,7 @@ from symgen.derive.formulate.formulate import formulate
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.reading import boxes
 from symgen.result.reading.free_modes import free_modes
+from symgen.result.reading.notations import latex
 from symgen.result.reading.quantity_names import OF_DRIVERS, QUANTITIES, Entries, functions, nodes_of
 from symgen.result.reading.structure import shared_terms, structure
 from symgen.result.reading.symbolic import Boxed, Symbolic
@@ -288,7 +289,7 @@ class SymbolicEquations:
         sides = [({"power": "P"}.get(name, name), self.quantity(name)) for name in names or self._quantities]
         sides += [(symbol.name, value) for symbol, value in self._of(names).items()]
         box = Boxed().box
-        return " \\\\\n".join(f"{boxes.latex(boxes.name(left))} = {boxes.latex(box(right))}" for left, right in sides)
+        return " \\\\\n".join(f"{latex(boxes.name(left))} = {latex(box(right))}" for left, right in sides)
 
     def _repr_latex_(self) -> str:
         """Return the plain text for a notebook."""

@@ -16,7 +16,6 @@ from symgen.result.reading.boxes import (
     Box,
     apart,
     atoms,
-    bare,
     bracket,
     cases,
     fraction,
@@ -25,10 +24,10 @@ from symgen.result.reading.boxes import (
     literal_box,
     name,
     power,
-    python,
     row,
     sign,
 )
+from symgen.result.reading.notations import bare, python
 from symgen.result.reading.quantity_names import input_names, python_name
 from symgen.result.reading.structure import free_names, uses
 

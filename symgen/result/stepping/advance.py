@@ -1,10 +1,8 @@
-"""Going on from Python: controllers on an exact clock, pieces between which an interrupt acts, steps that fail."""
+"""Going on from Python: pieces between which an interrupt acts, and steps that fail."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.base.errors import InputError, StepError
@@ -15,7 +13,6 @@ from symgen.run.single.events import EventRecord, record_of
 from symgen.run.single.run import reason_of
 
 if TYPE_CHECKING:
-    from symgen.result.stepping.run import SteppedRun
     from symgen.run.single.simulation import Simulation
 
 #: A loop is left after about so long, so that Ctrl-C is heard [s]; and after so many steps as long as nothing is known.
@@ -23,39 +20,6 @@ PATIENCE, FIRST_STEPS = 0.05, 100
 
 # looked up at every step
 _TIME, _STEPS, _BEGUN, _DONE = abi.TIME, abi.STEPS, abi.BEGUN, abi.DONE
-
-
-#: What a controller is: of the time of the beat and the run; it may return values to be set, by name.
-Controller = Callable[[float, "SteppedRun"], Mapping[str, float] | None]
-
-
-@dataclass
-class Clock:
-    """When a controller is called.
-
-    Attributes
-    ----------
-    controller : callable
-        The function.
-    start, interval : float
-        Beats are at ``start + k interval`` [s].
-    beat : int
-        The next k.
-    """
-
-    controller: Controller
-    start: float
-    interval: float
-    beat: int = 0
-
-    @property
-    def due(self) -> float:
-        """Time of the next beat [s]."""
-        return self.start + self.beat * self.interval
-
-    def is_due(self, t: float, slack: float) -> bool:
-        """Whether the next beat is at a time, or was before it; `slack` is what the run takes for the same time [s]."""
-        return self.due - t <= max(slack, abi.SAME_TIME * self.interval)
 
 
 class Advance:

@@ -12,8 +12,9 @@ from symgen.base.errors import InputError, quoted
 from symgen.base.vocabulary.expressions import readings
 from symgen.base.vocabulary.measures import Integral
 from symgen.compile.loopcode.entry import direct
+from symgen.describe.parts.context import Context
 from symgen.describe.parts.inputs import with_formulas
-from symgen.describe.parts.scope import Context, Scope
+from symgen.describe.parts.scope import Scope
 from symgen.run.compiling.side import Side, compile_side
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_function

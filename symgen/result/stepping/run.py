@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.base import arguments
 from symgen.base.errors import InputError, SimulationError
-from symgen.base.version import __version__
-from symgen.describe.facts.digest import digest
 from symgen.describe.formulas.evaluate import parameter_values
-from symgen.describe.parts.events import in_words
 from symgen.describe.parts.inputs import inputs_of_gaps
-from symgen.result.stepping.advance import Clock, Controller
+from symgen.result.stepping.controllers import Controller, Controllers
 from symgen.result.stepping.readings import StepReadings
-from symgen.result.stepping.saved_state import Saved
+from symgen.result.stepping.saved_state import Saved, identity_of
+from symgen.result.stepping.seams_ahead import SeamsAhead
 from symgen.run.breaks.motions import refuse_jumps
-from symgen.run.breaks.seams import Foreseen, foreseen_in_run, merged, seams_of_motion
 from symgen.run.layout import abi
 from symgen.run.single.changes import begin_with_step
 from symgen.run.single.events import EventRecord
@@ -70,18 +66,18 @@ class SteppedRun(StepReadings):
         self._mechanism, self._plan, self._prepare, self._adaptive = mechanism, plan, begin, adaptive
         self._changed = dict(plan.parameters)
         self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
-        self._clocks, self._calling = list[Clock](), False
-        self._jumps, self._driven = plan.inputs.seams, plan.inputs.driven
-        self._foreseen, self._horizon = self._breaks(), plan.spec.until
+        self._controllers = Controllers()
+        self._seams = SeamsAhead(plan, self._loop, free)
         self._input_formulas = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(self._compiled.info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
-        if free and self._foreseen:  # steps have no grid
-            self._loop.divide(self._divided(parameter_values(mechanism, plan.parameters)))
+        if free and self._seams.foreseen:  # steps have no grid
+            self._loop.divide(self._seams.divided(parameter_values(mechanism, plan.parameters)))
         self.warnings, self.notes = (*plan.all_warnings, *prepared.start.warnings), prepared.start.notes
+        self._identity = identity_of(mechanism, plan, self._compiled)
         self._first = self.save()
-        self._first_origin, self._first_spec, self._first_jumps = self._origin, self._loop.spec, self._jumps
+        self._first_origin, self._first_spec, self._first_jumps = self._origin, self._loop.spec, self._seams.jumps
         if not self._free:
             self._advance.begin()
         self._history.note()
@@ -130,15 +126,15 @@ class SteppedRun(StepReadings):
         """
         if type(dt) is not float or not 0.0 < dt < math.inf:  # the complete check is slower
             dt = arguments.number("dt", dt, positive=True)
-        if self._calling or self._advance.unsure:
+        if self._controllers.calling or self._advance.unsure:
             self._ready("step")
         if u is not None:
             self.set(u)
         if self._free:
             self._advance.take_steps_of(dt)
-        if self._foreseen and self._clock[_TIME] + dt > self._horizon:
+        if self._seams.foreseen and self._clock[_TIME] + dt > self._seams.horizon:
             self._look_ahead(self._clock[_TIME] + dt)
-        if self._clocks or self._jumps:
+        if self._controllers.clocks or self._seams.jumps:
             return self._go(self._clock[_TIME] + dt)
         event = self._advance.to(self._clock[_TIME] + dt)
         self._history.note()
@@ -170,7 +166,7 @@ class SteppedRun(StepReadings):
             raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
         if self._free:
             self._advance.take_steps_of(self._plan.spec.step or 0.0)
-        if self._foreseen and until > self._horizon:
+        if self._seams.foreseen and until > self._seams.horizon:
             self._look_ahead(until)
         return self._go(until)
 
@@ -204,7 +200,7 @@ class SteppedRun(StepReadings):
     @property
     def is_controlled(self) -> bool:
         """Whether functions are called as the run goes on."""
-        return bool(self._clocks)
+        return bool(self._controllers.clocks)
 
     def every(self, interval: float, controller: Controller) -> None:
         """Call a function at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.
@@ -220,10 +216,7 @@ class SteppedRun(StepReadings):
             Takes the time of the call, one multiplication from t0, and this run. It returns values by name or None;
             they are set as by `set` and hold until the next call.
         """
-        interval = arguments.number("interval", interval, positive=True)
-        if controller is None or arguments.function("controller", controller) is None:
-            raise InputError("controller", "a function", "None")
-        self._clocks.append(Clock(controller, self.t, interval))
+        self._controllers.add(controller, self.t, interval)
 
     # -- changing ------------------------------------------------------------------------------------------------------
 
@@ -264,7 +257,7 @@ class SteppedRun(StepReadings):
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
             refuse_jumps(self._plan.mechanism, changed, loop.spec.until)
-            spec = self._divided(parameters)
+            spec = self._seams.divided(parameters)
             if self._tree is not None:
                 self._tree.refuse_moves(self.t, loop.state, p[:count])
             self._advance.begin()
@@ -296,10 +289,9 @@ class SteppedRun(StepReadings):
     def save(self) -> Saved:
         """Return the whole state of the run, as a value that can be pickled."""
         self._advance.recover()
-        clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
-        events = self._loop.events
+        events, beats = self._loop.events, self._controllers.beats
         happened = () if events is None else tuple(events.happened)
-        return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks, happened)
+        return Saved(self._identity, self._loop.save(), self._loop.span.step, dict(self._changed), beats, happened)
 
     def restore(self, saved: Saved) -> None:
         """Take up what `save` returned, here or in another run of the same model, method and integrator.
@@ -314,10 +306,9 @@ class SteppedRun(StepReadings):
         """
         arguments.of_kind("restore", saved, Saved, "what `save` returned")
         self._ready("restore")
-        saved.check(self._owner, self._loop.save(), tuple(c.interval for c in self._clocks))
-        self._take_up(saved, saved.arrays, self._divided(parameter_values(self._mechanism, saved.parameters)))
-        for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
-            clock.start, clock.beat = start, beat
+        saved.check(self._identity, self._loop.save(), self._controllers.intervals)
+        self._take_up(saved, saved.arrays, self._seams.divided(parameter_values(self._mechanism, saved.parameters)))
+        self._controllers.take_up(saved.clocks)
         self._history.forget_after(saved.t)
 
     def _take_up(self, saved: Saved, arrays: Mapping[str, NDArray[Any]], spec: RunSpec) -> None:
@@ -354,9 +345,8 @@ class SteppedRun(StepReadings):
         first = self._first
         arrays, origin = (first.arrays, self._first_origin) if start is None else self._arrays_at(start)
         self._take_up(first, arrays, self._first_spec)
-        self._jumps, self._origin, self._horizon = self._first_jumps, origin, self._first_spec.until
-        for clock in self._clocks:
-            clock.start, clock.beat = first.t, 0
+        self._origin, self._seams.jumps, self._seams.horizon = origin, self._first_jumps, self._first_spec.until
+        self._controllers.begin_at(first.t)
         self._history.clear()
         if not self._free:
             self._advance.begin()
@@ -381,65 +371,27 @@ class SteppedRun(StepReadings):
 
     # -- inside --------------------------------------------------------------------------------------------------------
 
-    @property
-    def _owner(self) -> dict[str, str]:
-        law, steps = self._compiled.law, "varying" if self._adaptive else "constant"
-        return {
-            "symgen": __version__,
-            "mechanism": f"{self._mechanism.name} ({digest(self._mechanism)[:16]})",
-            "code of shape": self._compiled.shape,
-            "method": f"{law.method} ({law.key})",
-            "integrator": f"{self._plan.integrator.name} with {steps} steps",
-            "events": in_words(self._plan.events) or "of no kind",
-        }
-
-    def _divided(self, values: Mapping[str, float]) -> RunSpec:
-        """Return the run's specification for values of parameters: inputs jump, and formulas have kinks, elsewhere."""
-        spec, driven = self._loop.spec, self._driven
-        if driven is not None and driven.jumps:
-            self._jumps = seams_of_motion(driven, values, spec.until)
-        return replace(spec, seams=merged(self._jumps, self._foreseen.seams(values, self._horizon)))
-
-    def _breaks(self) -> Foreseen:
-        """Return the discontinuities of formulas at which steps end."""
-        plan, step = self._plan, None if self._free else self._plan.spec.step
-        return foreseen_in_run(plan.mechanism, plan.events, self._adaptive, plan.integrator.order, (self.t, step))
-
     def _look_ahead(self, until: float) -> None:
         """Find the discontinuities of formulas up to a time [s] and beyond."""
-        self._horizon = 2.0 * until
-        self._loop.divide(self._divided(parameter_values(self._mechanism, self._changed)))
+        self._seams.horizon = 2.0 * until
+        self._loop.divide(self._seams.divided(parameter_values(self._mechanism, self._changed)))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""
-        if self._calling:
+        if self._controllers.calling:
             raise SimulationError(f"a controller cannot call `{what}`: it is called while the run goes on")
         self._advance.recover()
 
     def _go(self, until: float) -> EventRecord | None:
         """Go on to a time, with the controllers called and the jumps of inputs made on the way."""
         loop, event = self._loop, None
-        if self._jumps and until - loop.spec.until > loop.same(until):
+        if self._seams.jumps and until - loop.spec.until > loop.same(until):
             where = f"a time up to the setting until = {loop.spec.until:g} s: jumps of inputs are known up to there"
             raise InputError("until", where, f"{until:g}")
         while event is None and loop.is_ahead(until):
-            self._call()
-            event = self._advance.to(min((until, *(clock.due for clock in self._clocks))))
+            now = self.t
+            self._advance.begin()
+            self._controllers.call(self, now, 0.0 if self._adaptive else loop.same(now))
+            event = self._advance.to(self._controllers.due_before(until))
             self._history.note()
         return event
-
-    def _call(self) -> None:
-        """Call the controllers whose time has come."""
-        now = self.t
-        slack = 0.0 if self._adaptive else self._loop.same(now)
-        self._advance.begin()
-        self._calling = True
-        try:
-            for clock in self._clocks:
-                if clock.is_due(now, slack):
-                    values = clock.controller(clock.due, self)
-                    if values is not None:
-                        self.set(arguments.mapping("controller", values, "values by name, or None"))
-                    clock.beat += 1
-        finally:
-            self._calling = False

@@ -10,9 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
+from symgen.base.version import __version__
+from symgen.describe.facts.digest import digest
+from symgen.describe.parts.events import in_words
 from symgen.run.layout import abi
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.planning.plan import Plan
     from symgen.run.single.events import Happening
 
 
@@ -77,6 +83,19 @@ class Saved:
         if saved != intervals:
             expected = f"a run with controllers as that which was saved ({_every(saved)})"
             raise InputError("restore", expected, _every(intervals), "register them with `every` before")
+
+
+def identity_of(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> dict[str, str]:
+    """Return the properties that a run must share with a saved one, in words."""
+    law, steps = compiled.law, "varying" if plan.spec.adaptive else "constant"
+    return {
+        "symgen": __version__,
+        "mechanism": f"{mechanism.name} ({digest(mechanism)[:16]})",
+        "code of shape": compiled.shape,
+        "method": f"{law.method} ({law.key})",
+        "integrator": f"{plan.integrator.name} with {steps} steps",
+        "events": in_words(plan.events) or "of no kind",
+    }
 
 
 #: Arrays that are as long in every run of a model: room for factors is made as it is needed.

@@ -11,7 +11,8 @@ import numpy as np
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import COUNTERS, SETTLED
-from symgen.compile.native.c99 import broken_line, c_functions, c_limit, c_number, macros
+from symgen.compile.native.c99 import c_functions
+from symgen.compile.native.c99_words import broken_line, c_limit, c_number, macros
 from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from symgen.base.files import templates_folder
-from symgen.compile.native.c99 import RESERVED
+from symgen.compile.native.c99_words import RESERVED
 
 #: What `stdio.h`, `stdlib.h`, `string.h`, `math.h`, `stdint.h` and `stdbool.h` of common libraries declare further.
 _DECLARED = frozenset(

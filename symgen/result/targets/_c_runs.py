@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.base.errors import InputError
-from symgen.compile.native.c99 import broken_line, c_number
+from symgen.compile.native.c99_words import broken_line, c_number
 from symgen.result.targets._c_reasons import values_of_ends
 from symgen.run.compiling.printed_run import WORDS
 from symgen.run.integrators import INTEGRATORS

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from symgen.base.errors import InputError
 from symgen.base.escapes import comment_text
 from symgen.compile.native import types
-from symgen.compile.native.c99 import c_functions, c_number, macros
+from symgen.compile.native.c99 import c_functions
+from symgen.compile.native.c99_words import c_number, macros
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.libraries import ARGUMENTS
 from symgen.derive.lower.functions import StateFunctions

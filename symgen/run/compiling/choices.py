@@ -22,7 +22,7 @@ from typing import NamedTuple
 import msgspec
 
 from symgen.base.errors import InputError, counted
-from symgen.describe.mechanism import Mechanism, Topology
+from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import (
     edges_of,
     loops_of,
@@ -31,7 +31,9 @@ from symgen.describe.parts.topology import (
     with_joint_coordinates,
 )
 from symgen.describe.remembered import remembered
-from symgen.run.compiling.pipeline import MethodChoice, for_coordinates, refuse_loops, straight_alone
+from symgen.describe.spanning_tree import Topology
+from symgen.run.compiling.method_choice import MethodChoice, for_coordinates
+from symgen.run.compiling.pipeline import refuse_loops, straight_alone
 from symgen.run.compiling.side import module_beside
 
 #: Lengths of bodies between which corrections in the metric of the identity keep at least four digits [m].

@@ -29,7 +29,8 @@ from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_names
 from symgen.describe.remembered import remembered
-from symgen.run.compiling.pipeline import MethodChoice, folder_of, generate
+from symgen.run.compiling.method_choice import MethodChoice
+from symgen.run.compiling.pipeline import folder_of, generate
 from symgen.run.layout.compiled import ModelInfo
 
 if TYPE_CHECKING:

@@ -24,22 +24,25 @@ from symgen.base.ir.program import FORMAT
 from symgen.base.vocabulary.infos import LawInfo
 from symgen.compile.store.entries import Entries, Modules, folder_name
 from symgen.compile.store.modules import load_module
+from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.derive.lower.looped.instances import Instance, instances
 from symgen.derive.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.derive.lower.looped.law import LoopedLawInfo, refuse_dense
+from symgen.derive.lower.looped.layout import KINDS, PRESSED
 from symgen.derive.lower.looped.shape import LoopedShape
 from symgen.derive.lower.looped.tables import Builder, IndexTables
 from symgen.derive.lower.record import BEHIND
 from symgen.derive.lower.record_form import record_form
+from symgen.describe.bounds.by_reaction import held_by_reactions
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
 
 if TYPE_CHECKING:
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
 
 #: Modules other than kernels and laws.
-_MACHINE, _MODEL = "machine", "model"
+_MACHINE, _MODEL, _ROTORS = "machine", "model", "rotors"
 
 
 def shared_folder(generator: str) -> str:
@@ -93,7 +96,7 @@ class Needs:
     @property
     def law(self) -> str:
         """Module of the law; kernels begin with the kind of element."""
-        return f"law_{self.choice.method.stem(self.choice.options)}"
+        return f"law_{self.choice.method.stem(self.choice.options)}{PRESSED if self.has_drags else ''}"
 
     @cached_property
     def forms(self) -> dict[str, str]:
@@ -101,8 +104,7 @@ class Needs:
         choice = self.choice
         if not choice.implicit:
             return {}
-        kinds = ("body", "joint", "bound", "force", "state")
-        keys = {kind: form_key(choice.method, choice.options, kind, self.shifted) for kind in kinds}
+        keys = {kind: form_key(choice.method, choice.options, kind, self.shifted) for kind in KINDS}
         return {stem: form_stem(keys[instance.kind], stem) for stem, instance in self.elements.items()}
 
     @property
@@ -114,7 +116,18 @@ class Needs:
     @property
     def modules(self) -> tuple[str, ...]:
         """All modules."""
-        return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
+        rotors = [_ROTORS] if self.has_rotors else []
+        return (_MACHINE, _MODEL, *rotors, self.law, *self.elements, *self.forms.values())
+
+    @property
+    def has_drags(self) -> bool:
+        """Whether efforts depend on reactions, which another right-hand side finds."""
+        return any(instance.kind == "drag" for instance in self.instances)
+
+    @property
+    def has_rotors(self) -> bool:
+        """Whether M couples bodies, which other generic code is for."""
+        return any(instance.kind == "rotor" for instance in self.instances)
 
     def missing(self, exists: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
         """Derive and emit kernels, the law and the generic code, with metadata, except those that exist.
@@ -129,7 +142,7 @@ class Needs:
             Whether the law is one module.
         """
         from symgen.derive.emit.kernel_modules import emit_form, emit_kernel
-        from symgen.derive.emit.looped import emit_looped_law, emit_machine, emit_shared_model
+        from symgen.derive.emit.looped import emit_looped_law, emit_machine, emit_rotors, emit_shared_model
         from symgen.derive.lower.looped.kernels import lower_kernel
         from symgen.derive.lower.looped.law import lower_looped
 
@@ -139,9 +152,11 @@ class Needs:
             modules[_MACHINE] = emit_machine(generator), {}
         if not exists(_MODEL):
             modules[_MODEL] = emit_shared_model(generator), {}
+        if self.has_rotors and not exists(_ROTORS):
+            modules[_ROTORS] = emit_rotors(generator), {}
         if not exists(self.law):
             law = lower_looped(method, options)
-            sources = emit_looped_law(law, generator, method.summary, method.reference, whole)
+            sources = emit_looped_law(law, generator, method.summary, method.reference, whole, self.has_drags)
             *shared, _ = sources
             modules |= {name: (source, {}) for name, source in sources.items()}
             info = msgspec.structs.replace(law.info, modules=tuple(shared))
@@ -190,9 +205,9 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
     Raises
     ------
     InputError
-        If the method needs dense algebra.
+        If the method needs dense algebra, or finds no multipliers where efforts depend on reactions.
     """
-    refuse_dense(choice.method, choice.options, choice.implicit)
+    _refuse(mechanism, choice)
     began, took = time.perf_counter(), 0.0
     store, folder, needs = Entries(), shared_folder(generator), Needs(mechanism, choice, instances(mechanism))
 
@@ -224,7 +239,15 @@ def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -
         tables=tables,
         kernels=kernels,
         machine=machine,
+        generic=load_module(path / f"{_ROTORS}.py") if needs.has_rotors else machine,
     )
+
+
+def _refuse(mechanism: Mechanism, choice: MethodChoice) -> None:
+    """Refuse methods that loops, or efforts that depend on reactions, do not take."""
+    refuse_dense(choice.method, choice.options, choice.implicit)
+    for row in held_by_reactions(mechanism):
+        refuse_bounded_rows(choice.method, choice.options, choice.implicit, row.family.noun)
 
 
 def _gathered(module: ModuleType, *names: str) -> Any:
@@ -260,7 +283,7 @@ def generate_looped(
     tables: dict[str, Any] = {}
     elements = instances(mechanism)
     for choice in choices:
-        refuse_dense(choice.method, choice.options, choice.implicit)
+        _refuse(mechanism, choice)
         needs = Needs(mechanism, choice, elements)
         modules |= needs.missing(modules.__contains__, generator, whole)
         _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
@@ -284,7 +307,9 @@ def generate_looped(
 
 
 #: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
-_STEM = re.compile(r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII)
+_STEM = re.compile(
+    r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|drag|rotor|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII
+)
 
 
 def numbered(stems: Iterable[str]) -> dict[str, str]:

@@ -34,13 +34,16 @@ class LoopedModel(CompiledModel):
     kernels : mapping of str to module
         By name.
     machine : module
-        The generic code.
+        Calls of kernels and the generic code, except what of this is another one.
+    generic : module
+        The generic code that is reached through the tables: where the mechanism has rotors, that for a M with them.
     """
 
     shape, sparse = "looped", True
     tables: IndexTables = field(kw_only=True)
     kernels: Mapping[str, ModuleType] = field(kw_only=True)
     machine: ModuleType = field(kw_only=True)
+    generic: ModuleType = field(kw_only=True)
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""
@@ -54,7 +57,7 @@ class LoopedModel(CompiledModel):
         part.view(np.uint32)[: len(self.tables.numbers)] = np.frombuffer(self.tables.numbers, dtype=np.uint32)
         augmented = bool(self.tables.numbers[HEAD.index("augmented_factor")])
         addresses = [
-            address(getattr(self.machine, f"{name}_code"), self.machine, GENERIC_CODE)
+            address(getattr(self.generic, f"{name}_code"), self.machine, GENERIC_CODE)
             if augmented or name != "augment"
             else 0
             for name in GENERIC
@@ -70,9 +73,11 @@ class LoopedModel(CompiledModel):
 def diagonal(shape: LoopedShape, tables: IndexTables) -> Callable[[Array, Array], int]:
     """Return the function that writes the diagonal of M to its section."""
     first, (offset, size) = shape.mass_diagonal, tables.sections["mass"]
+    added = np.array(shape.rotor_diagonal, dtype=np.int64).reshape(-1, 2)
 
     def masses(p: Array, w: Array) -> int:
         w[offset : offset + size] = p[first : first + size]
+        np.add.at(w, offset + added[:, 0], p[added[:, 1]])
         return 0
 
     return masses
@@ -89,6 +94,7 @@ def hoisting(
     velocity = np.array([v for _, v, _ in constant], dtype=np.int64)
     product = np.array([x for _, _, x in constant])
     size = shape.gram.size
+    ones = np.array([shape.gram.target(row, row) for row in shape.rotors], dtype=np.int64)
 
     def prepare(p: Array) -> int:
         values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
@@ -101,6 +107,7 @@ def hoisting(
         inverse = p[first + shape.nv : first + 2 * shape.nv]
         for base, weights in ((shape.gram_base, product), (shape.gram_base + size, product * inverse[velocity])):
             p[base : base + size] = np.bincount(target, weights, size)
+            p[base + ones] = 1.0
         return 0
 
     return prepare
@@ -141,7 +148,7 @@ def describe_model(mechanism: Mechanism, shape: LoopedShape, tables: IndexTables
         spins=tuple(shape.spins),
         operations=operations,
         inputs=mechanism.inputs,
-        alone=tuple(row for row in shape.gram.alone if row not in bounded),
+        alone=tuple(row for row in shape.gram.alone if row not in (*bounded, *shape.rotors)),
         states=tuple(Quantity(x.name, x.unit) for x in mechanism.states),
         switchable=bounded,
         bounded=bounded,

@@ -29,19 +29,15 @@ from symgen.compile.store.entries import Entries, Modules, folder_name
 from symgen.compile.store.identity import combined_digest
 from symgen.compile.store.modules import load_module
 from symgen.compile.store.sources import CODE, reached_digest
-from symgen.derive.methods import METHODS
-from symgen.derive.methods._base import EXPLICIT_FORMS, Method
 from symgen.describe.bounds.by_reaction import held_by_reactions
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
+from symgen.run.compiling.method_choice import MethodChoice, choose_method, for_coordinates
 from symgen.run.layout.compiled import Array, CompiledModel, ModelInfo, RowInfo
 
 if TYPE_CHECKING:
     from symgen.base.ir.program import ModelProgram
     from symgen.derive.formulate.equations import Equations
-
-#: Characters of a file stem that say which velocities are free, at most.
-LONGEST_FREE = 18
 
 
 @dataclass(frozen=True)
@@ -52,82 +48,6 @@ class Generated:
     modules: Modules
     derive_seconds: float
     emit_seconds: float
-
-
-@dataclass(frozen=True)
-class MethodChoice:
-    """A method with its requested structural options, the shape of its code, and velocities that loops leave free.
-
-    `directed`: with a right-hand side for derivatives.
-    """
-
-    method: Method
-    options: Mapping[str, str]
-    implicit: bool = False
-    shape: str = "straight"
-    free: tuple[int, ...] = ()
-    directed: bool = False
-
-    @property
-    def stem(self) -> str:
-        """File stem of its module."""
-        return self.method.stem(self.options, self.implicit) + self.suffix
-
-    @property
-    def suffix(self) -> str:
-        """End of the file stem, which says the free velocities, and whether it is for derivatives.
-
-        Many free velocities are said by a digest: names of modules have an end.
-        """
-        free = "".join(f"_f{j}" for j in self.free)
-        if len(free) > LONGEST_FREE:
-            free = f"_f{combined_digest(free)[: LONGEST_FREE - 2]}"
-        return free + "_slopes" * self.directed
-
-    def with_options(self, **options: str) -> MethodChoice:
-        """Return the choice with other values of some options."""
-        return replace(self, options={**self.options, **options})
-
-
-def choose_method(name: str, options: Mapping[str, str] | None = None, implicit: bool = False) -> MethodChoice:
-    """Return the method called `name` with its options, defaults filled in, and the form that an integrator needs.
-
-    Raises
-    ------
-    InputError
-        If there is no such method or option.
-    """
-    method = METHODS.get(name, "method")
-    implicit = implicit or not EXPLICIT_FORMS & set(method.forms)  # some methods have no other form
-    return MethodChoice(method, method.complete_options(options or {}), implicit)
-
-
-def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
-    """Return a choice for the mechanism's coordinates: the metric of bodies is the identity in their own."""
-    if mechanism.topology is not None or choice.options.get("weight") != "body":
-        return choice
-    return choice.with_options(weight="identity")
-
-
-def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
-    """Return a choice for massless bodies: v' is not eliminated, where the solver is `free` to be chosen.
-
-    Raises
-    ------
-    InputError
-        If a body is massless, and the method inverts M.
-    """
-    if not mechanism.has_massless:
-        return choice
-    if pressed := held_by_reactions(mechanism):
-        name = next(body.name for body in mechanism.bodies if body.massless)
-        expected = (
-            f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"
-        )
-        raise InputError(f"bodies.{name}", expected, "one that is 0", pressed[0].family.apart)
-    if choice.method.needs_regular_mass(choice.options):
-        raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
-    return choice.with_options(solver="augmented") if free and "solver" in choice.options else choice
 
 
 def folder_of(mechanism: Mechanism) -> str:
@@ -156,7 +76,7 @@ def refuse_loops(mechanism: Mechanism) -> None:
     Raises
     ------
     InputError
-        If the file has rotors on joints or bounds by reactions, or if rows of joints may be off.
+        If rows of joints may be off.
     """
     if what := straight_alone(mechanism):
         raise InputError("shape", f"straight code where a file has {what}", "looped")
@@ -164,12 +84,7 @@ def refuse_loops(mechanism: Mechanism) -> None:
 
 def straight_alone(mechanism: Mechanism) -> str:
     """Return what of a file exists as straight code alone; empty where loops take all of it."""
-    parts = (
-        ("rotors on joints", mechanism.rotors),
-        ("rows that may be off", mechanism.switchable),
-        *((f"{row.family.noun} by reactions", True) for row in held_by_reactions(mechanism)),
-    )
-    return next((what for what, some in parts if some), "")
+    return "rows that may be off" if mechanism.switchable else ""
 
 
 def generate(

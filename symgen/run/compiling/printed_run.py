@@ -39,7 +39,7 @@ from symgen.run.rows.foreseen_run import foreseen_run
 from symgen.run.rows.kept_modes import KeptModes
 from symgen.run.rows.kept_reset import kept_reset
 from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
-from symgen.run.rows.rows import observe_nothing
+from symgen.run.rows.rows import observe_no_coordinate
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_state, span_of
 from symgen.run.starts.assembler import layout_of
@@ -283,7 +283,7 @@ class PrintedRun:
             model = *model, watched.function, self._decide, rates[0]
         if self._has_seams:
             model = model, self._seams, self._loops.steps, *preparing(compiled)
-        observers = sizes, *rates, compiled.law_module.accept, observe_nothing
+        observers = sizes, *rates, compiled.law_module.accept, observe_no_coordinate
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
         actions = () if watched is None else watched.actions
         own = sum(action != modes.MODE for action in actions)  # a row keeps no events of modes, which end no run

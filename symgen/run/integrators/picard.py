@@ -130,7 +130,7 @@ class Picard:
         """Return the arguments of the loop."""
         from symgen.run.layout.right_hand_side import at_nodes
         from symgen.run.layout.scheme_records import Nodes
-        from symgen.run.loops.schemes import picard
+        from symgen.run.loops.schemes import picard_memory
 
         info, c = compiled.info, coefficients()
         derive, vector = at_nodes(compiled)
@@ -138,7 +138,7 @@ class Picard:
         arrays = c.table, c.middle, c.share, c.legendre, c.dense
         scheme = Nodes(derive, vector, rates_of(info), *arrays, degree, DOP853.record(True))
         width = padded(info.ny)
-        memory, room = picard.memory(width), picard.room(width, info.kept)
+        memory, room = picard_memory.memory(width), picard_memory.room(width, info.kept)
         return Setup(self.loop(spec.adaptive), law_functions(compiled), scheme, spec.step or 0.0, memory, room)
 
 

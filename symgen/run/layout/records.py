@@ -117,7 +117,7 @@ class State(NamedTuple):
         1 for elements of the state under error control, else 0; then the places that elements are measured from.
     metric, scales : Array, shape (2 width,)
         Factors that convert coordinates and velocities to lengths and speeds, and to numbers of order 1; see
-        `symgen.run.layout.scales.settle`; then these places.
+        `symgen.run.layout.scales.settle_scales`; then these places.
     room : Array
         Working memory: nothing in it outlives a step. It begins with the trial state.
     """

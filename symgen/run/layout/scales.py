@@ -245,7 +245,7 @@ def row_weight(layout: Any, w: Any, i: int) -> float:
     return 1.0 if layout.rows[2 * i + 1] == 1 else float(w[abi.LENGTH])
 
 
-def settle(sizes: Any, span: Any, run: Any) -> None:
+def settle_scales(sizes: Any, span: Any, run: Any) -> None:
     """Set the scales of a run's states at its beginning, from the lengths computed at its start.
 
     `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all behind the

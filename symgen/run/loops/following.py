@@ -268,7 +268,7 @@ def determinant_sign(course: Any, w: Any, dense: Any) -> float:
 
 
 @jit(_I8(_MODEL, _A, _A, _A, STAND, FOLLOWED, _K))
-def follow(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
+def follow_motion(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
     """Follow a motion through times that are all after, or all before, the present time of the loop.
 
     Parameters

@@ -6,7 +6,6 @@ names of `symgen.run.loops.frame_parts`, and so does the target: a processor, ve
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -17,18 +16,14 @@ from symgen.compile.native import types
 from symgen.run.layout import abi
 from symgen.run.layout.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem
 from symgen.run.layout.redundancy import rows_fell
-from symgen.run.layout.scales import settle
+from symgen.run.layout.scales import settle_scales
 from symgen.run.loops.frame_parts import (
     ADAPTIVE,
     CROWD,
     DENSE,
-    DIVIDE,
-    DOUBT,
     EVENTS,
     FAIL,
-    HOLD,
     LOOK,
-    LOW,
     MEET,
     NOTHING,
     RECALL,
@@ -36,20 +31,15 @@ from symgen.run.loops.frame_parts import (
     RESTART,
     ROUGH,
     SEEK,
-    TAKE,
-    TOO_LARGE,
     TRY,
     attempt,
     correct,
     interpolate,
     is_astray,
-    largest_turn,
-    located,
     note_step,
     opened,
     prepare,
     prepare_search,
-    refuse,
     refused,
     renew,
     step_to_point,
@@ -57,23 +47,17 @@ from symgen.run.loops.frame_parts import (
     store_between,
     taken_back,
 )
-from symgen.run.loops.step_control import grown, part_of, shrunk
-from symgen.run.loops.watch import approach, begin, meets, remember_rank, stuck, watch
+from symgen.run.loops.judgement import AGAIN, REFUSE, judge_attempt, judge_state
+from symgen.run.loops.step_control import grown, part_of
+from symgen.run.loops.watch import approach, begin, remember_rank, stuck, watch
 
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, the error of n steps of a
 #: first-order scheme is an n-th of an energy that is only building up.
 SETTING_OUT = 100
-#: A step across a singular position is refused only above this multiple of the tolerance, or, if that is tighter, an
-#: error of this part of the state: it leads nowhere. The rounding error of such a step does not follow the tolerance.
-_HOPELESS, _ASTRAY = 1e6, 1e-2
 #: Step across a zone over the distance to its middle: not 2, so that no stage at half the step meets the middle.
 _ACROSS = 2.3
 #: Assumed step until an adaptive run has chosen one, as a part of the run.
 _BEFORE = 1e-3
-#: Part of the distance to a switch taken by a step whose stages do not pass it.
-_SHORT_OF = 0.9
-#: Judgements of a step beside the codes of an end: try another one from the same state; the same, as it is refused.
-AGAIN, REFUSE = 101, 102
 
 
 # -- the frame ---------------------------------------------------------------------------------------------------------
@@ -87,7 +71,7 @@ def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> i
     sizes, clock, control, times = system.sizes, run.clock, run.control, outputs.times
     if control[abi.BEGUN] == 0:
         remember_rank(sizes, run)
-        settle(sizes, span, run)
+        settle_scales(sizes, span, run)
         copied(sizes.width, run.y, run.trial)
         correct(system, run, clock[abi.TIME], run.trial, False)
         copied(sizes.width, run.trial, run.y)
@@ -159,106 +143,6 @@ def choose_step(
     if not DENSE and out < times.shape[0] and times[out] < following - resolution(span):
         between, h, following = True, times[out] - t, times[out]
     return code, h, following, between, crossing, proposal
-
-
-def judge_attempt(
-    system: Any, scheme: Any, span: Any, run: Any, step: Any, error: float, search: int, doubtful: bool
-) -> tuple[int, int, bool]:
-    """Judge the attempt at a step by its error estimate.
-
-    Parameters
-    ----------
-    step : tuple
-        The step and its end [s]; whether it ends at an output between steps; whether it crosses a singular position.
-    error : float
-        Error over the tolerance; negative if the attempt has no result.
-    search : int
-        Last result of `located`.
-    doubtful : bool
-        Whether the error of the whole step may be that of a switch inside, which is sought.
-
-    Returns
-    -------
-    tuple
-        `DONE` for a good one, `AGAIN`, `REFUSE` or the code of an end; then `search` and `doubtful`.
-    """
-    h, following, between, crossing = step
-    verdict = abi.DONE
-    good = error <= 1.0 or (crossing and error <= max(_HOPELESS, _ASTRAY / span.rtol))
-    turn = largest_turn(system.sizes, span, run) if math.isfinite(span.turn) and error >= 0.0 else 0.0
-    if turn > span.turn and not ADAPTIVE:
-        verdict = abi.TURNED
-    elif turn > span.turn:
-        verdict = REFUSE
-        run.clock[abi.NEXT] = _SHORT_OF * h * span.turn / turn
-        refuse(run)
-    elif error == TOO_LARGE:
-        verdict = abi.NO_ROOM
-    elif error < 0.0 and not ADAPTIVE:
-        verdict = abi.NEWTON
-    elif error < 0.0:
-        verdict = REFUSE
-        run.clock[abi.NEXT] = 0.25 * h
-    elif ADAPTIVE and not good and not between:
-        if EVENTS and (search == NOTHING or doubtful):
-            if search != TAKE and math.isfinite(error):  # a switch inside may cause the error
-                search = located(system, scheme, run, following, h, DOUBT if search == NOTHING else search)
-                doubtful = search != NOTHING
-                if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
-                    verdict = AGAIN
-            if verdict != AGAIN:
-                search = NOTHING
-        if verdict != AGAIN and search != SEEK:
-            verdict = REFUSE
-            if crossing:
-                run.control[abi.BARRED] = 1
-            change = shrunk(span, run, error)
-            if EVENTS and doubtful:  # its end is near a switch, and some stages are beyond it
-                change = _SHORT_OF
-            run.clock[abi.NEXT] = h * change
-            refuse(run)
-    return verdict, search, doubtful
-
-
-def judge_state(
-    system: Any, scheme: Any, run: Any, h: float, following: float, bits: int, search: int
-) -> tuple[int, int]:
-    """Judge the state at the end of a good attempt: its correction, and events that its step may pass.
-
-    Parameters
-    ----------
-    h, following : float
-        The step and its end [s].
-    bits : int
-        Result of `correct`.
-    search : int
-        Last result of `located`.
-
-    Returns
-    -------
-    tuple
-        `DONE` for a good one, `AGAIN`, `REFUSE` or the code of an end; then `search`.
-    """
-    verdict = abi.DONE
-    if bits & 1 != 0 and not ADAPTIVE:
-        verdict = abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
-    elif bits & 1 != 0 or (ADAPTIVE and search == NOTHING and meets(run)):
-        verdict = REFUSE
-        run.control[abi.BARRED] = 1
-        run.clock[abi.NEXT] = 0.5 * h
-    elif EVENTS:
-        search = located(system, scheme, run, following, h, search)
-        if search == SEEK or search == TAKE:
-            verdict = AGAIN
-        elif search == DIVIDE:
-            verdict = REFUSE
-            run.clock[abi.NEXT] = run.hunt[TRY]
-        elif search == FAIL:
-            run.clock[abi.TIME] = following
-            verdict = abi.UNDEFINED
-        elif search == HOLD:
-            verdict = abi.TINY_STEP
-    return verdict, search
 
 
 def accept_step(

@@ -60,6 +60,9 @@ NOTE, LEAVE, ANEW, EXAMINE = range(4)
 #: Tasks in addition to `LOOK`, `REMEMBER` and `RECALL`: save and restore the memory of emitted functions at an examined
 #: state, and end the next step at a point of a table.
 KEEP, GIVE_BACK, AIM = range(RECALL + 1, RECALL + 4)
+#: Present tasks: look for events, take the whole step, take a step that ends in an event, or one that ends before a
+#: jump, so that its stages are on one side of it.
+LOOKING, WHOLE_STEP, TO_EVENT, BEFORE = range(4)
 #: Room for notes, in addition to twice those of all events: a loop is left at the end of a step where half of it is
 #: taken, and at the next event where all of it is taken.
 NOTES = 256

@@ -18,6 +18,7 @@ from typing import Any
 
 from symgen.compile.store.emitted import plain
 from symgen.run.layout import abi
+from symgen.run.loops.bracket import crossed, move_on, note, settle_bracket, take_in
 from symgen.run.loops.frame_parts import (
     CROWD,
     DIVIDE,
@@ -33,25 +34,23 @@ from symgen.run.loops.frame_parts import (
     TAKE,
     TRY,
 )
-from symgen.run.loops.inside import concealed, divides, slope_between, slopes_of_forces
+from symgen.run.loops.inside import concealed, divides
 from symgen.run.loops.search_records import (
     ACCEPTED,
     ACTION,
     AIM,
     ANEW,
     ASLEEP,
+    BEFORE,
     BEGINNING,
     BLUR,
     D_END,
-    D_HIGH,
-    D_LOW,
     D_START,
     DIRECTION,
     DOING,
     FIRED,
     G_END,
     G_HIGH,
-    G_LOW,
     G_START,
     GIVE_BACK,
     GRAZING,
@@ -59,7 +58,6 @@ from symgen.run.loops.search_records import (
     INSIDE,
     KEEP,
     LEAVE,
-    LOCAL,
     MARGIN,
     MEASURE,
     N_COLUMNS,
@@ -75,21 +73,19 @@ from symgen.run.loops.search_records import (
     PROBES,
     PROBING,
     REACH,
-    RESOLUTION,
     ROUNDS,
     SIDE,
     SINCE,
     SIZE,
+    TO_EVENT,
     WHOLE,
+    WHOLE_STEP,
 )
-from symgen.run.loops.switching import candidate, is_at_end, is_sought, passes, side_of, taken_for, wake
-from symgen.run.loops.table_points import SHORT_OF, aim, arrive, bend, ends_near, is_before, switch_values
+from symgen.run.loops.switching import candidate, is_at_end, is_sought, side_of
+from symgen.run.loops.table_points import SHORT_OF, aim, arrive, ends_near, is_before, switch_values
 
 A = Any
-#: Tasks: look for events, take the whole step, take a step that ends in an event, or one that ends before a jump, so
-#: that its stages are on one side of it.
-_LOOKING, _WHOLE_STEP, TO_EVENT, _BEFORE = range(4)
-_COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
+_COUNTERS = abi.N_COUNTERS
 #: Changes of g by a reset below this fraction of its size in the step before are rounding.
 _SAME = 1e-6
 #: Margins below this part of their size are rounding; below the negative of this part they contradict their mode.
@@ -100,104 +96,6 @@ _CROWDED, _HEAP = 50.0, 1e-7
 _ENDLESS = 1e300
 #: Largest number of rounds in a bracket.
 _MOST_ROUNDS = 200
-
-
-@plain
-def move_on(hunt: A, n: int) -> int:
-    """Move the bracket to the rest of the step."""
-    at = N_HEAD
-    for k in range(n):
-        hunt[at + LOCAL * n + k] = side_of(hunt[at + G_HIGH * n + k], hunt[at + LOCAL * n + k])
-        hunt[at + G_LOW * n + k] = hunt[at + G_HIGH * n + k]
-        hunt[at + D_LOW * n + k] = hunt[at + D_HIGH * n + k]
-        hunt[at + G_HIGH * n + k] = hunt[at + G_END * n + k]
-        hunt[at + D_HIGH * n + k] = hunt[at + D_END * n + k]
-    hunt[LOW], hunt[HIGH], hunt[ROUNDS], hunt[BLUR] = hunt[HIGH], hunt[WHOLE], 0.0, hunt[RESOLUTION]
-    return 0
-
-
-@plain
-def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
-    """Note the time and the state of all events that happen at the end of the bracket."""
-    at = N_HEAD
-    for k in range(n):
-        if hunt[at + ACTION * n + k] != float(ANEW) and passes(hunt, n, k, G_HIGH) == 1:
-            to = notes + int(hunt[NOTED]) * (2 + width)
-            hunt[to], hunt[to + 1] = t, float(k)
-            for j in range(width):
-                hunt[to + 2 + j] = y[j]
-            hunt[NOTED] += 1.0
-    return 0
-
-
-@plain
-def settle_bracket(hunt: A, n: int, ends: int) -> int:
-    """Make the end of the step, or of the bracket where `ends` is 0, the beginning of the next step."""
-    at = N_HEAD
-    g, d = G_END if ends == 1 else G_HIGH, D_END if ends == 1 else D_HIGH
-    for k in range(n):
-        local, side = hunt[at + LOCAL * n + k], side_of(hunt[at + g * n + k], hunt[at + LOCAL * n + k])
-        fired = is_sought(hunt[at + DIRECTION * n + k], local, side)
-        hunt[at + FIRED * n + k] = 1.0 if ends == 0 and fired == 1 else 0.0
-        hunt[at + GRAZING * n + k] *= 1.0 if side * hunt[N_HEAD + N_COLUMNS * n + k] < 0.0 else 0.0
-        hunt[at + SIDE * n + k] = side
-        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(hunt[at + G_END * n + k]))
-        bend(hunt, n, k, hunt[at + g * n + k], hunt[at + d * n + k], hunt[WHOLE] if ends == 1 else hunt[HIGH])
-        hunt[at + G_START * n + k] = hunt[at + g * n + k]
-        hunt[at + D_START * n + k] = hunt[at + d * n + k]
-        if hunt[at + POINTS * n + k] > 0.0:
-            arrive(hunt, n, k, hunt[WHOLE] if ends == 1 else hunt[HIGH])
-        wake(hunt, n, k)
-    hunt[ACCEPTED] = hunt[NOTED]
-    return 0
-
-
-@plain
-def crossed(hunt: A, n: int, column: int, least: int) -> int:
-    """Return the highest action, at least `least`, of passages from the bracket's beginning to a column; -1: none."""
-    at, highest = N_HEAD, -1
-    for k in range(n):
-        if passes(hunt, n, k, column) == 1:
-            action = int(hunt[at + ACTION * n + k])
-            if action == LEAVE:
-                return LEAVE
-            highest = max(highest, action)
-    return highest if highest >= least else -1
-
-
-@plain
-def take_in(hunt: A, n: int, h: float, following: float, search: int) -> int:
-    """Copy the values at the trial state, which stand behind the columns, into the bracket."""
-    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    if search == NOTHING or search == DOUBT:
-        hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
-        hunt[PROBES] = hunt[ROUNDS] = hunt[PROBING] = 0.0
-        hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
-        hunt[BLUR] = hunt[RESOLUTION]
-        for k in range(n):
-            hunt[at + LOCAL * n + k] = hunt[at + SIDE * n + k]
-            hunt[at + G_LOW * n + k] = hunt[at + G_START * n + k]
-            hunt[at + D_LOW * n + k] = hunt[at + D_START * n + k]
-            value = taken_for(hunt, n, k, h)
-            hunt[at + G_HIGH * n + k], hunt[at + G_END * n + k] = value, value
-            hunt[at + D_HIGH * n + k], hunt[at + D_END * n + k] = hunt[out + n + k], hunt[out + n + k]
-        if hunt[INSIDE] > 0.0:
-            slopes_of_forces(hunt, n)
-        return 0
-    # where a function may have dipped, the bracket ends, so that what is before that point is examined as well
-    inside = 1 if h == hunt[HIGH] or hunt[PROBING] != 0.0 else 0
-    hunt[PROBING] = 0.0
-    for k in range(n):
-        side = hunt[at + LOCAL * n + k]
-        inside = max(inside, is_sought(hunt[at + DIRECTION * n + k], side, side_of(taken_for(hunt, n, k, h), side)))
-    g, d = G_HIGH if inside == 1 else G_LOW, D_HIGH if inside == 1 else D_LOW
-    for k in range(n):
-        if inside == 0:
-            hunt[at + LOCAL * n + k] = side_of(taken_for(hunt, n, k, h), hunt[at + LOCAL * n + k])
-        hunt[at + g * n + k] = taken_for(hunt, n, k, h)
-        hunt[at + d * n + k] = slope_between(hunt, n, k, h, hunt[out + n + k])
-    hunt[HIGH if inside == 1 else LOW] = h
-    return 0
 
 
 @plain
@@ -363,7 +261,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
             return int(keep(hunt, first, size - _COUNTERS, w, iw))
         return int(give_back(hunt, first, size - _COUNTERS, w, iw))
     if search == TAKE and hunt[DOING] != TO_EVENT:
-        if hunt[DOING] == _BEFORE:
+        if hunt[DOING] == BEFORE:
             end_before(hunt, n, h)
         settle_bracket(hunt, n, 1)
         return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
@@ -380,7 +278,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
         if crossed(hunt, n, G_HIGH, NOTE) >= NOTE:
             near = 1 if h == high and there >= high and ends_near(hunt, n) == 1 else 0
             if near == 0 and is_before(hunt, n) == 1:
-                hunt[DOING], hunt[TRY] = _BEFORE, SHORT_OF * hunt[LOW]
+                hunt[DOING], hunt[TRY] = BEFORE, SHORT_OF * hunt[LOW]
                 return TAKE
             enclosed = 1 if high - hunt[LOW] <= hunt[BLUR] or hunt[ROUNDS] >= _MOST_ROUNDS else near
             if enclosed == 0 and hunt[ROUNDS] > 0.0 and h == high and there >= high:
@@ -418,7 +316,7 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, search: int,
     if search == NOTHING:
         settle_bracket(hunt, n, 1)
         return NOTHING
-    hunt[DOING], hunt[TRY] = _WHOLE_STEP, hunt[WHOLE]
+    hunt[DOING], hunt[TRY] = WHOLE_STEP, hunt[WHOLE]
     return TAKE
 
 

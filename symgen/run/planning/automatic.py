@@ -17,7 +17,7 @@ from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.run.compiling.choices import choose_shape
 from symgen.run.compiling.linearised import GROWTH, compile_growth
-from symgen.run.compiling.pipeline import choose_method
+from symgen.run.compiling.method_choice import choose_method
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_function

@@ -22,7 +22,7 @@ from symgen.run.starts.assembly import Start, assemble
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.loops.run_spec import RunSpec
     from symgen.run.planning.plan import Plan

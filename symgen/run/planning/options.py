@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.base.arguments import shown
 from symgen.base.errors import InputError, nearest
 from symgen.derive.methods._base import EXPLICIT_FORMS
-from symgen.run.compiling.pipeline import MethodChoice, choose_method
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
 from symgen.run.loops.integrator import estimates
 
 if TYPE_CHECKING:

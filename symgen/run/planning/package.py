@@ -30,7 +30,8 @@ from symgen.describe.parts.events import DOES
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.compiling.choices import choose_coordinates, on_tree
 from symgen.run.compiling.closing import at_start
-from symgen.run.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
+from symgen.run.compiling.method_choice import MethodChoice, choose_method, for_coordinates
+from symgen.run.compiling.pipeline import generate
 from symgen.run.planning.plan import Plan, Purpose
 from symgen.run.planning.prepare import code_and_start, make_plan, prepared_run
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
@@ -17,21 +17,20 @@ from symgen.derive.methods import METHODS
 from symgen.describe.bounds.modes import refuse_bounds
 from symgen.describe.facts.digest import digest
 from symgen.describe.facts.kinks import longest_step
-from symgen.describe.facts.lengths import longest_body
 from symgen.describe.facts.sticking import advice_on_jumps
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.parts.events import RECORD, STOP, events_of, watched
 from symgen.describe.parts.holds import holds_of
 from symgen.run.breaks.motions import refuse_jumps
 from symgen.run.breaks.seams import foreseen_in_run, merged
-from symgen.run.compiling.choices import choose_coordinates, choose_shape, for_lengths, weighed
-from symgen.run.compiling.pipeline import MethodChoice, for_masses
+from symgen.run.compiling.method_choice import MethodChoice
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.loops.integrator import adapts
 from symgen.run.loops.run_spec import MAX_ATTEMPTS, RunSpec, Seam
 from symgen.run.planning.automatic import usual_integrator
 from symgen.run.planning.options import split_options
 from symgen.run.planning.outputs import output_times
+from symgen.run.planning.run_code import code_of_run
 
 if TYPE_CHECKING:
     from symgen.derive.methods._base import Method
@@ -189,12 +188,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         _refuse_other(mechanism, last)
     begin, shape, own_run = 0.0 if last is None else last.t, _shape(s, last), mechanism.defaults
     until = own_run.until if s.until is None else s.until
-    name = s.integrator
-    if name is None:
-        evaluations = ADAPTIVE_EVALUATIONS * (until - begin)
-        name = usual_integrator(mechanism, s.method, s.coordinates, shape, evaluations)
-    integrator = INTEGRATORS.get(name, "integrator")
-    _refuse_pair(method, integrator)
+    integrator = _integrator(mechanism, s, method, shape, until - begin)
     choice, method_parameters, integrator_options = split_options(s, integrator)
     zero: complex | None = getattr(integrator, "zero", None)
     method_parameters = method.placed(choice.options, zero, integrator.name) | method_parameters
@@ -203,14 +197,7 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
     if step is None:  # the first one may be longer than the run, whose end cuts it
         step = own_run.first_step if adaptive else own_run.step
     _check_steps(s, step, begin, until, adaptive)
-    own = method.largest_step(
-        {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, integrator.real_boundary
-    )
-    warnings = list[str]()
-    if not adaptive and own is not None and step is not None and step > own:
-        warnings.append(
-            f"the step {step:g} s exceeds {own:.3g} s, where {method.name} is unstable with {integrator.name}"
-        )
+    own, warnings = _stable_step(method, method_parameters, integrator, None if adaptive else step)
     events = events_of_run(mechanism, s)
     longest, why = longest_step(mechanism, until - begin, events, inputs.driven.jumps if inputs.driven else ())
     times = foreseen_in_run(mechanism, events, adaptive, integrator.order, (begin, step))
@@ -237,20 +224,8 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
             q.name: float(integrator_options[q.name]) for q in integrator.parameters if q.name in integrator_options
         },
     )
-    free = "solver" in choice.options and not _has_option(s, "solver")
-    massless = mechanism.has_massless
-    choice, free = for_masses(mechanism, choice, free), free and not massless
-    if s.coordinates == "joint":
-        choose_coordinates(mechanism, s.coordinates, shape)
-        shape = "straight"
-    code_shape = choose_shape(mechanism, choice, shape, expected_evaluations(integrator, until - begin, step, adaptive))
-    choice = replace(choice, shape=code_shape.name)
-    coordinates = choose_coordinates(mechanism, s.coordinates, code_shape.name)
-    if coordinates.name == "joint" and not _has_option(s, "weight"):
-        choice = weighed(choice, massless)
-    elif not massless and not _has_option(s, "weight"):
-        choice, more = for_lengths(choice, longest_body(mechanism, parameter_values(mechanism, s.parameters)))
-        notes = *notes, *more
+    evaluations = expected_evaluations(integrator, until - begin, step, adaptive)
+    code = code_of_run(mechanism, s, choice, shape, evaluations)
     if purpose is Purpose.MOTION:
         refuse_jumps(mechanism, s.parameters, until)
     return Plan(
@@ -258,23 +233,46 @@ def resolved(inputs: Inputs, s: Settings, purpose: Purpose, notes: tuple[str, ..
         settings=s,
         inputs=inputs,
         purpose=purpose,
-        choice=choice,
+        choice=code.choice,
         integrator=integrator,
         method_parameters=method_parameters,
         spec=spec,
         seams=merged(inputs.seams, times.seams(values, until)),
-        warnings=tuple(warnings),
+        warnings=warnings,
         missed=tuple(times.missed(values, until)),
-        notes=notes,
+        notes=(*notes, *code.notes),
         bound=(why,) if why and adaptive and purpose in (Purpose.MOTION, Purpose.ROWS) else (),
-        solver_is_free=free,
+        solver_is_free=code.solver_is_free,
         holds=() if last is not None else holds_of(mechanism, "start", s.start),
         last=last,
         events=events,
-        coordinates=coordinates.name,
-        shape_reason=code_shape.reason,
-        coordinates_reason=coordinates.reason,
+        coordinates=code.coordinates.name,
+        shape_reason=code.shape.reason,
+        coordinates_reason=code.coordinates.reason,
     )
+
+
+def _integrator(mechanism: Mechanism, s: Settings, method: Method, shape: str, duration: float) -> Integrator:
+    """Return the integrator of a run: the requested one, or the usual one for it."""
+    name = s.integrator
+    if name is None:
+        evaluations = ADAPTIVE_EVALUATIONS * duration
+        name = usual_integrator(mechanism, s.method, s.coordinates, shape, evaluations)
+    integrator = INTEGRATORS.get(name, "integrator")
+    _refuse_pair(method, integrator)
+    return integrator
+
+
+def _stable_step(
+    method: Method, parameters: Mapping[str, float], integrator: Integrator, step: float | None
+) -> tuple[float | None, tuple[str, ...]]:
+    """Return the step up to which a method is stable [s], None for any, and warnings of a constant step above it."""
+    values = {p.name: parameters.get(p.name, p.default) for p in method.parameters}
+    own = method.largest_step(values, integrator.real_boundary)
+    if own is None or step is None or step <= own:
+        return own, ()
+    what = f"the step {step:g} s exceeds {own:.3g} s, where {method.name} is unstable with {integrator.name}"
+    return own, (what,)
 
 
 def _refuse_pair(method: Method, integrator: Integrator) -> None:
@@ -305,11 +303,6 @@ def limit_of_velocities(method: Method, max_violation: float) -> float | None:
     """Return the largest violation of velocities that a run by a method may have, None where it is `max_violation`."""
     # where velocities follow it is an error of the discretisation, not drift: half the digits are asked of it
     return math.sqrt(max_violation) if method.velocities_follow else None
-
-
-def _has_option(s: Settings, option: str) -> bool:
-    """Whether settings give an option of the method."""
-    return any(key.partition(".")[2] == option for key in s.options)
 
 
 def _refuse_other(mechanism: Mechanism, last: LastState) -> None:

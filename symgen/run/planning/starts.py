@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from symgen.describe.formulas.start import Scalars
     from symgen.describe.mechanism import Hold, Mechanism
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.planning.plan import Plan
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.derive.lower.windings import winding_order
 from symgen.describe.bounds.modes import mode_events
-from symgen.describe.mechanism import Topology
 from symgen.describe.parts.topology import state_measures
+from symgen.describe.spanning_tree import Topology
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.single.outcome import Outcome

@@ -22,7 +22,7 @@ from symgen.run.starts.tree_start import TURNED_OVER, Carried
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Mechanism
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.effects.effects import Effects
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.planning.plan import Plan

@@ -31,7 +31,7 @@ from symgen.run.layout.redundancy import never
 from symgen.run.layout.scheme_records import TABLEAU
 from symgen.run.loops import frame, watch
 from symgen.run.loops.schemes import explicit
-from symgen.run.rows import rows
+from symgen.run.rows import row_results, rows
 from symgen.run.single import observe
 
 _A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
@@ -232,8 +232,8 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     one_passage = on_device(watch.watch, _N_PASSAGE=0)
     watched = on_device(watch_passages, watch_states=one_passage)
     integrate = on_device(frame.integrate, **parts, watch=watched, rows_fell=never)
-    begin_run, pick = on_device(rows.begin_run), on_device(rows.pick)
-    summarise = on_device(rows.summarise, _MAX_PASSAGES=1)  # only the narrowest passage is kept
+    begin_run, pick = on_device(rows.begin_run), on_device(row_results.pick)
+    summarise = on_device(row_results.summarise, _MAX_PASSAGES=1)  # only the narrowest passage is kept
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)

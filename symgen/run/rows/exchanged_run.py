@@ -21,7 +21,6 @@ from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import EVENT_STATE, decided, evaluate_events
 from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct, opened, prepare_search
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
-from symgen.run.loops.searching import TO_EVENT
 from symgen.run.loops.switching import is_sought, taken_for
 from symgen.run.rows.kept_run import CHANGED, ENDING, VISIBLE, Traits, meet, recipe_of, system_of_steps
 from symgen.run.rows.row_modes import begin_modes, rest_gaps
@@ -204,7 +203,7 @@ def look_at(system: Any, run: Any, t: float) -> int:
     for j in range(m):
         out[j] = kept[j]
     reach(hunt, n)
-    hunt[records.NOTED], hunt[records.DOING] = 0.0, float(TO_EVENT)
+    hunt[records.NOTED], hunt[records.DOING] = 0.0, float(records.TO_EVENT)
     code = decided(system, run, t, h, TAKE, run.y)
     run.clock[abi.TIME] = t
     if code == FAIL:

@@ -95,7 +95,7 @@ def let_rows_go(model: Any, state: Any) -> None:
     put_off(modes.choice, state.w)
 
 
-def assume_step(model: Any, span: Any) -> None:
+def assume_first_step(model: Any, span: Any) -> None:
     """Set the step that laws assume before the first one."""
     _, _, modes = model
     modes.choice.step[0] = first_step(span)
@@ -104,7 +104,7 @@ def assume_step(model: Any, span: Any) -> None:
 #: Meanings of names in `symgen.run.rows.kept_run` where rows have bounds, where gaps strike, and between seams.
 OF_ROWS: dict[str, Any] = {
     **{"forget": forget_rows, "begin_choice": begin_modes, "take_notes": take_modes},
-    **{"assume_step": assume_step, "choose_here": choose_and_log, "let_go": let_rows_go},
+    **{"assume_step": assume_first_step, "choose_here": choose_and_log, "let_go": let_rows_go},
 }
 OF_GAPS: dict[str, Any] = {"meet_impacts": strike_and_log}
 OF_ROWS_BETWEEN_SEAMS: dict[str, Any] = {

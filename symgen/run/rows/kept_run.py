@@ -26,7 +26,8 @@ from symgen.run.loops.seams import SEAMS, between_seams, due
 from symgen.run.rows import rows
 from symgen.run.rows.kept_modes import KEPT_MODES, OF_GAPS, OF_ROWS, OF_ROWS_BETWEEN_SEAMS
 from symgen.run.rows.row_events import OF_EFFECTS
-from symgen.run.rows.rows import OBSERVERS, begin_choice, begin_run, follow_rows, forget, take_change, take_notes
+from symgen.run.rows.row_results import follow_rows
+from symgen.run.rows.rows import OBSERVERS, begin_choice, begin_run, forget, take_change, take_notes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 

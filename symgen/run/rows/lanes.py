@@ -29,7 +29,8 @@ from symgen.run.layout.scheme_records import TABLEAU
 from symgen.run.loops import watch as watching
 from symgen.run.loops.frame import integrate
 from symgen.run.loops.schemes import explicit
-from symgen.run.rows.rows import begin_run, end_run, take
+from symgen.run.rows.row_results import end_run
+from symgen.run.rows.rows import begin_run, take
 
 #: rhs(t, z) and accept(t, z).
 LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]))
@@ -71,7 +72,7 @@ def opened(sizes: Any, state: Any) -> Any:
     return Run(*kept, s.share, s.metric, s.scales, s.room)
 
 
-def settle(sizes: Any, span: Any, run: Any) -> None:
+def settle_lanes(sizes: Any, span: Any, run: Any) -> None:
     """Set the factors of speeds; raise their scales to speeds of motions that cross the mechanism during the run."""
     for i in range(sizes.nv):
         for lane in range(_L):
@@ -206,7 +207,7 @@ _MEANINGS: dict[str, Any] = {
     **{"opened": opened, "evaluate": evaluate, "correct": correct, "note_step": note_step, "store": store},
     **{
         "largest_turn": largest_turn,
-        "settle": settle,
+        "settle_scales": settle_lanes,
         "remember_rank": remember_rank,
         "begin": begin,
         "keep_maxima": keep_maxima,
@@ -220,7 +221,7 @@ _MEANINGS: dict[str, Any] = {
 # -- groups of rows ----------------------------------------------------------------------------------------------------
 
 
-def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> None:
+def load_rows(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> None:
     """Load a group of rows into the lanes; the last group repeats its last row."""
     n, n_p, nw, total = sizes.ny, state.p.shape[0], state.w.shape[0], chunk.selected.shape[0]
     p_at = 2 * sizes.width
@@ -245,7 +246,7 @@ def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> Non
         gauges[_FIRST_RANK + lane], gauges[_ODD + lane], gauges[_LEAST_PART + lane] = rank, 0.0, part_of_best
 
 
-def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: Any) -> None:
+def unload_row(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: Any) -> None:
     """Copy the run of a lane to the arrays of a single run."""
     n, nw, columns = sizes.ny, state.w.shape[0], kept.outputs.status.shape[1]
     for i in range(nw):
@@ -300,7 +301,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     for g in range(0, total, _L):
         if control[abi.STOP] != 0:
             return int(g)
-        load(chunk, sizes, state, g, z, gauges)
+        load_rows(chunk, sizes, state, g, z, gauges)
         copied(width, z, y)
         if integrate((sizes, rhs, 0, lanes_accept, 0, 0, 0), scheme, span, lanes, outputs) == abi.STOPPED:
             return int(g)
@@ -310,7 +311,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
             if gauges[_ODD + lane] != 0.0:
                 chunk.summary[r * e.N_SUMMARY + e.CODE] = abi.LEFT
                 continue
-            unload(lane, sizes, lanes, state, outputs, kept)
+            unload_row(lane, sizes, lanes, state, outputs, kept)
             take(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations

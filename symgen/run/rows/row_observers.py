@@ -12,7 +12,8 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SPAN, STATE
 from symgen.run.loops.seams import SEAMS
-from symgen.run.rows.rows import OBSERVERS, SEAMED, observe_outputs, take, take_row
+from symgen.run.rows.row_results import observe_outputs
+from symgen.run.rows.rows import OBSERVERS, SEAMED, take, take_row
 
 
 def observe_left(model: Any, span: Any, chunk: Any, state: Any, series: Any, left: Any) -> int:

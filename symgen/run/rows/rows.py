@@ -6,21 +6,16 @@ once, each with its own rows and working memory.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
-from symgen.compile.loopcode.bare import bare, part
-from symgen.compile.loopcode.loop_instances import called, compiled_loop, signature_of
+from symgen.compile.loopcode.bare import bare
+from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
-from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, Observed, Outputs
-from symgen.run.layout.redundancy import choose_rows
+from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN
 from symgen.run.loops.event_loop import with_events
-from symgen.run.loops.frame_parts import store
 from symgen.run.loops.seams import parameters_at, select_row, with_seams
-from symgen.run.loops.watch import iterations_in
 from symgen.run.rows.row_events import (
     OF_EFFECTS,
     forget_functions,
@@ -42,12 +37,10 @@ from symgen.run.rows.row_modes import (
     take_modes,
     take_resets,
 )
+from symgen.run.rows.row_results import end_run, follow_rows
 from symgen.run.single.agreement import choose_pressed
-from symgen.run.single.observe import observe_rates, observe_rows
 
 _F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
-
-_N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
 
 def take(array: Any, first: int, size: int, out: Any) -> None:
@@ -106,156 +99,8 @@ def store_after(code: int, span: Any, state: Any, outputs: Any) -> None:
     """Do nothing: outputs of a run without events hold its state."""
 
 
-def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
-    """Write the requested quantities at the outputs of a run, one after the other; nan at outputs not reached.
-
-    Parameters
-    ----------
-    sizes : Sizes
-        Of the model.
-    picks : Array of int64
-        (source, column) of each quantity.
-    series : Kept
-        Of the run.
-    count : int
-        Number of outputs reached.
-    start : float
-        Energy at the start [J].
-    values : Array
-        Written.
-    """
-    outputs, observed, status, work = series.outputs, series.observed, series.outputs.status, sizes.nq + sizes.nv
-    n_times = outputs.states.shape[0]
-    for c in range(picks.shape[0] // 2):
-        source, column, to = picks[2 * c], picks[2 * c + 1], c * n_times
-        for k in range(count):
-            if source == e.STATE:
-                value = outputs.states[k, column]
-            elif source == e.STATUS:
-                value = status[k, column]
-            elif source == e.ENERGY:
-                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL]
-            elif source == e.ENERGY_ERROR:
-                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL] - start - outputs.states[k, work]
-            elif source == e.ACCELERATION:
-                value = observed.accelerations[k, column]
-            elif source == e.MULTIPLIER:
-                value = observed.multipliers[k, column]
-            else:
-                value = observed.rows[k, sizes.m + column]
-            values[to + k] = value
-        for k in range(count, n_times):
-            values[to + k] = math.nan
-
-
-def summarise(code: int, state: Any, row: Any) -> None:
-    """Write the summary of a run, in the order of `symgen.run.layout.ensemble_abi.SUMMARY`."""
-    w, clock, gauges, control, passages = state.w, state.clock, state.gauges, state.control, state.passages
-    narrowest, where = math.nan, math.nan
-    for k in range(min(control[abi.PASSAGES], _MAX_PASSAGES)):
-        pivot = passages[k * _N_PASSAGE + abi.PASSAGE_PIVOT]
-        if not narrowest <= pivot:
-            narrowest, where = pivot, passages[k * _N_PASSAGE + abi.PASSAGE_IN]
-    at = e.CODE
-    for number in (
-        float(code),
-        clock[abi.TIME],
-        float(control[abi.OUTPUTS]),
-        float(control[abi.STEPS]),
-        float(control[abi.REJECTED]),
-        float(control[abi.EVALUATIONS]),
-        float(iterations_in(state)),
-        float(state.iw[abi.LIGHT]),
-        gauges[abi.MAX_PHI],
-        gauges[abi.MAX_DRIFT],
-        gauges[abi.MAX_ENERGY],
-        gauges[abi.ENERGY_START],
-        gauges[abi.ENERGY_SCALE],
-        gauges[abi.MAX_ENERGY_JUMP],
-        gauges[abi.SMALLEST_PIVOT],
-        float(control[abi.PASSAGES]),
-        where,
-        narrowest,
-        w[abi.PHI],
-        w[abi.DRIFT],
-        w[abi.LENGTH],
-        w[abi.SPEED],
-    ):
-        row[at] = number
-        at += 1
-
-
-@called
-def follow_rows(chunk: Any, state: Any, w: Any) -> int:
-    """Choose independent rows at the position of `w`; return 1 where they have changed."""
-    if chunk.dense.shape[0] == 0:
-        return 0
-    return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
-
-
 def take_row(system: Any, r: int) -> None:
     """Do nothing: no row has seams."""
-
-
-def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
-    """Do nothing: the same parameters hold at all outputs of a run without seams."""
-
-
-def observe_outputs(
-    count: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any
-) -> None:
-    """Write the requested quantities of a run with so many outputs; parameters otherwise as for `end_run`."""
-    sizes, rates, confirm, accept, observe = model
-    law, nw = (sizes, rates, confirm, accept), state.w.shape[0]
-    if chunk.rates == 1:
-        for i in range(state.iw.shape[0]):
-            state.iw[i] = 0
-    scratch, outputs, observed = part(chunk.ws, r * nw, nw), series.outputs, series.observed
-    follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
-    for k in range(count if chunk.rates == 1 or chunk.joints == 1 else 0):
-        hold(system, span, chunk, r, state, outputs.times, k)
-        here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
-        single = Observed(observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1])
-        if chunk.rates == 1:
-            observe_rates(law, here, 1, state.p, scratch, state.iw, single, state.room)
-            if follows and follow_rows(chunk, state, scratch) != 0:  # the independent rows depend on the position
-                observe_rates(law, here, 1, state.p, scratch, state.iw, single, state.room)
-        if chunk.joints == 1:
-            observe_rows(observe, sizes, here, 1, state.p, state.w, single, state.room)
-    length = (chunk.picks.shape[0] // 2) * series.outputs.times.shape[0]
-    values = part(chunk.values, r * length, length)
-    pick(sizes, chunk.picks, series, count, state.gauges[abi.ENERGY_START], values)
-    if chunk.rates == 1 or chunk.joints == 1:
-        # loops take the padding behind a state for zeros; observed values may even be nan
-        for i in range(2 * sizes.ny + series.observed.rows.shape[1]):
-            state.room[i] = 0.0
-
-
-def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
-    """Write the results of a run.
-
-    Parameters
-    ----------
-    code, r : int
-        End code of the loop, and the row.
-    system, span : tuple, Span
-        Arguments of the loop.
-    model : tuple
-        Its sizes, and the functions called at outputs.
-    chunk, state, series
-        As for `run_rows`; `state` is that of the run at its end.
-    """
-    sizes, nw, count = model[0], state.w.shape[0], state.control[abi.OUTPUTS]
-    summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
-    until = series.outputs.times[series.outputs.times.shape[0] - 1]
-    if chunk.ends == 1 and count == 0 and code == abi.DONE:  # an event has ended it
-        series.outputs.times[0] = state.clock[abi.TIME]
-        store(sizes, state.w, series.outputs, 0, state.y)
-        count = 1
-    part(chunk.ws, r * nw, nw)[abi.STEP_STATUS] = state.w[abi.STEP_STATUS]  # for laws whose gains follow the step
-    observe_outputs(count, r, system, span, model, chunk, state, series)
-    series.outputs.times[series.outputs.times.shape[0] - 1] = until
-    state.control[e.RUNS_DONE] += 1
 
 
 def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series: Any) -> int:
@@ -356,7 +201,7 @@ def integrate(*arguments: Any) -> int:
 
 
 @jit(types.int64(_F8, _A, _A, _A, _A, _A))
-def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+def observe_no_coordinate(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
     return 0
 

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.compile.native.adjoints import Accesses, accesses, correction
+from symgen.compile.native.accesses import Accesses, accesses
+from symgen.compile.native.correction import correction
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
 from symgen.run.layout import abi

@@ -86,6 +86,35 @@ class Changes:
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
 
+    def keep_first(self) -> None:
+        """Keep the parameters with which the run begins."""
+        state = self.simulation.state
+        self._first_p, self._first_seam = state.p.copy(), int(state.control[abi.PASSED])
+
+    def held(self, times: Array) -> tuple[tuple[float, Array], ...]:
+        """Return the parameters of earlier parts of the run, each with the last time at which it holds.
+
+        Parameters
+        ----------
+        times : Array
+            Of outputs; parts without outputs and events are left out.
+        """
+        simulation = self.simulation
+        happened = () if simulation.events is None else (event.t for event in simulation.events.happened)
+        marks, pieces, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
+        p, places = self._first_p.copy(), self.inputs
+        for seam in simulation.spec.seams[self._first_seam : simulation.state.control[abi.PASSED]]:
+            near = abi.RESOLVED_TIME * seam.t if simulation.spec.adaptive else simulation.same(seam.t)
+            before, count = count, int(np.searchsorted(marks, seam.t + near, side="right"))
+            if seam.values and count > before:
+                pieces.append((seam.t + near, p.copy()))
+                simulation.compiled.prepare(pieces[-1][1])
+            elif not seam.values:
+                count = before
+            for name, value in seam.values.items():
+                p[places[name]] = value
+        return tuple(pieces)
+
     def give(self, values: Mapping[str, float]) -> bool:
         """Set inputs to other values from the present state on; the scheme begins anew.
 
@@ -124,6 +153,14 @@ class Changes:
         if state.control[abi.BEGUN] == 1:
             state.control[abi.BEGUN] = abi.AFRESH
         return True
+
+    def are_defined(self) -> bool:
+        """Prepare parameters that have changed at a seam; return whether all are defined."""
+        try:
+            self.prepare()
+        except InputError:  # looped code names the formula; a run ends with one reason in both shapes
+            return False
+        return bool(np.isfinite(self.simulation.state.p).all())
 
     def set(self, p: Array) -> None:
         """Continue with other parameters from the present state.

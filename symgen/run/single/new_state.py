@@ -67,7 +67,7 @@ def share_of(sizes: Sizes, datum: Sequence[float] = ()) -> Array:
 
 
 def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
-    """Return 1 for coordinates that are lengths, else 0; see `symgen.run.layout.scales.settle` for the velocities."""
+    """Return 1 for coordinates that are lengths, else 0; velocities: `symgen.run.layout.scales.settle_scales`."""
     metric = np.zeros(2 * sizes.width)
     metric[: sizes.nq] = lengths_of(info)
     return metric
@@ -206,4 +206,15 @@ def with_memory(scheme: Any, name: str, array: NDArray[Any]) -> Any:
     if there.shape != array.shape:
         return scheme._replace(**{name: array.copy()})
     there[:] = array
+    return scheme
+
+
+def with_room(scheme: Any) -> Any:
+    """Return a scheme's record with more room for the factors of the matrix that did not fit."""
+    from symgen.run.loops.sparse import enlarged
+
+    for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
+        if hasattr(scheme, plan):
+            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
+            scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
     return scheme

@@ -144,7 +144,7 @@ def outcome_of(
         p=state.p,
         w=w,
         simulation=simulation,
-        held=simulation.held(times),
+        held=simulation.changes.held(times),
         happened=() if events is None else tuple(events.happened),
         accumulation=None if events is None else events.accumulation,
     )

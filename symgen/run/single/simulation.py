@@ -27,6 +27,7 @@ from symgen.run.single.new_state import (
     new_state,
     span_of,
     with_memory,
+    with_room,
 )
 from symgen.run.starts.assembler import row_chooser
 
@@ -111,8 +112,7 @@ class Simulation:
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
-        self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        self.iterations_before = 0
+        self.before, self.iterations_before = np.zeros(abi.N_CONTROL, dtype=np.int64), 0
         self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
@@ -125,7 +125,7 @@ class Simulation:
 
             rows = spec.events.bounded
             self.transitions = PressedTransitions(self, rows) if rows.pressed else Transitions(self, rows)
-        self._first_p, self._first_seam = self.state.p.copy(), int(self.state.control[abi.PASSED])
+        self.changes.keep_first()
 
     def set_limits(self) -> None:
         """Set the limits of this run, also after the state of another one was restored."""
@@ -152,10 +152,8 @@ class Simulation:
         """Continue from the state of another run, with the limits, outputs and inputs of this one."""
         info = self.compiled.info
         state: Any = self.state  # an `EventState` where there are events
-        names = {
-            *(SAVED_AS.get(name, name) for name in state._fields),
-            *memory_fields(self.scheme),
-        }  # older files hold further, empty arrays
+        # older files hold further, empty arrays
+        names = {*(SAVED_AS.get(name, name) for name in state._fields), *memory_fields(self.scheme)}
         arrays = {name: array for name, array in saved.items() if name in names}
         # other events, or data of another version: their sides are determined again
         anew = self.events is not None and len(arrays.get("hunt", ())) != len(state.hunt)
@@ -216,13 +214,10 @@ class Simulation:
                 code = entry(float(until), float(pause), float(most))
             ended = self._ended(code, until)
             if code == abi.MET:
-                self._store_behind(outputs)
+                now, count = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
+                store_behind(outputs, count, now, self.same(now), self.state.y, self.state.w)
             if ended is not None:
                 return ended
-
-    def _store_behind(self, outputs: Outputs) -> None:
-        now, count = self._clock[abi.TIME], self._counts[abi.OUTPUTS]
-        store_behind(outputs, count, now, self.same(now), self.state.y, self.state.w)
 
     def run(self, outputs: Outputs, stop: Callable[[], bool], steps: float) -> int:
         """Run to the end as `enter` does; call `stop` after every `steps` steps, to end as `STOPPED`."""
@@ -230,29 +225,6 @@ class Simulation:
             if stop():
                 return abi.STOPPED
         return code
-
-    def held(self, times: Array) -> tuple[tuple[float, Array], ...]:
-        """Return the parameters of earlier parts of the run, each with the last time at which it holds.
-
-        Parameters
-        ----------
-        times : Array
-            Of outputs; parts without outputs and events are left out.
-        """
-        happened = () if self.events is None else (event.t for event in self.events.happened)
-        marks, pieces, count = np.sort([*times, *happened]), list[tuple[float, Array]](), 0
-        p, places = self._first_p.copy(), self.changes.inputs
-        for seam in self.spec.seams[self._first_seam : self.state.control[abi.PASSED]]:
-            near = abi.RESOLVED_TIME * seam.t if self.spec.adaptive else self.same(seam.t)
-            before, count = count, int(np.searchsorted(marks, seam.t + near, side="right"))
-            if seam.values and count > before:
-                pieces.append((seam.t + near, p.copy()))
-                self.compiled.prepare(pieces[-1][1])
-            elif not seam.values:
-                count = before
-            for name, value in seam.values.items():
-                p[places[name]] = value
-        return tuple(pieces)
 
     def is_ahead(self, moment: float) -> bool:
         """Whether a time is far enough from the present one for a step between them."""
@@ -332,7 +304,7 @@ class Simulation:
                 code = self._meet(events)
                 return None if code == abi.DONE else code
         if code == abi.NO_ROOM:
-            self.scheme = _with_room(self.scheme)
+            self.scheme = with_room(self.scheme)
         elif code == abi.CHOOSE:
             self._choose_anew(self.state.w)  # the matrices of a scheme depend on the rows
             self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
@@ -363,11 +335,7 @@ class Simulation:
 
     def _go_on_changed(self) -> bool:
         """Prepare parameters that have changed at a seam, and choose modes; return whether all are defined."""
-        try:
-            self.changes.prepare()
-        except InputError:  # looped code names the formula; a run ends with one reason in both shapes
-            return False
-        if not np.isfinite(self.state.p).all():
+        if not self.changes.are_defined():
             return False
         if self.transitions is not None:
             if self.spec.seams[self.state.control[abi.PASSED] - 2].strikes:
@@ -430,14 +398,3 @@ class Simulation:
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:
         return row_chooser(self.compiled)
-
-
-def _with_room(scheme: Any) -> Any:
-    """Return a scheme's record with more room for the factors of the matrix that did not fit."""
-    from symgen.run.loops.sparse import enlarged
-
-    for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
-        if hasattr(scheme, plan):
-            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
-            scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
-    return scheme

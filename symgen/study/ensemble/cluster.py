@@ -21,7 +21,7 @@ from symgen.study.ensemble.recipe import Recipe, run_code_identity
 if TYPE_CHECKING:
     from distributed import Client
 
-    from symgen.study.ensemble.sweep_plan import Ensemble
+    from symgen.study.ensemble.ensemble import Ensemble
     from symgen.study.ensemble.table import RowTable
 
 #: Chunks handed out for every thread of the cluster: enough to keep it busy, few enough for its memory.

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from symgen.run.breaks.seams import Foreseen
     from symgen.run.planning.inputs import Inputs
     from symgen.study.ensemble.chunks import Rows
-    from symgen.study.ensemble.sweep_plan import Ensemble
+    from symgen.study.ensemble.ensemble import Ensemble
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import preparing, seams_of, with_table
 from symgen.run.loops.searching import decide
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
-from symgen.run.rows.rows import observe_nothing, over_rows
+from symgen.run.rows.rows import observe_no_coordinate, over_rows
 from symgen.run.single.events import event_state, forget_steps
 from symgen.run.single.new_state import model_sizes, new_outputs, new_state, span_of
 from symgen.run.starts.assembler import layout_of
@@ -166,7 +166,7 @@ class LoopRuns:
         sources = {*self.picks[::2].tolist()}
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if self.width is None else set())
         observe = model.observe if self.width is None else model.bodies
-        observe = observe if e.JOINT in sources else observe_nothing
+        observe = observe if e.JOINT in sources else observe_no_coordinate
         wants = (
             int(recipe.watch is not None and recipe.watch.ends),
             int(bool(sources & needs)),

@@ -180,7 +180,7 @@ class Measures:
         """
         from symgen.run.layout.records import Span
         from symgen.run.rows.row_measures import Left, measure_rows
-        from symgen.run.rows.rows import observe_nothing
+        from symgen.run.rows.rows import observe_no_coordinate
 
         info, runs, n_times = compiled.info, len(ps), outputs.times.shape[1]
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
@@ -191,7 +191,7 @@ class Measures:
         changing = seams, span, *preparing(compiled)
         numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
         entries = np.zeros((runs if self.joints else 0, n_times, size))
-        function = self.function if self.length else observe_nothing
+        function = self.function if self.length else observe_no_coordinate
         measure_rows((left, changing, function, compiled.model.geometry), numbers, at, entries)
         sides = [q for q in quantities if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}

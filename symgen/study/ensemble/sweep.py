@@ -25,8 +25,9 @@ from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY, RUNS_DONE
 from symgen.study.ensemble.axes import RUN_SIZE
 from symgen.study.ensemble.chunks import Chunk
+from symgen.study.ensemble.ensemble import Ensemble
 from symgen.study.ensemble.kernel import Integers, kernel_of, new_control
-from symgen.study.ensemble.sweep_plan import Ensemble, make_ensemble
+from symgen.study.ensemble.sweep_plan import make_ensemble
 from symgen.study.ensemble.sweep_study import SAVED, Sweep
 from symgen.study.ensemble.table import FolderTable, RowTable, check_folder
 
@@ -130,6 +131,19 @@ def sweep(
         raise InputError("resume", "an output that was begun", "none")
     ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], names, target)
     _check_room(ensemble, path, folder)
+    return _collected(ensemble, path, folder, resume, jobs, scheduler, progress)
+
+
+def _collected(
+    ensemble: Ensemble,
+    path: Path | None,
+    folder: Path | None,
+    resume: bool,
+    jobs: int | None,
+    scheduler: str | Client | None,
+    progress: Callable[[float, int], None] | None,
+) -> Sweep:
+    """Return the results of an ensemble, collected in a folder where there is one, and written to a file."""
     table = (
         RowTable(*ensemble.sizes)
         if folder is None

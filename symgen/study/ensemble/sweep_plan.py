@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
-import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
 
 from msgspec import structs
 from numpy.typing import ArrayLike
 
-from symgen.base.errors import InputError, counted, nearest
-from symgen.base.ir.program import LANES
+from symgen.base.errors import InputError, nearest
 from symgen.base.plugins import loaded_files
 from symgen.base.settings import Settings
 from symgen.base.vocabulary.expressions import names_in
-from symgen.describe.facts.digest import identity
 from symgen.describe.facts.kinks import discontinuities_of
 from symgen.describe.facts.lengths import datum_of
 from symgen.describe.facts.sides import sides_of
@@ -36,11 +32,11 @@ from symgen.run.planning.plan import Plan, Purpose, refuse_events
 from symgen.run.planning.prepare import make_plan
 from symgen.run.planning.tree_starts import tree_code
 from symgen.study.ensemble.axes import Grid, make_grid
-from symgen.study.ensemble.chunks import Rows, make_rows
 from symgen.study.ensemble.driving import Driving, read_by_motions
+from symgen.study.ensemble.ensemble import Ensemble
 from symgen.study.ensemble.kernel import kernel_of
 from symgen.study.ensemble.measures import first_integral, make_measures
-from symgen.study.ensemble.names import METHOD, Names, Targets, targets_of
+from symgen.study.ensemble.names import METHOD, Names, targets_of
 from symgen.study.ensemble.over_time import over_time, parted
 from symgen.study.ensemble.recipe import Code, EventPlan, Module, Recipe, run_code_identity
 from symgen.study.ensemble.row_quantities import choose_quantities
@@ -50,130 +46,9 @@ if TYPE_CHECKING:
     from symgen.derive.methods._base import Method
     from symgen.describe.mechanism import Event, Mechanism
     from symgen.result.signals import Signal
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.layout.compiled import CompiledModel
-
-#: A chunk should take about so many seconds, and its arrays no more than so many bytes.
-CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
-#: The same bound where a CUDA device runs them.
-CHUNK_BYTES_CUDA = 128e6
-#: Seconds an operation of a right-hand side takes, and evaluations in a simulated second of an adaptive run: guesses
-#: that shape nothing but the size of chunks.
-_OPERATION, _EVALUATIONS = 4e-10, 1e4
-
-
-@dataclass(frozen=True, repr=False)
-class Ensemble:
-    """Many runs of one model, fully resolved.
-
-    Attributes
-    ----------
-    model : Model
-        The model.
-    plan : Plan
-        How, resolved.
-    compiled : CompiledModel
-        Its law; compiled when it is first run.
-    grid : Grid
-        Axes of the varied quantities.
-    targets : Targets
-        Quantities that the starts of all runs hold.
-    recipe : Recipe
-        Specification of a run apart from its row.
-    driving : Driving
-        Inputs of the runs.
-    warnings : tuple of str
-        Warnings that concern all runs.
-    notes : tuple of str
-        Automatic choices with their reasons.
-    """
-
-    model: Model
-    plan: Plan
-    compiled: CompiledModel
-    grid: Grid
-    targets: Targets
-    recipe: Recipe
-    driving: Driving
-    warnings: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    def __repr__(self) -> str:
-        return f"<Ensemble of {self.model.name}: {counted(len(self), 'run')} with {self.plan.choice.method.name}>"
-
-    def __len__(self) -> int:
-        return len(self.grid)
-
-    @property
-    def target(self) -> str:
-        """Name of the target: ``cpu``, ``lanes`` or ``cuda``."""
-        return self.recipe.target
-
-    @property
-    def events(self) -> tuple[str, ...]:
-        """Names of the events that are looked for."""
-        return () if self.recipe.watch is None else tuple(x.name for x in self.recipe.watch.events)
-
-    @property
-    def sizes(self) -> tuple[int, int, int, int, int]:
-        """Runs, quantities, output times, runs in a chunk, and numbers that each run leaves of events."""
-        recipe = self.recipe
-        return len(self), len(recipe.kept), len(recipe.kept_times), self.chunk, recipe.further
-
-    @cached_property
-    def parameters(self) -> dict[str, float]:
-        """Values of all parameters, before any varies."""
-        return self.model.parameters(self.plan.settings.parameters)
-
-    @cached_property
-    def chunk(self) -> int:
-        """Runs in a chunk; it depends on nothing but the ensemble, so that another process can continue it."""
-        spec, info, law = self.recipe.spec, self.compiled.info, self.compiled.law
-        stages = self.plan.integrator.stages
-        evaluations = spec.until * _EVALUATIONS
-        if not spec.adaptive and spec.step is not None:
-            evaluations = stages * spec.until / spec.step
-        seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
-        numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
-        if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
-            return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
-        most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
-        size = int(max(1.0, min(65536.0, math.ceil(most))))
-        return size if self.target == "cpu" else LANES * math.ceil(size / LANES)
-
-    def rows(self, first: int, last: int) -> Rows:
-        """Return the values that distinguish the runs from `first` to `last` (exclusive)."""
-        return self.driving.put(self.settled(first, last), tuple(self.parameters))
-
-    def settled(self, first: int, last: int) -> Rows:
-        """Return the same without the seams of runs."""
-        varied, targets, settled = self.grid.values(first, last), self.targets, self.plan.settings.parameters
-        held = targets.names, targets.velocities, settled, targets.constant
-        rows = make_rows(self.model.mechanism, self.parameters, varied, *held)
-        options = {name.removeprefix(METHOD): x for name, x in varied.items() if name.startswith(METHOD)}
-        return replace(rows, method=options) if options else rows
-
-    @cached_property
-    def description(self) -> dict[str, Any]:
-        """Description of the computation: two ensembles with the same description give the same rows."""
-        varied = hashlib.sha256()
-        for axis in self.grid.axes:
-            for name, values in axis.values.items():
-                varied.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
-        formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
-        settled = sorted(formulas & set(self.plan.settings.parameters))  # these have numbers in place of their formulas
-        return {
-            **({"settled": settled} if settled else {}),
-            "mechanism": identity(self.model.mechanism),
-            "varied": varied.hexdigest(),
-            "parameters": self.parameters,
-            "start": {name: repr(value) for name, value in self.targets.constant.items()},
-            **({"inputs": driven} if (driven := self.driving.described) else {}),
-            "recipe": self.recipe.digest,
-            "code": self.recipe.code,
-            "runs": len(self),
-            "chunk": self.chunk,
-        }
+    from symgen.run.loops.integrator import Integrator
 
 
 def make_ensemble(
@@ -206,26 +81,10 @@ def make_ensemble(
     """
     _check_settings(settings, target)
     taken = (*settings.inputs, *settings.parameters, *settings.start)
-    size = model.mechanism.body_coordinates
-    if size > LARGEST_STRAIGHT:
-        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
-    settings = replace(settings, shape="straight")  # loops over rows are those of one mechanism
-    ends = settings.times is None and settings.output_step is None and not any(parted(x)[0] for x in quantities or ())
-    if ends:
-        end = model.mechanism.defaults.until if settings.until is None else settings.until
-        settings = replace(settings, times=(end,))
-    if target != "cpu":
-        named = settings.integrator or model.mechanism.defaults.integrator
-        explicit = EXPLICIT if named == AUTO else named or CONSTANT  # others have no loop there
-        settings = replace(settings, coordinates="absolute", integrator=explicit)
-        refuse_events(f"target '{target}'", model.mechanism, settings)
+    settings, ends = _settings_for(model.mechanism, settings, quantities, target)
     plan = make_plan(model.mechanism, settings, Purpose.ROWS)
     mechanism, spec = plan.mechanism, plan.spec
-    options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
-    names = replace(Names.of(mechanism), options=options)
-    names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
-    grid = make_grid(vary, runs, names.starts, lambda name: units_of_number(mechanism, name))
-    _check_method(plan.choice.method, grid)
+    names, grid = _varied(plan, vary, runs, taken)
     moving = read_by_motions(mechanism, grid.names)
     if not moving:  # before anything is derived; where it depends on what varies, rows fail one by one
         refuse_jumps(mechanism, plan.parameters, spec.until)
@@ -245,38 +104,17 @@ def make_ensemble(
     if target != "cpu":
         inputs, passed = replace(driving, foreseen=None).jumps, looks or driving.jumps
         _check_target(target, inputs, examined, passed, bool(events))
-    name = plan.integrator.name
-    if target not in plan.integrator.row_targets:
-        others = ", ".join(other for other, kind in INTEGRATORS.items() if target in kind.row_targets)
-        expected = "one with a loop over many runs" + f" on target '{target}'" * (target != "cpu")
-        raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
-    if target == "lanes" and spec.adaptive:  # runs side by side take the same steps
-        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
-        raise InputError("target 'lanes'", "a constant step", got, hint)
+    _check_loop(target, plan.integrator, spec.adaptive)
     parts, choose = [*map(parted, kept_names or ())], partial(choose_quantities, mechanism, compiled.info)
     kept = choose(None if kept_names is None else [name for _, name in parts])
     over = over_time(parts, kept, choose)
-    integral = first_integral(mechanism, kept)
-    if integral is not None and target != "cpu":
-        expected = "quantities without integral(...), which are added up by cpu alone"
-        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
+    sums = _has_integrals(mechanism, kept, target)
     watch = EventPlan(mechanism, events, ends) if joint or events or looks or mechanism.bounded else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = integral is not None or (
-        (watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled)
-    )
-
-    def with_sums(law: CompiledModel) -> CompiledModel:
-        return with_integrals(mechanism, law) if adds else law
-
-    compiled, spare = with_sums(compiled), None
-    pressed = any(row.pressed for row in mechanism.bounded)  # for which there is one solver
-    if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
-        choice = plan.choice.with_options(solver="augmented")
-        other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
-        spare = _code(mechanism, choice, other, where, joint, kept)
+    adds = sums or ((watch is not None or (driving.jumps and spec.adaptive)) and can_integrate(compiled))
+    compiled, first, spare = _codes(plan, compiled, adds, target, kept)
     recipe = Recipe(
-        first=_code(mechanism, plan.choice, compiled, target, joint, kept),
+        first=first,
         spare=spare,
         integrator=plan.integrator.name,
         spec=spec,
@@ -298,17 +136,80 @@ def make_ensemble(
         _ = kernel_of(recipe).first
     model = replace(model, mechanism=mechanism)
     warnings = *plan.warnings, *_missed(plan, passed_times, grid)
-    return Ensemble(
-        model,
-        plan,
-        compiled,
-        grid,
-        targets,
-        recipe,
-        driving,
-        warnings,
-        (*plan.notes, *plan.bound),
-    )
+    notes = *plan.notes, *plan.bound
+    return Ensemble(model, plan, compiled, grid, targets, recipe, driving, warnings, notes)
+
+
+def _settings_for(
+    mechanism: Mechanism, settings: Settings, quantities: Sequence[str] | None, target: str
+) -> tuple[Settings, bool]:
+    """Return the settings of runs on a target, and whether only the end of each is kept."""
+    size = mechanism.body_coordinates
+    if size > LARGEST_STRAIGHT:
+        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", f"{size} coordinates")
+    settings = replace(settings, shape="straight")  # loops over rows are those of one mechanism
+    ends = settings.times is None and settings.output_step is None and not any(parted(x)[0] for x in quantities or ())
+    if ends:
+        end = mechanism.defaults.until if settings.until is None else settings.until
+        settings = replace(settings, times=(end,))
+    if target != "cpu":
+        named = settings.integrator or mechanism.defaults.integrator
+        explicit = EXPLICIT if named == AUTO else named or CONSTANT  # others have no loop there
+        settings = replace(settings, coordinates="absolute", integrator=explicit)
+        refuse_events(f"target '{target}'", mechanism, settings)
+    return settings, ends
+
+
+def _varied(
+    plan: Plan, vary: Mapping[str, ArrayLike | str], runs: Mapping[str, ArrayLike | str], taken: Sequence[str]
+) -> tuple[Names, Grid]:
+    """Return the names of what may vary, and the grid of what does, where `taken` numbers are set already."""
+    mechanism = plan.mechanism
+    options = tuple(METHOD + parameter.name for parameter in plan.choice.method.parameters)
+    names = replace(Names.of(mechanism), options=options)
+    names.check((*vary, *runs), (*taken, *(METHOD + name for name in plan.method_parameters)))
+    grid = make_grid(vary, runs, names.starts, lambda name: units_of_number(mechanism, name))
+    _check_method(plan.choice.method, grid)
+    return names, grid
+
+
+def _has_integrals(mechanism: Mechanism, kept: Sequence[Signal], target: str) -> bool:
+    """Return whether a quantity is integrated over time; refuse that on targets that add nothing up."""
+    integral = first_integral(mechanism, kept)
+    if integral is not None and target != "cpu":
+        expected = "quantities without integral(...), which are added up by cpu alone"
+        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave `target` out, or name others")
+    return integral is not None
+
+
+def _check_loop(target: str, integrator: Integrator, adaptive: bool) -> None:
+    """Refuse an integrator without a loop over many runs on a target."""
+    name = integrator.name
+    if target not in integrator.row_targets:
+        others = ", ".join(other for other, kind in INTEGRATORS.items() if target in kind.row_targets)
+        expected = "one with a loop over many runs" + f" on target '{target}'" * (target != "cpu")
+        raise InputError(f"integrator '{name}'", expected, "one without", f"{others} have one")
+    if target == "lanes" and adaptive:  # runs side by side take the same steps
+        got, hint = f"'{name}' with adaptive steps", "integrator.adaptive=false with `step`, or rk4"
+        raise InputError("target 'lanes'", "a constant step", got, hint)
+
+
+def _codes(
+    plan: Plan, compiled: CompiledModel, adds: bool, target: str, kept: Sequence[Signal]
+) -> tuple[CompiledModel, Code, Code | None]:
+    """Return the law, with sums where `adds` is set, and the code of runs: of most, and of those with light bodies."""
+    mechanism, joint = plan.mechanism, plan.coordinates == "joint"
+
+    def with_sums(law: CompiledModel) -> CompiledModel:
+        return with_integrals(mechanism, law) if adds else law
+
+    compiled, spare = with_sums(compiled), None
+    pressed = any(row.pressed for row in mechanism.bounded)  # for which there is one solver
+    if plan.solver_is_free and not pressed:  # the few runs with light bodies are not worth lanes of their own
+        choice = plan.choice.with_options(solver="augmented")
+        other, where = with_sums(compile_model(mechanism, choice)), "cpu" if target == "lanes" else target
+        spare = _code(mechanism, choice, other, where, joint, kept)
+    return compiled, _code(mechanism, plan.choice, compiled, target, joint, kept), spare
 
 
 def _code(

@@ -29,14 +29,7 @@ from symgen.run.layout.ensemble_abi import ASSEMBLED
 from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.lines import table_lines
 from symgen.study.ensemble.names import Names
-from symgen.study.ensemble.row_quantities import (
-    NUMBERS,
-    event_columns,
-    of_dimension,
-    of_number,
-    of_quantities,
-    of_varied,
-)
+from symgen.study.ensemble.row_quantities import NUMBERS, event_columns
 from symgen.study.ensemble.samples import contributions
 from symgen.study.ensemble.verdicts import NOT_RUN, judge_all, summary_column, warnings_all
 
@@ -44,12 +37,10 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.study.ensemble.ensemble import Ensemble
     from symgen.study.ensemble.row_sensitivities import RowSensitivities
-    from symgen.study.ensemble.samples import contributions
-from symgen.study.ensemble.sweep_plan import Ensemble
 
 Array = NDArray[np.float64]
-
 
 #: Endings of files -> the libraries needed.
 SAVED: Mapping[str, tuple[str, ...]] = {".nc": ("xarray", "h5netcdf", "h5py"), ".csv": ()}
@@ -245,36 +236,9 @@ class Sweep:
         InputError
             If xarray is not installed; says how to install it.
         """
-        need("to_xarray", "xarray")
-        import xarray as xr
+        from symgen.study.ensemble.sweep_dataset import sweep_dataset
 
-        ensemble = self.ensemble
-        shape, dimensions = ensemble.grid.shape, tuple(map(of_dimension, ensemble.grid.axes))
-        quantities = ensemble.recipe.kept
-        variables: dict[str, Any] = {
-            label: ((*dimensions, "time"), self[q.name], {"units": q.unit})
-            for label, q in zip(
-                of_quantities([q.name for q in quantities], ensemble.grid.axes), quantities, strict=True
-            )
-        }
-        variables["status"] = (dimensions, self.status.reshape(shape))
-        variables["reason"] = (dimensions, self.reason.reshape(shape))
-        words = np.array(["; ".join(sentences) for sentences in self.warnings], dtype=object)
-        variables["warnings"] = (dimensions, words.reshape(shape))
-        for name, (unit, counts) in NUMBERS.items():
-            numbers = summary_column(self.summary, name).reshape(shape)
-            variables[of_number(name)] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
-        for name, (_, unit) in self.events.items():
-            variables[name] = (dimensions, self[name], {"units": unit})
-        units = self.units()
-        coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.kept_times, {"units": "s"})}
-        for axis, dimension in zip(ensemble.grid.axes, dimensions, strict=True):
-            for name, values in axis.values.items():
-                coordinates[of_varied(name, axis)] = (dimension, values, {"units": units.get(name) or "1"})
-            if axis.together:
-                coordinates["run"] = ("run", np.arange(len(axis)))
-        attributes = {key: "none" if value is None else value for key, value in self.attributes.items()}
-        return xr.Dataset(variables, coordinates, attributes)
+        return sweep_dataset(self)
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the data set to a NetCDF file (``.nc``), or a CSV file with a line for every run and time.

@@ -10,7 +10,7 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError, SimulationError
-from symgen.describe.files.load import load
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.mechanism import Mechanism
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ def closed_form(mechanism: Mechanism) -> Formula | None:
     if formula is None:
         return None
     try:
-        entry = load(f"n-four-bar:{size}" if size else family)
+        entry = load_mechanism(f"n-four-bar:{size}" if size else family)
     except InputError:
         return None
     # another mechanism may have the same name

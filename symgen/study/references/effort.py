@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from symgen.derive.lower.looped.law import is_loopable
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling.choices import straight_seconds
-from symgen.run.compiling.pipeline import choose_method
+from symgen.run.compiling.method_choice import choose_method
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.automatic import AUTO, constant_integrator
 
@@ -29,6 +29,9 @@ QUICK_BUDGET = 500_000
 #: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many; a quick study counts
 #: fewer, as its budget is near what some runs need.
 BOUNDED, QUICK_BOUNDED = 20, 5
+#: A quick study ends a run of constant explicit steps with rows with bounds after so many times the evaluations that it
+#: takes without changes of modes: those that follow a motion need up to twice as many.
+EVENTFUL = 5.0
 #: A search for a limit takes some ten runs, each by explicit steps within this part of the budget of a run alone.
 SEARCHED = 2
 #: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
@@ -66,10 +69,18 @@ def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: b
     """Return the evaluation limit of a run, or of one of the many of a search; less in a quick study."""
     if is_implicit(plan):
         return implicit_budget(mechanism)
-    most = explicit_limits(quick)[plan.spec.adaptive]
-    if mechanism.bounded:
-        most //= QUICK_BOUNDED if quick else BOUNDED
-    return explicit_budget(mechanism, most // (SEARCHED if searched and not quick else 1))
+    most = explicit_limits(quick)[plan.spec.adaptive] // (SEARCHED if searched else 1)
+    if not mechanism.bounded:
+        return explicit_budget(mechanism, most)
+    budget = explicit_budget(mechanism, most // (QUICK_BOUNDED if quick else BOUNDED))
+    if quick and not plan.spec.adaptive and "ode" in plan.integrator.forms:
+        return min(budget, int(EVENTFUL * predicted(plan, 0.0)))
+    return budget
+
+
+def smallest_step(plan: Plan, budget: int) -> float:
+    """Return the smallest constant step of a run within a budget [s]."""
+    return predicted(plan, 0.0) * (plan.spec.step or 0.0) / budget
 
 
 def further_budget(budget: int, used: int, quick: bool = False, done: float = 1.0) -> int:

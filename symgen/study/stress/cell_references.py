@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import AssemblyError, InputError, SimulationError
 from symgen.base.settings import Settings
 from symgen.describe.facts.digest import digest
-from symgen.describe.files.load import load as load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points

@@ -24,7 +24,8 @@ from symgen.result.points import Points
 from symgen.result.reruns.verification import verified
 from symgen.result.result import INTERRUPTED
 from symgen.run.compiling.choices import choose_coordinates
-from symgen.run.compiling.pipeline import for_coordinates, straight_alone
+from symgen.run.compiling.method_choice import for_coordinates
+from symgen.run.compiling.pipeline import straight_alone
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.layout import abi
 from symgen.run.loops.integrator import adapts
@@ -34,7 +35,7 @@ from symgen.run.planning.prepare import preparation
 from symgen.run.single.outcome import Outcome
 from symgen.run.starts.assembler import many_starts
 from symgen.study.limits import UNWATCHED, WATCHES, unlimited
-from symgen.study.references.effort import budget_of, further_budget, predicted
+from symgen.study.references.effort import budget_of, further_budget, predicted, smallest_step
 from symgen.study.stress import cell_outcome as judged
 from symgen.study.stress import kept
 from symgen.study.stress.bench import Level
@@ -100,21 +101,26 @@ def _not_run(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
     return {**words, **numbers, "evaluations": evaluations}
 
 
-def _run(task: RunTask, searched: bool = False) -> Fields:
-    """Return the fields of a row that depend on the run; without a reference nothing is run."""
-    level, method, integrator, motion = task.level, task.method, task.integrator, task.reference
-    mechanism = level.mechanism
-    settings = replace(
+def _settings_of(task: RunTask) -> Settings:
+    """Return the settings of a run."""
+    level = task.level
+    return replace(
         task.common,
-        method=method,
-        integrator=integrator,
-        step=None if _is_adaptive(integrator, level.options) else level.step,
+        method=task.method,
+        integrator=task.integrator,
+        step=None if _is_adaptive(task.integrator, level.options) else level.step,
         until=level.until,
         times=times_of(level),
-        parameters={**level.parameters, **motion.get("parameters", {})},
+        parameters={**level.parameters, **task.reference.get("parameters", {})},
         options=level.options,
         **({} if level.watched else UNWATCHED),
     )
+
+
+def _run(task: RunTask, searched: bool = False) -> Fields:
+    """Return the fields of a row that depend on the run; without a reference nothing is run."""
+    level, method, motion = task.level, task.method, task.reference
+    mechanism, settings = level.mechanism, _settings_of(task)
     try:
         ready = preparation(mechanism, _shaped(mechanism, settings))
         plan = ready.plan
@@ -225,24 +231,36 @@ def _limit(task: LimitTask) -> Fields:
     """Find the largest step that follows the motion at all, and the largest one that is accurate."""
     if without_reference(task.reference) is not None:
         return {"stable_step": None, "accurate_step": None}
-    ran, slow = dict[float, tuple[bool, bool]](), 0.0
+    options = {**task.level.options, **_constant(task)}
 
-    def attempt(step: float) -> tuple[bool, bool]:
+    def with_step(step: float) -> RunTask:
+        level = replace(task.level, step=step, watched=False, options=options)
+        return RunTask(level, task.method, task.integrator, task.reference, task.common, task.quick)
+
+    slow, length = 0.0, task.reference["length"]
+
+    def error(step: float) -> float:
+        """Return the error of a run over the length; infinite where the run does not come to its end."""
         nonlocal slow
         if step <= slow:  # smaller steps take more evaluations than one that takes too many
-            return False, False
-        if step not in ran:
-            level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            one = RunTask(level, task.method, task.integrator, task.reference, task.common, task.quick)
-            fields = _run(one, searched=True)
-            slow = step if fields["outcome"] == judged.TOO_SLOW else slow
-            length = task.reference["length"]
-            error = fields["error"] if fields["error"] is not None and not fields["note"] else math.inf
-            ran[step] = error <= judged.LOST * length, error <= judged.ACCURATE * length
-        return ran[step]
+            return math.inf
+        fields = _run(with_step(step), searched=True)
+        slow = step if fields["outcome"] == judged.TOO_SLOW else slow
+        return math.inf if fields["error"] is None or fields["note"] else float(fields["error"] / length)
 
-    stable, accurate = largest_steps(attempt, task.level.step, task.level.until, _boundary(task), task.halvings)
-    return {"stable_step": stable, "accurate_step": accurate}
+    first = task.level.step
+    limits, smallest = (judged.LOST, judged.ACCURATE), _smallest(with_step(first))
+    found = largest_steps(error, first, task.level.until, _boundary(task), limits, task.halvings, smallest)
+    return dict(zip(("stable_step", "accurate_step"), found, strict=True))
+
+
+def _smallest(task: RunTask) -> float:
+    """Return the smallest step within the budget of a search [s]; 0 where the pair is refused."""
+    try:
+        plan = preparation(task.level.mechanism, _shaped(task.level.mechanism, _settings_of(task))).plan
+    except (InputError, AssemblyError):
+        return 0.0
+    return smallest_step(plan, budget_of(plan, task.level.mechanism, True, task.quick))
 
 
 def _constant(task: LimitTask) -> dict[str, str]:

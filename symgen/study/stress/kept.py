@@ -12,7 +12,7 @@ from symgen.run.planning.starts import compiled_for
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.run.compiling.pipeline import MethodChoice
+    from symgen.run.compiling.method_choice import MethodChoice
     from symgen.run.layout.compiled import CompiledModel
     from symgen.run.planning.prepare import Assembled
 

@@ -1,146 +1,175 @@
-"""The search for the largest step: a scan and a bisection, or from where theory expects it.
+"""The search for the largest step: by the errors of steps tried, from the mechanism's own or where theory expects it.
 
-All numbers tried are those of one grid, ``first * SCAN**(i / 2**halvings)``, as a scan by `SCAN` followed by bisections
-of the logarithm visits it, so that both ways end at the same number. Steps beyond the limit of a stiff motion end at
-once, steps below it take all their time: the fewer of these, the shorter the search.
+All steps tried are those of one grid, ``first * SCAN**(i / 2**halvings)``, so that every way to a limit ends at the
+same step. A run takes the longer the smaller its step, and one beyond the limit of a stiff motion ends at once. Where
+the motion is followed, errors go with a power of the step: two of them tell where a limit is, so that few steps near it
+are tried and none far below.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 #: Factor of the scan, and how far it goes down from the first step.
 SCAN, SMALLEST = 4.0, 4096.0
-#: Halvings after the scan: to 1.1 percent, and to 9 percent in a quick study.
+#: Scans above the mechanism's own step, where a search begins: such runs are short.
+ABOVE = 2
+#: Halvings of the scan's factor: to 1.1 percent, and to 9 percent in a quick study.
 HALVINGS, QUICK_HALVINGS = 7, 4
+#: Errors beyond this multiple of the largest limit follow no power of the step.
+SATURATED = 10.0
+#: Power of the step that errors follow, where one of them is known.
+ORDER = 2.0
+#: Of so many steps tried between two one is in the middle, however errors grow.
+MIDDLE = 3
 
-#: Whether a condition holds for a number.
-Condition = Callable[[float], bool]
+#: Error of a step; infinite where the run fails.
+Error = Callable[[float], float]
 
 
 def largest_steps(
-    attempt: Callable[[float], tuple[bool, bool]], first: float, top: float, expected: float, halvings: int = HALVINGS
-) -> tuple[float | None, float | None]:
-    """Return the largest step that is stable, and the largest one that is accurate.
+    error: Error,
+    first: float,
+    top: float,
+    expected: float,
+    limits: Sequence[float],
+    halvings: int = HALVINGS,
+    smallest: float = 0.0,
+) -> list[float | None]:
+    """Return the largest steps whose errors are within limits.
 
     Parameters
     ----------
-    attempt : callable
-        Step -> whether it is stable, and whether it is accurate.
+    error : callable
+        Step -> error; no step is tried twice.
     first, top : float
-        First and largest step [s].
+        The mechanism's own step, of which the grid has multiples, and the largest one [s].
     expected : float
-        Where the largest stable step is expected [s]; it counts where it is below `first`.
+        Where the largest step that follows the motion is expected [s]; it counts where it is below `first`.
+    limits : sequence of float
+        Largest errors, decreasing.
     halvings : int
         Of the logarithm of `SCAN`.
-    """
-    limits = list[float | None]()
-    for which in range(2):
-
-        def holds(step: float, which: int = which) -> bool:
-            return attempt(step)[which]
-
-        found = largest_near(holds, first, top, expected, halvings) if expected < first else None
-        if found is None:
-            expected, found = math.inf, largest_number(holds, first, top, halvings)
-        else:
-            expected = found  # what limits stability limits accuracy as well
-        limits.append(found)
-    stable, accurate = limits
-    if stable is not None and accurate is not None:
-        stable = max(stable, accurate)  # what is accurate follows the motion, also beyond a step that does not
-    return stable, accurate
-
-
-def largest_number(holds: Condition, first: float, top: float, halvings: int = HALVINGS) -> float | None:
-    """Return the largest number below which a condition holds, by a scan upwards and bisection of its logarithm.
-
-    Parameters
-    ----------
-    holds : callable
-        The condition; it need not be monotone: the result is its first failure on the way up.
-    first : float
-        First number; smaller ones are tried where the condition does not hold.
-    top : float
-        Largest number tried.
-    halvings : int
-        Of the logarithm of `SCAN`.
+    smallest : float
+        No smaller step is tried [s].
 
     Returns
     -------
-    float or None
-        Exact within 1.1 percent by 7 halvings; `top` where it holds everywhere; None where it does not even hold at
-        ``first / SMALLEST``.
+    list of (float or None)
+        In the order of `limits`: a step of the grid whose successor is beyond the limit; `top` where all tried are
+        within; None where not even ``first / SMALLEST``, or the smallest, is.
     """
-    low, floor = first, first / SMALLEST
-    while not holds(low):
-        low /= SCAN
-        if low < floor * (1.0 - 1e-9):
-            return None
-    high = low
-    while True:
-        high = min(high * SCAN, top)
-        if not holds(high):
-            break
-        if high >= top:
-            return top
-        low = high
-    for _ in range(halvings):
-        middle = math.sqrt(low * high)
-        if holds(middle):
-            low = middle
-        else:
-            high = middle
-    return low
+    grid = Grid(error, first, top, halvings, SATURATED * max(limits), smallest)
+    start = grid.start(expected)
+    found = [grid.largest(limit, start) for limit in limits]
+    # what is within a smaller limit is within a larger one, also beyond a step that is not
+    return [max((step for step in found[i:] if step is not None), default=None) for i in range(len(found))]
 
 
-def largest_near(holds: Condition, first: float, top: float, expected: float, halvings: int = HALVINGS) -> float | None:
-    """Return a number of the grid at which a condition holds, and at whose successor it does not.
+class Grid:
+    """Errors of the steps of a grid.
 
     Parameters
     ----------
-    holds, first, top, halvings
-        As for `largest_number`, which returns the same where the condition is monotone.
-    expected : float
-        The search goes away from here, ever faster, until the condition changes.
-
-    Returns
-    -------
-    float or None
-        None where the condition does not change on the grid.
+    error, first, top, halvings, smallest
+        As for `largest_steps`.
+    saturated : float
+        Error from which on nothing follows for other steps.
     """
-    at, jump = round(math.log(expected / first, SCAN) * 2**halvings), 1
-    ends = round(-math.log(SMALLEST, SCAN)) * 2**halvings, math.log(top / first, SCAN) * 2**halvings
-    if not ends[0] <= at <= ends[1]:
-        return None
-    upwards = holds(grid(first, at, halvings))
-    while True:
-        other = at + jump if upwards else at - jump
-        if not ends[0] <= other <= ends[1]:
+
+    def __init__(
+        self, error: Error, first: float, top: float, halvings: int, saturated: float, smallest: float = 0.0
+    ) -> None:
+        self._error, self._first, self._top, self._saturated = error, first, top, saturated
+        self._scan = 1 << halvings
+        #: Place of the largest step, which need not be a power.
+        self._last = math.ceil(math.log(top / first, SCAN) * self._scan - 1e-9)
+        # a step of the smallest size itself rounds to either side
+        least = max(smallest * (1.0 + 1e-9), first / SMALLEST)
+        self._lowest = min(math.ceil(math.log(least / first, SCAN) * self._scan - 1e-9), self._last)
+        self._tried = dict[int, float]()
+
+    def start(self, expected: float) -> int:
+        """Return the place next to a step below the first; some scans above the first where there is none."""
+        if 0.0 < expected < self._first:
+            at = round(math.log(expected / self._first, SCAN) * self._scan)
+            if at >= self._lowest:
+                return at
+        return max(self._lowest, min(ABOVE * self._scan, self._last))
+
+    def step(self, at: int) -> float:
+        """Return a step of the grid, by the roots that a bisection takes: the same to the last digit."""
+        if at == self._last:
+            return self._top
+        scans, within = divmod(at, self._scan)
+        low: float = self._first * SCAN**scans
+        high, size = low * SCAN, self._scan
+        while within:
+            middle, size = math.sqrt(low * high), size // 2
+            if within >= size:
+                low, within = middle, within - size
+            else:
+                high = middle
+        return low
+
+    def error(self, at: int) -> float:
+        """Return the error of a step."""
+        if at not in self._tried:
+            self._tried[at] = self._error(self.step(at))
+        return self._tried[at]
+
+    def largest(self, limit: float, start: int) -> float | None:
+        """Return the largest step within a limit; what was tried for another limit is not tried again."""
+        within = self.error(start) <= limit
+        low, high = self._upwards(limit, start) if within else self._downwards(limit, start)
+        if low == high:
+            return self._top if within else None
+        tries = 0
+        while high - low > 1:
+            tries += 1
+            middle = (low + high) // 2 if tries % MIDDLE == 0 else self._between(low, high, limit)
+            low, high = (middle, high) if self.error(middle) <= limit else (low, middle)
+        return self.step(low)
+
+    def _upwards(self, limit: float, low: int) -> tuple[int, int]:
+        """Return a place within the limit and one beyond it; the last one twice where that is within."""
+        jump = 1 if low < 0 else self._scan  # near the expected step it is small, and doubled each time
+        while low != self._last:
+            high = min((i for i in self._tried if i > low), default=min(low + jump, self._last))
+            if self.error(high) > limit:
+                return low, high
+            low, jump = high, min(2 * jump, self._scan)
+        return low, low
+
+    def _downwards(self, limit: float, high: int) -> tuple[int, int]:
+        """Return a place within the limit and one beyond it; the lowest one twice where that is beyond."""
+        near, least = high < 0, 1
+        while high != self._lowest:
+            by_errors = self._fall(high, limit)
+            fall = max(by_errors, least) if by_errors is not None else least if near else self._scan
+            low = max((i for i in self._tried if i < high), default=max(high - fall, self._lowest))
+            if self.error(low) <= limit:
+                return low, high
+            least = min(2 * least, self._scan) if near or by_errors is not None else 1
+            high = low
+        return high, high
+
+    def _fall(self, at: int, limit: float) -> int | None:
+        """Return how far below a place the limit is kept by its error; None where the error tells nothing."""
+        error = self.error(at)
+        if not error < self._saturated:
             return None
-        if holds(grid(first, other, halvings)) is not upwards:
-            break
-        at, jump = other, 2 * jump
-    low, high = (at, other) if upwards else (other, at)
-    while high - low > 1:
-        middle = (low + high) // 2
-        if holds(grid(first, middle, halvings)):
-            low = middle
-        else:
-            high = middle
-    return grid(first, low, halvings)
+        power = ORDER * math.log(SCAN) / self._scan
+        above = min((i for i in self._tried if i > at), default=None)
+        if above is not None and error < self.error(above) < self._saturated:
+            power = math.log(self.error(above) / error) / (above - at)
+        return min(self._scan, math.ceil(math.log(error / limit) / power))
 
-
-def grid(first: float, index: int, halvings: int) -> float:
-    """Return a number of the grid, by the roots that a bisection takes: the same to the last digit."""
-    scans, within = divmod(index, 2**halvings)
-    low: float = first * SCAN**scans
-    high, size = low * SCAN, 2**halvings
-    while within:
-        middle, size = math.sqrt(low * high), size // 2
-        if within >= size:
-            low, within = middle, within - size
-        else:
-            high = middle
-    return low
+    def _between(self, low: int, high: int, limit: float) -> int:
+        """Return where the limit is by the errors on either side, the middle where they tell nothing."""
+        below, beyond = self.error(low), self.error(high)
+        if not 0.0 < below <= beyond < self._saturated:
+            return (low + high) // 2
+        share = math.log(limit / below) / math.log(beyond / below)
+        return min(max(low + math.floor(share * (high - low)), low + 1), high - 1)

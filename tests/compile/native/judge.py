@@ -16,7 +16,8 @@ from symgen.base.ir.program import LANES
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
+from symgen.run.compiling.pipeline import generate
 
 from .twofold import ARRAY, NUMBER, arguments_of, differences, load_twice, own_functions
 

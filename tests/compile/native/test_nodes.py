@@ -13,7 +13,8 @@ from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.types import NODES
 from symgen.compile.store.emitted import NodesFunction
 from symgen.compile.store.modules import load_module
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.compiling.side import with_integrals
 from symgen.run.layout.right_hand_side import at_nodes
 

@@ -13,7 +13,8 @@ from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.tangents import tangent_module
 from symgen.compile.store.emitted import EmittedFunction, TangentFunction
 from symgen.compile.store.modules import load_module
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 
 from .exactly import derivative
 from .test_operations import HEAD, HUMP, SECOND, TABLE, printed, programs

@@ -9,7 +9,8 @@ from symgen.derive.formulate import formulate as stage
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
 from symgen.run.compiling import pipeline
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 
 
 def choices():

@@ -8,7 +8,8 @@ import pytest
 from symgen.api import load
 from symgen.compile.store.entries import Entries
 from symgen.compile.store.paths import ENVIRONMENT_VARIABLE
-from symgen.run.compiling.pipeline import choose_method, compile_model, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model, generate
 
 #: Stems of modules that hold parts of laws.
 PART = re.compile(r"[a-z]\w*_[0-9a-f]{16}(_cuda)?", re.ASCII)

@@ -14,7 +14,8 @@ from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.law import lower_law
 from symgen.derive.lower.model import lower_model
 from symgen.derive.methods import METHODS
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 
 MODELS = ("pendulum", "four-bar", "slider-crank", "driven-four-bar", "n-four-bar:2", "everything", "rough")
 OWN = {"everything": EVERYTHING, "rough": ROUGH}

@@ -25,7 +25,8 @@ from symgen.derive.emit.printer import table_name
 from symgen.derive.methods._base import MethodOption, MethodParameter, MultiplierMethod
 from symgen.describe.files.section_names import SECTIONS
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.pipeline import MethodChoice, choose_method, generate
+from symgen.run.compiling.method_choice import MethodChoice, choose_method
+from symgen.run.compiling.pipeline import generate
 
 EXPLICIT, IMPLICIT = choose_method("direct-correction"), choose_method("lagrange", None, True)
 #: What is emitted: shape and target, with the methods they have.

@@ -492,11 +492,9 @@ def test_a_rotor_on_a_slide_is_mass_along_it(coordinates):
     assert result.outputs["force"][-1] == pytest.approx(6.0 * (1.5 + 0.02 * 25.0), rel=1e-12)
 
 
-def test_rotors_need_an_angle_and_straight_code():
+def test_rotors_need_an_angle():
     raw = spatial_arm("")
     raw["joints"]["A"]["rotor_inertia"] = 0.1
     words = "joints.A.rotor_inertia: expected a joint with one angle, or one displacement alone, got a universal joint"
     with pytest.raises(InputError, match=f"{words} with 2"):
         validate(raw, "file")
-    with pytest.raises(InputError, match="shape: expected straight code where a file has rotors on joints, got looped"):
-        model(planar_arm("keys")).simulate(**TIGHT, shape="looped")

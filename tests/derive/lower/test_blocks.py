@@ -15,8 +15,8 @@ import symgen
 from derive.lower.test_rank import SCHUR, equations_of, laid_out
 from symgen.base.ir.program import EliminationPlan, FixedVelocities
 from symgen.derive.formulate.formulate import formulate
-from symgen.derive.lower.blocks import fixed_velocities
 from symgen.derive.lower.closing import closed_loops, loop_pairs
+from symgen.derive.lower.fixed_velocities import fixed_velocities
 from symgen.derive.lower.plans import cheapest_plan
 from symgen.derive.lower.scalar import ScalarNodes
 from symgen.derive.methods._base import multiplier_law

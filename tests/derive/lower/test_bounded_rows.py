@@ -13,7 +13,7 @@ from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.closing import law_at_start
-from symgen.run.compiling.pipeline import choose_method
+from symgen.run.compiling.method_choice import choose_method
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.planning.prepare import Prepared, prepare

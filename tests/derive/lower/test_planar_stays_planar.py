@@ -10,7 +10,8 @@ from support.twin import spatial_twin
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.model import lower_model
 from symgen.describe.catalogue import raw
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 
 SPATIAL_WORDS = re.compile(
     r"\b(e[0-3]|w[xyz]|vz|z)\b|\w_(e[0-3]|w[xyz]|vz|z)\b|normalise|\bturn\b|\bmove\b|winding|math\.floor|math\.atan2"

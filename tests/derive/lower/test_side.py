@@ -18,7 +18,7 @@ from symgen.derive.lower.looped.instances import instances
 from symgen.derive.lower.windings import winding_order
 from symgen.describe import catalogue
 from symgen.describe.formulas.parser import FormulaNames, parse
-from symgen.describe.parts.scope import Context
+from symgen.describe.parts.context import Context
 from symgen.run.compiling.side import compile_side
 from symgen.run.layout.abi import OBSERVE
 

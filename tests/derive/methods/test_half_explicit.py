@@ -8,7 +8,7 @@ from support.textbook import Textbook, first_step
 from symgen.api import load
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.methods import METHODS
-from symgen.derive.methods._formula import needed
+from symgen.derive.methods._tape import needed
 
 A = ((1 / 3,), (-1.0, 2.0), (0.0, 3 / 4, 1 / 4))
 C = (0.0, 1 / 3, 1.0, 1.0)

@@ -5,7 +5,7 @@ from support.laws_at import LawAt, described, on_rails
 
 from symgen.derive.lower.record import record_law
 from symgen.derive.methods import METHODS
-from symgen.derive.methods._formula import needed
+from symgen.derive.methods._tape import needed
 
 ALPHA = 5.0
 

@@ -17,7 +17,8 @@ from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.base.vocabulary.infos import LawInfo
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 from symgen.run.layout.compiled import ModelInfo
 from symgen.run.planning.prepare import make_plan
 

@@ -17,7 +17,8 @@ from support.space import STEP, angle_of
 from symgen.base.vocabulary.infos import LawInfo
 from symgen.describe.forces import FORCES
 from symgen.describe.joints import JOINTS
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 from symgen.run.layout.compiled import ModelInfo
 
 JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)

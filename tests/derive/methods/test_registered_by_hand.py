@@ -8,7 +8,7 @@ import pytest
 
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import MultiplierMethod
-from symgen.run.compiling.pipeline import MethodChoice
+from symgen.run.compiling.method_choice import MethodChoice
 
 
 class Mild(MultiplierMethod):

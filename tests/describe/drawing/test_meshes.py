@@ -17,7 +17,7 @@ from symgen.describe.drawing.paper import Path as Stroke
 from symgen.describe.drawing.paper import on_paper
 from symgen.describe.drawing.scene import Solid
 from symgen.describe.facts.digest import digest, identity
-from symgen.describe.files.load import load
+from symgen.describe.files.load import load_mechanism
 
 QUADS = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 CORNERS = [(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)]
@@ -51,7 +51,7 @@ def written(folder: Path, shape: str) -> Path:
 
 
 def silhouette(path: Path) -> np.ndarray:
-    scene = build_scene(load(path))
+    scene = build_scene(load_mechanism(path))
     item = on_paper(scene, np.array([0.1, 0.2, 0.3, 0.8, 0.1, -0.5, 0.3]))[0]
     points = np.vstack([part.points for part in item.parts if isinstance(part, Stroke) and len(part.points) in (3, 4)])
     corners = points[hull(points.round(9))]
@@ -62,11 +62,11 @@ def silhouette(path: Path) -> np.ndarray:
 def test_a_cube_has_the_silhouette_of_a_box(end: str, write: Any, tmp_path: Path) -> None:
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / f"cube.{end}").write_bytes(write(CUBE))
-    box = load(written(tmp_path, 'type = "box", size = [2.0, 0.4, 0.6], at = [0.1, 0.2, 0.3]'))
+    box = load_mechanism(written(tmp_path, 'type = "box", size = [2.0, 0.4, 0.6], at = [0.1, 0.2, 0.3]'))
     wanted = silhouette(tmp_path / "m.toml")
     # the cube's x axis is the body's y axis, and its first factor mirrors it
     turn = "orientation = { rotation_vector = [0.0, 0.0, 1.5707963267948966] }, scale = [-0.4, 2.0, 0.6]"
-    mesh = load(written(tmp_path, f'type = "mesh", file = "parts/cube.{end}", at = [0.1, 0.2, 0.3], {turn}'))
+    mesh = load_mechanism(written(tmp_path, f'type = "mesh", file = "parts/cube.{end}", at = [0.1, 0.2, 0.3], {turn}'))
     assert silhouette(tmp_path / "m.toml") == pytest.approx(wanted, abs=1e-6)
     assert digest(box) == digest(mesh) and identity(box) == identity(mesh)
     solid = build_scene(mesh).items[0].marks[0]
@@ -98,7 +98,7 @@ def test_all_meshes_of_a_body_share_its_triangles(tmp_path: Path) -> None:
     one = '{ type = "mesh", file = "ball.stl" }'
     path = written(tmp_path, one[2:-2])
     path.write_text(path.read_text().replace(one, f"[{one}, {one}]"))
-    solids = [mark for mark in build_scene(load(path)).items[0].marks if isinstance(mark, Solid)]
+    solids = [mark for mark in build_scene(load_mechanism(path)).items[0].marks if isinstance(mark, Solid)]
     assert len(solids) == 2 and 500 < sum(len(solid.faces) for solid in solids) <= MOST_TRIANGLES
 
 
@@ -132,7 +132,7 @@ def test_a_file_that_is_no_mesh_is_refused(name: str, tmp_path: Path, capsys: py
 def test_an_obj_file_with_other_words_is_refused(content: bytes, tmp_path: Path) -> None:
     (tmp_path / "x.obj").write_bytes(content)
     with pytest.raises(InputError, match=r"file 'x.obj'"):
-        build_scene(load(written(tmp_path, 'type = "mesh", file = "x.obj"')))
+        build_scene(load_mechanism(written(tmp_path, 'type = "mesh", file = "x.obj"')))
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_a_path_out_of_the_folder_is_refused(file: str, tmp_path: Path) -> None:
     (tmp_path / "in").mkdir()
     (tmp_path / "x.stl").write_bytes(binary(CUBE))
     with pytest.raises(InputError, match=r"shape.file: expected a relative path .* folder of the mechanism file"):
-        load(written(tmp_path / "in", f'type = "mesh", file = "{file}"'))
+        load_mechanism(written(tmp_path / "in", f'type = "mesh", file = "{file}"'))
 
 
 def test_a_link_out_of_the_folder_is_no_file(tmp_path: Path) -> None:
@@ -150,7 +150,9 @@ def test_a_link_out_of_the_folder_is_no_file(tmp_path: Path) -> None:
     (tmp_path / "x.stl").write_bytes(binary(CUBE))
     os.symlink(tmp_path / "x.stl", tmp_path / "in" / "y.stl")
     for name in ("y.stl", "absent.stl"):
-        mechanism = load(written(tmp_path / "in", f'type = "mesh", file = "{name}"'))  # read where it is drawn
+        mechanism = load_mechanism(
+            written(tmp_path / "in", f'type = "mesh", file = "{name}"')
+        )  # read where it is drawn
         with pytest.raises(InputError, match="expected a file in the folder of the mechanism file, got none there"):
             build_scene(mechanism)
 
@@ -186,7 +188,7 @@ def test_a_robot_is_drawn_with_its_meshes(
     for where, name in ((inner, "parts/c.stl"), (tmp_path, "in/parts/c.stl"), (inner / "parts", "c.stl")):
         assert f'file = "{name}"' in text_of[where]
     assert "c.stl" not in text_of[tmp_path / "elsewhere"]
-    faces = np.array(next(m for m in build_scene(load(path)).items[0].marks if isinstance(m, Solid)).faces)
+    faces = np.array(next(m for m in build_scene(load_mechanism(path)).items[0].marks if isinstance(m, Solid)).faces)
     c, s = np.cos(1.5), np.sin(1.5)
     wanted = CUBE.reshape(-1, 3) * [2.0, -1.0, 1.0] @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
     wanted += [1.0, 0.0, 0.0]
@@ -196,8 +198,8 @@ def test_a_robot_is_drawn_with_its_meshes(
 def test_a_page_has_the_triangles_and_a_pickle_the_folder(tmp_path: Path) -> None:
     (tmp_path / "c.stl").write_bytes(binary(CUBE))
     path = written(tmp_path, 'type = "mesh", file = "c.stl"')
-    sent = pickle.loads(pickle.dumps(load(path)))
-    assert len(build_scene(sent).items[0].marks) == len(build_scene(load(path)).items[0].marks)
+    sent = pickle.loads(pickle.dumps(load_mechanism(path)))
+    assert len(build_scene(sent).items[0].marks) == len(build_scene(load_mechanism(path)).items[0].marks)
     assert main(["view", str(path), "--until", "0.1", "-o", str(tmp_path / "m.html")]) == 0
     page = (tmp_path / "m.html").read_text()
     assert page.count("[0.5,0.5,0.5") + page.count("0.5,0.5,0.5]") > 3 and str(tmp_path) not in page

@@ -12,7 +12,7 @@ from symgen.cli import main
 from symgen.describe.drawing.mechanism_scene import build_scene
 from symgen.describe.drawing.meshes import MOST_TRIANGLES
 from symgen.describe.drawing.scene import Solid
-from symgen.describe.files.load import load
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formats import Import, format_of, read_robot
 
 CORNERS = np.array([[0.1, 0.0, 0.2], [1.0, 0.1, 0.0], [0.0, 2.0, 0.3], [0.2, 0.1, 3.0]])
@@ -48,7 +48,7 @@ def reasons(path: Path) -> list[str]:
 
 
 def faces_of(path: Path, role: str = "body") -> list[np.ndarray]:
-    items = [item for item in build_scene(load(path)).items if item.role == role]
+    items = [item for item in build_scene(load_mechanism(path)).items if item.role == role]
     return [np.array(m.faces) for item in items for m in item.marks if isinstance(m, Solid)]
 
 
@@ -217,15 +217,15 @@ def test_the_ground_is_drawn_where_a_body_at_its_origin_is(tmp_path: Path) -> No
     shape = '[{ type = "box", size = [2.0, 0.4], at = [0.1, 0.2] }, { type = "sphere", radius = 0.5 }]'
     body = "[bodies.b]\nmass = 1.0\ninertia = 1.0\n"
     head = '[mechanism]\nname = "m"\n'
-    ground = build_scene(load(written(tmp_path, "a.toml", f"{head}shape = {shape}\n{body}"))).items[0]
-    own = build_scene(load(written(tmp_path, "b.toml", f"{head}{body}shape = {shape}\n"))).items[0]
+    ground = build_scene(load_mechanism(written(tmp_path, "a.toml", f"{head}shape = {shape}\n{body}"))).items[0]
+    own = build_scene(load_mechanism(written(tmp_path, "b.toml", f"{head}{body}shape = {shape}\n"))).items[0]
     assert ground.role == "ground" and {mark.body for mark in ground.marks} == {-1}
     assert [mark.points for mark in ground.marks] == [mark.points for mark in own.marks[:3]]
     with pytest.raises(InputError, match=r"mechanism.shape\[0\].size: expected 2 lengths"):
-        load(written(tmp_path, "c.toml", f"{head}shape = {shape.replace('0.4', '0.4, 1.0')}\n{body}"))
+        load_mechanism(written(tmp_path, "c.toml", f"{head}shape = {shape.replace('0.4', '0.4, 1.0')}\n{body}"))
     with pytest.raises(InputError, match=r"mechanism.shape.file: expected a relative path"):
         spatial = f'{head}space = "spatial"\nshape = {{ type = "mesh", file = "../x.stl" }}\n'
-        load(
+        load_mechanism(
             written(
                 tmp_path,
                 "d.toml",

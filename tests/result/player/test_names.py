@@ -6,7 +6,8 @@ from support.emitted import mechanism_of
 
 from symgen.compile.native.javascript import javascript
 from symgen.run.compiling.checked import checked
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 
 
 def test_arrays_of_tables_and_functions_have_names_of_their_own() -> None:

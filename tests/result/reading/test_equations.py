@@ -14,7 +14,7 @@ from support.rotation import of_turn
 import symgen
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.describe import catalogue, load
+from symgen.describe import catalogue, load_mechanism
 from symgen.result.reading import symbolic_equations as reading
 from symgen.result.reading.symbolic_equations import SymbolicEquations
 from symgen.run.compiling.choices import on_tree
@@ -85,12 +85,12 @@ def agrees(mechanism, seed=3):
 
 @pytest.mark.parametrize("name", SMALL)
 def test_numbers_are_those_of_the_emitted_functions(name):
-    agrees(load(name))
+    agrees(load_mechanism(name))
 
 
 @pytest.mark.parametrize("name", ["four-bar", "spherical-double-pendulum"])
 def test_numbers_are_those_of_the_emitted_functions_in_joint_coordinates(name):
-    agrees(on_tree(load(name)))
+    agrees(on_tree(load_mechanism(name)))
 
 
 @pytest.mark.slow_cases("everything")
@@ -102,14 +102,14 @@ def test_numbers_of_every_kind_and_of_tables(raw):
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "coordinates"), of_turn(product(catalogue.all_names(), ("absolute", "joint")), 3))
 def test_numbers_of_the_whole_catalogue(name, coordinates):
-    mechanism = load(name)
+    mechanism = load_mechanism(name)
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
-@pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load(name).bounded])
+@pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load_mechanism(name).bounded])
 def test_numbers_of_mechanisms_with_dry_friction_and_stops(name, coordinates):
-    mechanism = load(name)
+    mechanism = load_mechanism(name)
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 

@@ -10,7 +10,7 @@ from symgen.cli import main
 from symgen.compile.native.compiler import interpreted
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.model import lower_model
-from symgen.describe import load
+from symgen.describe import load_mechanism
 from symgen.result.reading import page as pages
 from symgen.result.reading.html import of_factor, prose
 
@@ -221,7 +221,7 @@ def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):
 
 @pytest.mark.parametrize("name", ["four-bar", "andrews", "n-four-bar:3", "bricard", "chain:10"])
 def test_the_factor_that_is_drawn_is_the_one_that_is_compiled(name):
-    equations = formulate(load(name))
+    equations = formulate(load_mechanism(name))
     program = lower_model(equations, "")
     entries = of_factor(equations, program.order)
     assert sum(kind == "f" for kind in entries.values()) == program.fill

@@ -7,8 +7,8 @@ import pytest
 
 from symgen import Settings
 from symgen.base.errors import InputError
-from symgen.compile.native.c99 import HELPERS as HELPERS_OF_C
-from symgen.compile.native.c99 import RESERVED
+from symgen.compile.native.c99_words import HELPERS as HELPERS_OF_C
+from symgen.compile.native.c99_words import RESERVED
 from symgen.compile.native.javascript import HELPERS, LOOP_HELPERS
 from symgen.derive.emit.module import render
 from symgen.result.player.live import live_part

@@ -11,7 +11,7 @@ from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.cli import main
 from symgen.describe.files.builder import MechanismBuilder
-from symgen.describe.files.load import load as load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.parts.inputs import driven
 from symgen.run.breaks import seams
 from symgen.run.breaks.seams import seams_of_motion

@@ -9,7 +9,8 @@ from scipy.sparse.linalg import splu
 
 from benchmarks import newton
 from symgen.api import load
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 from symgen.run.layout.records import Sizes
 from symgen.run.layout.redundancy import leave_out_rest
 from symgen.run.loops import sparse

@@ -12,7 +12,7 @@ from symgen.base.errors import InputError
 from symgen.derive.methods import METHODS
 from symgen.describe.files.validate import validate
 from symgen.result.saved import read_last_state
-from symgen.run.compiling.pipeline import choose_method
+from symgen.run.compiling.method_choice import choose_method
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-13}
 IMPLICIT = {"integrator": "radau5", "rtol": 1e-11, "atol": 1e-12}

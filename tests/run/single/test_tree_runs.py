@@ -13,7 +13,8 @@ from symgen.base.errors import InputError
 from symgen.derive.methods import METHODS
 from symgen.describe.catalogue import raw
 from symgen.run.compiling.choices import choose_coordinates, on_tree
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.integrators import INTEGRATORS
 
 #: Two runs at this tolerance differ by at most what their errors add up to over the span, a thousand tolerances.

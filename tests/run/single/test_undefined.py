@@ -12,7 +12,8 @@ import symgen
 from symgen.base.errors import StepError
 from symgen.describe import MechanismBuilder
 from symgen.run.compiling.linearised import compile_linearised
-from symgen.run.compiling.pipeline import choose_method, compile_model
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model
 
 
 def sliding(force, velocity=0.0):

@@ -17,7 +17,8 @@ from symgen.base.errors import InputError
 from symgen.base.settings import Settings
 from symgen.cli import main
 from symgen.compile.loopcode.bare import part as elements
-from symgen.run.compiling.pipeline import choose_method, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import generate
 from symgen.run.layout import ensemble_abi as e
 from symgen.study.ensemble.sweep_plan import make_ensemble
 

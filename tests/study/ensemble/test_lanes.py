@@ -13,7 +13,8 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.base.errors import InputError
 from symgen.base.ir.program import LANES, lane_bases
-from symgen.run.compiling.pipeline import choose_method, compile_model, generate
+from symgen.run.compiling.method_choice import choose_method
+from symgen.run.compiling.pipeline import compile_model, generate
 from symgen.run.layout import ensemble_abi as e
 from symgen.study.ensemble.loop_runs import aligned
 

@@ -17,10 +17,11 @@ import msgspec
 from symgen.base.ir.derivative import jacobian
 from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import Block, ElementProgram, OutputSlot
+from symgen.derive.lower.drag import length
 from symgen.derive.lower.record import BEHIND, EQUATIONS
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.lower.scalar import ScalarNodes
-from symgen.derive.methods._formula import needed
+from symgen.derive.methods._tape import needed
 
 if TYPE_CHECKING:
     from symgen.derive.formulate.elements import Element
@@ -78,7 +79,7 @@ def form_stem(key: str, stem: str) -> str:
 
 def _recorded(kind: str) -> str:
     """Return the kind of elements whose formula a kind has: a row with bounds is a joint with a force."""
-    return "joint" if kind == "bound" else kind
+    return {"bound": "joint", "drag": "force", "rotor": "body"}.get(kind, kind)
 
 
 def _of_bound(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
@@ -95,6 +96,16 @@ def _of_bound(g: Graph, e: Equations, groups: list[tuple[str, Any]]) -> list[tup
             nodes = g.add(nodes[0] if isinstance(nodes, tuple) else nodes, e.power)
         changed.append((group, nodes))
     return changed
+
+
+def _of_drag(g: Graph, e: Equations) -> list[tuple[str, Any]]:
+    """Return the groups of an effort that depends on a reaction: on the unknown multipliers of a joint."""
+    (drag,) = e.drags
+    parts = [g.total(g.mul(n, g.input("k_first", row)) for row, n in line) for line in drag.pressed]
+    force = g.mul(drag.sign, g.mul(drag.coefficient, length(g, parts)))
+    entries = dict(e.rows[drag.row].entries)
+    along = tuple(g.mul(force, entries[j]) if j in entries else g.zero for j in range(e.nv))
+    return [("v", along), ("power", g.neg(g.mul(force, drag.rate)))]
 
 
 def lower_form(
@@ -120,6 +131,10 @@ def lower_form(
     groups = [(group, scalars.values[index]) for group, index in part.outputs]
     if instance.kind == "bound":
         groups = _of_bound(g, e, groups)
+    if instance.kind == "drag":
+        groups = _of_drag(g, e)
+    if instance.kind == "rotor":
+        groups = [(group, nodes) for group, nodes in groups if group == "v"]
     rows = [(group, i, n) for group, nodes in groups if group in EQUATIONS for i, n in enumerate(nodes) if n != g.zero]
     if instance.kind == "state":
         rows = [("z", 1, g.sub(g.input("k_z", 1), e.state_rates[0]))]

@@ -1,4 +1,4 @@
-"""Bodies, joints, rows with bounds, forces and states as instances of kernels: structure apart from numbers.
+"""Bodies, joints, rows with bounds, rotors, forces and states as instances of kernels: structure apart from numbers.
 
 Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
 numbers and formulas of parameters become the parameters ``k0``, ``k1``, ..., states of the file ``z0``, ``z1``, ....
@@ -30,9 +30,10 @@ from symgen.base.vocabulary.expressions import (
 from symgen.base.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 from symgen.derive.lower.windings import measures_of, turns
 from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.by_reaction import held_by_reactions, refuse_repeated
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.formulas.graph import Formulas
-from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, StateVariable
+from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter, Rotor, StateVariable
 
 #: Fields of the vocabulary's structs that hold the name of a body.
 _BODY_FIELDS = frozenset(("body", "a", "b"))
@@ -49,7 +50,7 @@ class Instance:
 
     Parameters
     ----------
-    kind : {"body", "joint", "bound", "force", "state"}
+    kind : {"body", "joint", "bound", "drag", "rotor", "force", "state"}
         Kind of element.
     name, label : str
         The element's name, and the readable name of its kind.
@@ -65,6 +66,8 @@ class Instance:
         Measures whose turns are counted, in the order of derivation; equal ones are one angle.
     states : tuple of str
         States of the file for ``z0``, ``z1``, ...; of a state it is the first.
+    joint : str
+        Of a drag, the joint on whose reaction it depends.
     """
 
     kind: str
@@ -76,6 +79,7 @@ class Instance:
     key: bytes
     angles: tuple[Measure, ...] = ()
     states: tuple[str, ...] = ()
+    joint: str = ""
 
 
 def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
@@ -86,12 +90,16 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
     mechanism : Mechanism
         A validated mechanism.
     """
-    mechanism, _ = without_repeats(mechanism)
-    rewriting = _Rewriting(mechanism)
+    mechanism, repeats = without_repeats(mechanism)
+    rewriting, pressed = _Rewriting(mechanism), held_by_reactions(mechanism)
+    for row in pressed:
+        refuse_repeated(row, repeats)
     return (
         *(rewriting.body(body) for body in mechanism.bodies),
         *(rewriting.element("joint", joint) for joint in mechanism.joints),
-        *(rewriting.bound(row) for row in mechanism.bounded),
+        *(rewriting.bound(row.without_reaction) for row in mechanism.bounded),
+        *(rewriting.drag(row) for row in pressed),
+        *(rewriting.rotor(rotor) for rotor in mechanism.rotors),
         *(rewriting.element("force", force) for force in mechanism.forces),
         *(rewriting.state(state) for state in mechanism.states),
     )
@@ -159,6 +167,34 @@ class _Rewriting:
         instance = self.instance("bound", row.row, row.family.one, nothing, frames, content)
         angles = turns([row.measure])
         return replace(instance, angles=angles) if angles else instance
+
+    def drag(self, row: BoundedRow) -> Instance:
+        """Return what of a row with bounds depends on a reaction as an instance, with the rows of its joint."""
+        self.begin()
+        joint = self.mechanism.joint_named(row.owner)
+        labels = {f"{joint.name}.{each.label}": f"r{i}" for i, each in enumerate(joint.rows)}
+        rows = zip((self.walk(each) for each in joint.rows), labels.values(), strict=True)
+        held = tuple(msgspec.structs.replace(each, label=label) for each, label in rows)
+        pressed: Any = msgspec.structs.replace(row, pressed=tuple(f"e.{labels[name]}" for name in row.pressed))  # type: ignore[type-var]
+        content = msgspec.structs.replace(self.walk(pressed), name="e", joint="e")
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance("drag", row.row, row.family.one, nothing, frames, content)
+        abstract = msgspec.structs.replace(instance.abstract, joints=(Joint("e", "", (), held),), bounded=(content,))
+        key = instance.key + msgspec.json.encode([*held, content])
+        angles = turns([*measures_of(Joint("e", "", (), joint.rows)), row.measure])
+        return replace(instance, abstract=abstract, key=key, angles=angles, joint=joint.name)
+
+    def rotor(self, rotor: Rotor) -> Instance:
+        """Return a rotor on a joint as an instance: its inertia, and the rate of its angle."""
+        self.begin()
+        content = Rotor("e", self.walk(rotor.angle), self.formula(rotor.inertia), self.walk(rotor.axes))
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        instance = self.instance("rotor", rotor.joint, "rotor", nothing, frames)
+        abstract = msgspec.structs.replace(instance.abstract, rotors=(content,))
+        angles = turns([rotor.angle])
+        return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(content), angles=angles)
 
     def state(self, state: StateVariable) -> Instance:
         """Return a state of the file as an instance: its rate."""

@@ -12,6 +12,7 @@ from symgen.base.ir.graph import Graph
 from symgen.base.ir.program import Block, ElementProgram, OutputSlot
 from symgen.derive.lower.hoist import Hoister
 from symgen.derive.lower.manifold import manifold_blocks
+from symgen.derive.lower.model import diagonal_at_origin
 from symgen.derive.lower.scalar import ScalarNodes
 
 if TYPE_CHECKING:
@@ -42,13 +43,13 @@ class KernelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     Parameters
     ----------
     kind : str
-        ``body``, ``joint``, ``bound``, ``force`` or ``state``.
+        ``body``, ``joint``, ``bound``, ``drag``, ``rotor``, ``force`` or ``state``.
     frames : tuple of (nq, nv, record)
         Coordinates, velocities and length of the record of each frame.
     constants, hoisted : int
         Number of constants of an instance, and of numbers computed from them once a run.
     rows : tuple of RowShape
-        Of a joint, or of a row with bounds.
+        Of a joint, or of a row with bounds; of a rotor R, whose R^T R is its part of M.
     coordinates, windings : int
         Reported coordinates of a joint, and angles whose turns are counted.
     spins : tuple of (int, int)
@@ -78,8 +79,12 @@ class KernelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def computed(self) -> int:
-        """Size of an instance's numbers computed once a run: hoisted ones, then M and M^-1 of its larger blocks."""
-        return self.hoisted + sum(2 * len(b) ** 2 for b in self.mass if len(b) > 1)
+        """Size of an instance's numbers computed once a run: hoisted ones, then M and M^-1 of its larger blocks.
+
+        Of a rotor the second ones are its part of the diagonal of M.
+        """
+        diagonal = len(self.rows[0].entries) if self.kind == "rotor" else 0
+        return self.hoisted + diagonal + sum(2 * len(b) ** 2 for b in self.mass if len(b) > 1)
 
     def row_blocks(self, row: int) -> tuple[int, ...]:
         """Return the frames in which a row has entries, in their order."""
@@ -115,14 +120,16 @@ _PURPOSES = {
     "speeds": "velocities in the records",
     "rates": {"body": "q' = N v", "state": "rates of states"},
     "move": "q += N change",
-    "geometry": "Phi, nu and D",
+    "geometry": {"joint": "Phi, nu and D", "bound": "Phi, nu and D", "rotor": "R"},
     "motion": {
         "body": "weights and inertia forces",
         "joint": "nu, D and gamma",
         "bound": "nu, D, gamma, force and power",
+        "rotor": "R and inertia forces",
         "force": "applied forces and power",
     },
     "full": "Phi, nu, D and gamma",
+    "press": "bounds over a reaction, with signs, and its components",
     "energy": "energies",
     "wind": "angles whose turns are counted",
     "report": "joint coordinates and their rates",
@@ -172,9 +179,9 @@ class _Kernel:
         return KernelProgram(kernel_stem(self.instance), self.instance.label, kernel, tuple(blocks), e.tables)
 
     def prepare(self) -> Block:
-        """Return the block of numbers computed once a run: hoisted ones, and a body's masses."""
+        """Return the block of numbers computed once a run: hoisted ones, and masses of a body or of a rotor."""
         block = self.hoister.prepare()
-        if self.instance.kind != "body":
+        if self.instance.kind not in ("body", "rotor"):
             return block
         outputs: Outputs = []
         system = ScalarNodes(self.e)
@@ -184,6 +191,11 @@ class _Kernel:
             return block.graph.inline(system.graph, [node], inputs)[0]
 
         first = self.constants + len(self.hoister.slots)
+        if self.instance.kind == "rotor":
+            diagonal = {target.index: node for target, node in diagonal_at_origin(system)}
+            entries = self.e.rows[0].entries
+            outputs += [(OutputSlot("p", first + i), moved(diagonal[j])) for i, (j, _) in enumerate(entries)]
+            return Block("prepare", block.purpose, block.graph, (*block.outputs, *outputs), ())
         for b in self.e.mass:
             n = len(b.columns)
             for k, j in enumerate(b.columns):
@@ -290,6 +302,23 @@ class _Kernel:
         energy: Outputs = [(OutputSlot("potential", 0), potential)] if potential != g.zero else []
         return {"motion": motion, "energy": energy, "wind": self.winding()}
 
+    def drag(self) -> dict[str, Outputs]:
+        """Return the outputs of a drag's function: its bound over the reaction, with its sign, and the reaction."""
+        e, g = self.e, self.e.graph
+        (drag,) = e.drags
+        parts = (g.total(g.mul(n, g.input("multipliers", row)) for row, n in line) for line in drag.pressed)
+        nodes = self.copied([g.mul(drag.sign, drag.coefficient), *parts])
+        return {"press": [(OutputSlot("drag", i), n) for i, n in enumerate(nodes)]}
+
+    def rotor(self) -> dict[str, Outputs]:
+        """Return the outputs of a rotor's functions: R, which is written where D is, -J r b, and its energy."""
+        e, g = self.e, self.graph
+        kinetic, *forces = self.copied([e.kinetic, *e.forces])
+        entries = self.copied([n for _, n in e.rows[0].entries])
+        row: Outputs = [(OutputSlot("jacobian", slot), n) for slot, n in zip(self.slots(), entries, strict=True)]
+        force: Outputs = [(OutputSlot("force+", i), n) for i, n in enumerate(forces) if n != g.zero]
+        return {"geometry": row, "motion": row + force, "energy": [(OutputSlot("kinetic", 0), kinetic)]}
+
     def state(self) -> dict[str, Outputs]:
         """Return the outputs of a state's functions; joints count the turns of angles that it reads."""
         return {"rates": [(OutputSlot("own", 0), self.copied(self.e.state_rates[:1])[0])]}
@@ -308,8 +337,10 @@ class _Kernel:
         raise AssertionError("every velocity belongs to a frame")
 
     def rows(self) -> tuple[RowShape, ...]:
-        """Return the shapes of a joint's rows."""
+        """Return the shapes of a joint's rows; a drag has none of its own."""
         g, varies = self.e.graph, self.instance.kind == "bound"
+        if self.instance.kind == "drag":
+            return ()
         return tuple(
             RowShape(
                 tuple(self.owner(j) for j, _ in row.entries),

@@ -15,7 +15,7 @@ from symgen.derive.lower.looped.statements import LoopedFunction
 from symgen.derive.lower.record import RecordedLaw, record_law
 from symgen.derive.lower.record_form import record_form
 from symgen.derive.methods._base import Method
-from symgen.derive.methods._formula import needed
+from symgen.derive.methods._tape import needed
 
 
 class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):

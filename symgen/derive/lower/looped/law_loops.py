@@ -25,7 +25,7 @@ from symgen.derive.lower.looped.statements import (
 )
 from symgen.derive.lower.record import Part, RecordedLaw
 from symgen.derive.lower.replay import Nodes, Replay
-from symgen.derive.methods._formula import FormulaStep, needed
+from symgen.derive.methods._tape import FormulaStep, needed
 
 #: Functions of a law in which the kernels of an evaluation are called first.
 _EVALUATE = ("rhs", "begin")

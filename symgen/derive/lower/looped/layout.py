@@ -16,6 +16,9 @@ SECTIONS = (
     ("stage", "unknowns"),  # k of the descriptor form
 )
 
+#: Kinds of elements, in the order of instances.
+KINDS = ("body", "joint", "bound", "drag", "rotor", "force", "state")
+
 #: Lists of kernels that are called in turn, and the functions of kernels that each calls, by kind.
 STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "frames": (("body", "frame"),),
@@ -25,13 +28,13 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "turn": (("body", "turn"),),
     "normalise": (("body", "normalise"),),
     "wind": (("joint", "wind"), ("force", "wind")),
-    "geometry": (("joint", "geometry"), ("bound", "geometry")),
-    "motion": (("body", "motion"), ("joint", "motion"), ("bound", "motion"), ("force", "motion")),
-    "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("force", "motion")),
-    "energy": (("body", "energy"), ("force", "energy")),
+    "geometry": (("joint", "geometry"), ("bound", "geometry"), ("rotor", "geometry")),
+    "motion": (("body", "motion"), *((kind, "motion") for kind in ("joint", "bound", "rotor", "force"))),
+    "full": (("body", "motion"), ("joint", "full"), ("bound", "full"), ("rotor", "motion"), ("force", "motion")),
+    "energy": (("body", "energy"), ("rotor", "energy"), ("force", "energy")),
     "report": (("joint", "report"),),
-    "residuals": tuple((kind, "residual") for kind in ("body", "joint", "bound", "force", "state")),
-    "slopes": tuple((kind, "tangent") for kind in ("body", "joint", "bound", "force", "state")),
+    "residuals": tuple((kind, "residual") for kind in KINDS),
+    "slopes": tuple((kind, "tangent") for kind in KINDS),
 }
 
 #: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then the beginnings of tables.
@@ -53,3 +56,21 @@ HEAD = (
 
 #: Generic functions that are called through the tables, in the order of their addresses.
 GENERIC = ("rows_times", "columns_times", "blocks_times", "weigh", "gauge", "gram", "augment", "factorise", "solve")
+
+#: Numbers at the head of further tables, of rotors and of drags, which begin where the number before the table of the
+#: factorisation of D W D^T says. Of rotors: how many there are, and the length of a factor; the sections of ``w`` for a
+#: vector of them and for the factor; then the beginnings of tables.
+ROTORS = (
+    *("rotors", "rotor_size", "rotor_vector", "rotor_lower"),
+    *("rotor_rows", "rotor_weights", "rotor_products", "rotor_beside", "rotor_augmented", "rotor_factor"),
+)
+#: Of drags, efforts that depend on reactions: how many there are, the list of their kernels, then sections of ``w``:
+#: what kernels write of each, squares of jamming numbers, numbers for their solution; the table of their modes.
+DRAGS = ("drags", "press", "drag_record", "jamming", "drag_room", "drag_modes")
+BESIDE = (*ROTORS, *DRAGS)
+#: Numbers that the kernel of a drag writes: its bound in motion over the reaction, with the sign of the rate, and two
+#: components of the reaction.
+DRAG_RECORD = 3
+
+#: End of the stems of laws that find efforts which depend on reactions.
+PRESSED = "_pressed"

@@ -6,7 +6,7 @@ single instance is ever built.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -69,7 +69,7 @@ class LoopedShape:
     Parameters
     ----------
     instances : sequence of Instance
-        Bodies, then joints, rows with bounds, forces and states.
+        Bodies, then joints, rows with bounds, rotors, forces and states.
     stems : sequence of str
         Module of each instance's kernel.
     infos : mapping of str to KernelInfo
@@ -121,25 +121,35 @@ class LoopedShape:
         self.entries: list[tuple[int, int, int]] = []  # row, column, slot of structurally nonzero entries
         self.placed: list[tuple[int, int, int]] = []  # the same, of rows with bounds as they are, in force or off
         self.idle: list[tuple[int, int]] = []  # rows with bounds, and slots whose squares stand on the diagonal
+        self.rotors: list[int] = []  # their rows R, which are numbered behind those of D; R^T R is their part of M
+        self.rotor_blocks: list[RowBlock] = []
+        rows_of: dict[str, int] = {}  # of joints, the first
         for instance, stem in zip(self.instances, self.stems, strict=True):
             info = self.infos[stem]
             for constant in instance.constants:
                 self.constant_index.setdefault(constant, len(self.constant_index))
-            self.row_of.append(len(self.holonomic))
+            self.row_of.append(rows_of[instance.joint] if instance.joint else len(self.holonomic))
+            if instance.kind == "joint":
+                rows_of[instance.name] = self.row_of[-1]
             self.entry_of.append(entry)
             self.coordinate_of.append(coordinate)
             self.computed_of.append(computed)
             firsts = [self.body[name][1] for name in instance.frames]
             for r, shape in enumerate(info.rows):
-                row = len(self.holonomic)
+                row, blocks = len(self.holonomic) + len(self.rotors), list[RowBlock]()
                 for f in info.row_blocks(r):
                     width = info.frames[f][1]
                     literals = zip(shape.entries, shape.constant, strict=True)
                     used = {firsts[f] + j: literal for (g, j), literal in literals if g == f}
                     reach = frozenset(k for j in used for k in self.coupled.get(j, (j,)))
-                    self.blocks.append(RowBlock(row, firsts[f], width, entry, used, reach))
-                    self.placed += [(row, j, entry + j - firsts[f]) for j in used]
+                    blocks.append(RowBlock(row, firsts[f], width, entry, used, reach))
                     entry += width
+                if instance.kind == "rotor":
+                    self.rotors.append(row)
+                    self.rotor_blocks += blocks
+                    continue
+                self.blocks += blocks
+                self.placed += [(row, j, b.offset + j - b.first) for b in blocks for j in b.entries]
                 if instance.kind == "bound":
                     columns = [firsts[f] + j for f, j in shape.entries]
                     self.entries += [(row, j, entry + i) for i, j in enumerate(columns)]
@@ -157,8 +167,10 @@ class LoopedShape:
             computed += info.computed
         self.m, self.jacobian, self.coordinates, self.computed = len(self.holonomic), entry, coordinate, computed
         self.windings = len(self.angle_index)
-        bounds = [k for k, instance in enumerate(self.instances) if instance.kind == "bound"]
-        self.mode_index = {k: MODE_NUMBERS * i for i, k in enumerate(bounds)}
+        bounds = [instance.name for instance in self.instances if instance.kind == "bound"]
+        self.mode_index = {name: MODE_NUMBERS * i for i, name in enumerate(bounds)}
+        drags = [instance.name for instance in self.instances if instance.kind == "drag"]
+        self.drag_index = {name: i for i, name in enumerate(drags)}  # of rows with bounds that depend on reactions
         states = [instance.name for instance in self.instances if instance.kind == "state"]
         self.state_index = {name: i for i, name in enumerate(states)}
 
@@ -188,6 +200,18 @@ class LoopedShape:
     def gram_base(self) -> int:
         """Index in ``p`` of the constant part of D D^T; the constant part of D M^-1 D^T follows."""
         return self.mass_diagonal + 2 * self.nv
+
+    @property
+    def rotor_diagonal(self) -> list[tuple[int, int]]:
+        """Velocities, and the places in ``p`` of what rotors add there to the diagonal of M."""
+        diagonal: list[tuple[int, int]] = []
+        for k, (instance, stem) in enumerate(zip(self.instances, self.stems, strict=True)):
+            if instance.kind == "rotor":
+                info = self.infos[stem]
+                first = self.first_computed + self.computed_of[k] + info.hoisted
+                columns = (self.body[instance.frames[f]][1] + j for f, j in info.rows[0].entries)
+                diagonal += [(column, first + i) for i, column in enumerate(columns)]
+        return diagonal
 
     # -- matrices ------------------------------------------------------------------------------------------------------
 
@@ -262,12 +286,45 @@ class LoopedShape:
     @cached_property
     def gram(self) -> Elimination:
         """Elimination of D W D^T."""
-        near: list[set[int]] = [set() for _ in range(self.m)]
-        for a, b in self.pairs:
-            if a.row != b.row:
-                near[a.row].add(b.row)
-                near[b.row].add(a.row)
-        return Elimination.of([frozenset(n) for n in near])
+        return _elimination(self.m + len(self.rotors), (*self.pairs, *self.rotor_pairs))
+
+    @cached_property
+    def rotor_pairs(self) -> list[tuple[RowBlock, RowBlock]]:
+        """Pairs of a rotor's block, and another block of its body, that contribute to R M^-1 D^T or R M^-1 R^T."""
+        pairs: list[tuple[RowBlock, RowBlock]] = []
+        before: dict[int, list[RowBlock]] = {}
+        for a in self.rotor_blocks:
+            rotors = before.setdefault(a.first, [])
+            rotors.append(a)
+            others = (*self.by_body[a.first], *rotors)
+            pairs += [(a, b) for b in others if b is a or not a.reach.isdisjoint(b.entries)]
+        return pairs
+
+    @cached_property
+    def rotor_gram(self) -> Elimination:
+        """Elimination of 1 + R M^-1 R^T, M being without rotors, whose rows are numbered from 0."""
+        pairs = [(a, b) for a, b in self.rotor_pairs if b.row >= self.m]
+        return _elimination(len(self.rotors), pairs, self.m)
+
+    def rotor_products(self, among: bool) -> list[int]:
+        """Return slots in R M^-1 and D or R, and each product's target, in the elimination of all or of R alone."""
+        products: list[int] = []
+        for a, b in self.rotor_pairs:
+            if b.row < self.m and among:
+                continue
+            target = self.rotor_gram.target(a.row - self.m, b.row - self.m) if among else self.gram.target(a.row, b.row)
+            for j in b.entries:
+                if j in a.reach:
+                    products += [a.offset + j - a.first, b.offset + j - b.first, target]
+        return products
+
+    @cached_property
+    def rotor_rows(self) -> list[list[tuple[int, int]]]:
+        """Entries (column, slot) of R, row by row."""
+        rows: list[list[tuple[int, int]]] = [[] for _ in self.rotors]
+        for block in self.rotor_blocks:
+            rows[block.row - self.m] += [(j, block.offset + j - block.first) for j in block.entries]
+        return rows
 
     @cached_property
     def rows(self) -> list[list[tuple[int, int]]]:
@@ -281,7 +338,7 @@ class LoopedShape:
     def augmented(self) -> Elimination:
         """Elimination of M + a D^T D."""
         near: list[set[int]] = [set(self.coupled.get(j, ())) for j in range(self.nv)]
-        for row in self.rows:
+        for row in (*self.rows, *self.rotor_rows):
             columns = [j for j, _ in row]
             for j in columns:
                 near[j].update(columns)
@@ -289,18 +346,28 @@ class LoopedShape:
 
     def sizes(self, augmented: bool) -> dict[str, int]:
         """Return the sizes by which sections are defined."""
-        eliminations = [self.gram, *((self.augmented,) if augmented else ())]
+        eliminations = [self.gram, self.rotor_gram, *((self.augmented,) if augmented else ())]
         return {
             "one": 1,
             "nv": self.nv,
             "m": self.m,
-            "longest": max(self.nv, self.m),
+            "longest": max(self.nv, self.m + len(self.rotors)),
             "jacobian": self.jacobian,
             "records": self.records,
             "gram": self.gram.size,
             "augmented": self.augmented.size if augmented else 0,
             "panel": max(e.largest for e in eliminations),
         }
+
+
+def _elimination(size: int, pairs: Iterable[tuple[RowBlock, RowBlock]], first: int = 0) -> Elimination:
+    """Return the elimination of a matrix in which pairs of rows, numbered from `first` on, have an entry."""
+    near: list[set[int]] = [set() for _ in range(size)]
+    for a, b in pairs:
+        if a.row != b.row:
+            near[a.row - first].add(b.row - first)
+            near[b.row - first].add(a.row - first)
+    return Elimination.of([frozenset(n) for n in near])
 
 
 def _paired(terms: Sequence[tuple[int, int, int]]) -> tuple[list[int], list[int]]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from symgen.base.ir.program import MODE_NUMBERS, STATUS
+from symgen.base.ir.program import JAMMING, MODE_NUMBERS, STATUS
 from symgen.derive.lower.looped.forms import FormInfo
 from symgen.derive.lower.looped.instances import Instance
 from symgen.derive.lower.looped.law import LoopedLawInfo
-from symgen.derive.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
+from symgen.derive.lower.looped.layout import BESIDE, DRAG_RECORD, GENERIC, HEAD, SECTIONS, STAGES
 from symgen.derive.lower.looped.shape import KernelGroup, LoopedShape, RowBlock
 from symgen.derive.lower.record import BEHIND
 
@@ -72,8 +72,11 @@ class Builder:
 
     def __post_init__(self) -> None:
         self.tangent: list[tuple[int, int]] = []
+        self.beside = 0  # where the head of further tables stands
         self.head: dict[str, int] = {}
         self.stages = STAGES if self.law.positions else STAGES | {"full": ()}
+        if self.shape.drag_index:
+            self.stages = self.stages | {"press": (("drag", "press"),)}
         self.functions = tuple(
             dict.fromkeys(
                 key
@@ -130,15 +133,24 @@ class Builder:
         if shape.mode_index:
             sections["modes"] = (offset, MODE_NUMBERS * len(shape.mode_index))
             offset += MODE_NUMBERS * len(shape.mode_index)
+        for name, length in ((JAMMING, 1), ("drag_record", DRAG_RECORD)) if shape.drag_index else ():
+            sections[name] = (offset, length * len(shape.drag_index))
+            offset += sections[name][1]
         for name, size in (*SECTIONS, *self.law.sections):
             sections[name] = (offset, sizes[size])
-            offset += sizes[size]
+            # rotors are rows behind those of D where D M^-1 D^T is solved with
+            offset += sizes[size] + (len(shape.rotors) if size == "m" else 0)
         sections["vectors"] = (offset, self.law.vectors * sizes["longest"])
         head["vectors"], head["vector_size"] = offset, sizes["longest"]
         offset += self.law.vectors * sizes["longest"]
+        for name, length in self.room_beside:
+            sections[name] = (offset, length)
+            offset += length
         head["tables"] = offset
         for i, name in enumerate(HEAD):
             self.numbers[i] = head[name] if name in head else sections[name][0]
+        for i, name in enumerate(BESIDE if self.beside else ()):
+            self.numbers[self.beside + i] = sections[name][0] if name in sections else head.get(name, 0)
         for i, (name, _) in enumerate(self.law.sections):
             self.numbers[len(HEAD) + i] = sections[name][0]
         self.numbers += [0] * (len(self.numbers) % 2)
@@ -168,11 +180,16 @@ class Builder:
                 self.numbers += [shape.row_of[k], shape.entry_of[k], shape.coordinate_of[k]]
             elif info.kind == "bound":
                 self.numbers += [shape.row_of[k], shape.entry_of[k], *(b[1] for b in bodies)]
+            elif info.kind == "drag":
+                record = len(STATUS) + shape.windings + MODE_NUMBERS * len(shape.mode_index) + len(shape.drag_index)
+                self.numbers += [shape.row_of[k], record + DRAG_RECORD * shape.drag_index[instance.name]]
+            elif info.kind == "rotor":
+                self.numbers += [shape.entry_of[k], *(b[1] for b in bodies)]
             elif info.kind == "force":
                 self.numbers += [b[1] for b in bodies]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
             self.numbers += self.places_of_states(instance)
-            self.numbers += self.place_of_modes(k)
+            self.numbers += self.place_of_modes(instance.name)
             self.numbers.append(computed + shape.computed_of[k])
             self.numbers += [constants + index[c] for c in instance.constants]
         return at
@@ -182,10 +199,10 @@ class Builder:
         work = self.shape.nq + self.shape.nv
         return [work + 1 + self.shape.state_index[name] for name in instance.states]
 
-    def place_of_modes(self, k: int) -> list[int]:
-        """Return the place in ``w`` of the modes of an instance that has any, in a list."""
+    def place_of_modes(self, name: str) -> list[int]:
+        """Return the place in ``w`` of the modes of a row that has any, in a list."""
         first = len(STATUS) + self.shape.windings
-        return [first + self.shape.mode_index[k]] if k in self.shape.mode_index else []
+        return [first + self.shape.mode_index[name]] if name in self.shape.mode_index else []
 
     def part(self, group: KernelGroup, info: FormInfo) -> int:
         """Write the table of a group's part of the descriptor form; return its beginning."""
@@ -196,18 +213,19 @@ class Builder:
         for k in group.members:
             instance = shape.instances[k]
             bodies = [shape.body[name] for name in instance.frames]
-            row = shape.row_of[k] if group.info.rows else 0
+            row = shape.row_of[k] if group.info.rows or instance.joint else 0
             rows = shape.nq + shape.nv + row
             place = {("q", j): bodies[f][0] + i for j, (f, i) in enumerate(owners[0])}
             place |= {("v", j): shape.nq + bodies[f][1] + i for j, (f, i) in enumerate(owners[1])}
             for name, start in (("first", rows), ("second", rows + shape.m)):
                 place |= {(name, j): start + j for j in range(len(group.info.rows))}
+            place |= {("first", j): rows + j for *_, unknown, j in info.entries if unknown == "k_first"}
             place |= {("z", j): own + shape.state_index[name] for j, name in enumerate(instance.states, 1)}
             self.numbers += [b[2] for b in bodies] + [b[0] for b in bodies] + [b[1] for b in bodies]
             self.numbers += [row, len(self.tangent)]
             self.numbers += [shape.angle_index[angle] for angle in instance.angles]
             self.numbers += self.places_of_states(instance)
-            self.numbers += self.place_of_modes(k)
+            self.numbers += self.place_of_modes(instance.name)
             self.numbers += [place["z", 1]] if group.info.kind == "state" else []
             self.numbers += [shape.first_constant + shape.constant_index[c] for c in instance.constants]
             for equation, i, unknown, j in info.entries:
@@ -248,6 +266,8 @@ class Builder:
         self.numbers.append(len(runs))
         for width, terms in runs.items():
             self.numbers += [width, len(terms) // (3 if width else 8), *terms]
+        if shape.rotors or shape.drag_index:
+            self.tables_beside()
         self.begin("gram_factor")
         self.numbers += shape.gram.table()
         if self.law.augmented:
@@ -294,12 +314,67 @@ class Builder:
         self.begin("weights")
         plain = [x for slot, velocity in shape.products.slots.items() for x in (slot, velocity)]
         self.numbers += [len(plain) // 2, *plain]
-        weights: list[int] = []
-        owner = {v: first for first, width in shape.width.items() for v in range(first, first + width)}
-        for size, velocity, place in large:
-            for b in shape.by_body[owner[velocity]]:
+        self.large = large
+        self.weights(shape.blocks)
+
+    def weights(self, blocks: Sequence[RowBlock]) -> None:
+        """Write which blocks of rows the blocks of M act on: size, place of the entries, place in p of M^-1."""
+        weights, by_body = list[int](), dict[int, list[RowBlock]]()
+        for block in blocks:
+            by_body.setdefault(block.first, []).append(block)
+        owner = {v: first for first, width in self.shape.width.items() for v in range(first, first + width)}
+        for size, velocity, place in self.large:
+            for b in by_body.get(owner[velocity], ()):
                 weights += [size, b.offset + velocity - b.first, place + size * size]
         self.numbers += [len(weights) // 3, *weights]
+
+    @property
+    def room_beside(self) -> Iterator[tuple[str, int]]:
+        """Sections of ``w`` that solutions with rotors and with drags need, and their lengths."""
+        rotors, drags = len(self.shape.rotors), len(self.shape.drag_index)
+        if rotors:
+            yield from (("rotor_vector", rotors), ("rotor_lower", self.shape.rotor_gram.size))
+        if drags:
+            yield "drag_room", (6 + 3 * drags) * drags
+
+    def tables_beside(self) -> None:
+        """Write the tables of rotors and of drags, and where the head of it stands."""
+        self.beside = len(self.numbers)
+        self.numbers += [0] * len(BESIDE)
+        if self.shape.rotors:
+            self.rotor_tables()
+        self.head["drags"] = len(self.shape.drag_index)
+        self.begin("drag_modes")
+        self.numbers += [place for name in self.shape.drag_index for place in self.place_of_modes(name)]
+        self.numbers.append(self.beside)
+
+    def rotor_tables(self) -> None:
+        """Write the rows R of rotors, the weights of their entries, and their products."""
+        shape = self.shape
+        self.head |= {"rotors": len(shape.rotors), "rotor_size": shape.rotor_gram.size}
+        self.begin("rotor_rows")
+        for row in shape.rotor_rows:
+            self.numbers += [len(row), *(x for column, slot in row for x in (slot, column))]
+        self.begin("rotor_weights")
+        plain = [(slot, j) for row in shape.rotor_rows for j, slot in row if j not in shape.coupled]
+        self.numbers += [len(plain), *(x for each in plain for x in each)]
+        self.weights(shape.rotor_blocks)
+        for name, among in (("rotor_products", False), ("rotor_beside", True)):
+            self.begin(name)
+            products = shape.rotor_products(among)
+            self.numbers += [len(products) // 3, *products]
+        self.begin("rotor_augmented")
+        if self.law.augmented:
+            self.augmented_rows(shape.rotor_rows)
+        self.begin("rotor_factor")
+        self.numbers += shape.rotor_gram.table()
+
+    def augmented_rows(self, rows: Sequence[Sequence[tuple[int, int]]]) -> None:
+        """Write rows with the targets of the products of their entries in M + D^T a D."""
+        elimination = self.shape.augmented
+        for row in rows:
+            self.numbers += [len(row), *(slot for _, slot in row)]
+            self.numbers += [elimination.target(i, j) for k, (i, _) in enumerate(row) for j, _ in row[: k + 1]]
 
     def augmented_matrix(self) -> None:
         """Write the tables of M + D^T a D: diagonal, blocks of M, then rows of D with the targets of their products."""
@@ -316,8 +391,6 @@ class Builder:
                     x for j in range(i) for x in (place + size * i + j, elimination.target(velocity + i, velocity + j))
                 ]
         self.numbers += [len(beside) // 2, *beside]
-        for row in shape.rows:
-            self.numbers += [len(row), *(slot for _, slot in row)]
-            self.numbers += [elimination.target(i, j) for k, (i, _) in enumerate(row) for j, _ in row[: k + 1]]
+        self.augmented_rows(shape.rows)
         self.begin("augmented_factor")
         self.numbers += elimination.table()

@@ -64,7 +64,7 @@ def classical(system: Any, run: Any, t: float, h: float, stage: Any, rate: Any) 
 
 
 @called
-def extrapolated(system: Any, run: Any, t: float, h: float, stage: Any, rate: Any, before: Any) -> int:
+def extrapolated_step(system: Any, run: Any, t: float, h: float, stage: Any, rate: Any, before: Any) -> int:
     """Set ``run.trial`` by one step of order 8; return its evaluations.
 
     Modified midpoint rules with 2, 4, 6 and 8 parts are extrapolated (Gragg, Bulirsch, Stoer).
@@ -116,7 +116,7 @@ def attempt(
     if not ADAPTIVE and count < scheme.order:  # no history yet
         if scheme.order > 4:
             spare = part(run.room, 2 * width, width)
-            run.control[abi.EVALUATIONS] += extrapolated(system, run, t, h, predicted, rate, spare)
+            run.control[abi.EVALUATIONS] += extrapolated_step(system, run, t, h, predicted, rate, spare)
         else:
             run.control[abi.EVALUATIONS] += classical(system, run, t, h, predicted, rate)
         return 0.0

@@ -118,13 +118,55 @@ def is_settled(multipliers: Any, change: Any) -> bool:
     return moved <= _SETTLED * largest
 
 
+def factorise_stages(
+    system: Any, scheme: Any, run: Any, t: float, h: float, low: int, high: int, k: Any, rates: Any, factors: Any
+) -> bool:
+    """Factorise the Newton matrix of the stages from `low` to `high` (exclusive); return whether it has room."""
+    n, s_count, count = system.sizes.unknowns, scheme.stages, scheme.entries.shape[0] // 2
+    for s in range(low, high):
+        stage_state(system, scheme, run, h, s, k, rates)
+        slopes = part(scheme.slopes, (s - low) * count, count)
+        system.tangent(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, slopes)
+        for j in range(low, high):
+            factors[1 + (s - low) * (high - low) + j - low] = h * scheme.a[s * s_count + j]
+    if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
+        return False
+    run.control[abi.JACOBIANS] += 1
+    return True
+
+
+def renew_rates(system: Any, scheme: Any, run: Any, t: float, h: float, s: int, k: Any, rates: Any, rest: Any) -> None:
+    """Set the rates of auxiliary states at a stage from its present unknowns."""
+    sizes = system.sizes
+    n, more, states = sizes.unknowns, sizes.ny - sizes.nq - sizes.nv, sizes.states
+    stage_state(system, scheme, run, h, s, k, rates)
+    system.residual(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, rest)
+    run.control[abi.EVALUATIONS] += 1
+    for i in range(more):
+        if i == 0 or i > states:
+            rates[s * more + i] = run.w[sizes.auxiliary + (i - states if i > 0 else 0)]
+
+
+def take_rates_of_law(system: Any, scheme: Any, run: Any, t: float, h: float, k: Any, rates: Any) -> None:
+    """Have auxiliary states follow the law: multipliers of index 2 are of lower order than the state."""
+    sizes = system.sizes
+    first, of_law = sizes.nq + sizes.nv, part(run.room, 0, sizes.width)
+    more = sizes.ny - first
+    for s in range(scheme.stages):
+        stage_state(system, scheme, run, h, s, k, rates)
+        evaluate(system, run, t + scheme.c[s] * h, run.trial, of_law)
+        for i in range(more):
+            rates[s * more + i] = of_law[first + i]
+    run.control[abi.EVALUATIONS] += scheme.stages
+
+
 @called
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Solve the stages of a step."""
     sizes, s_count = system.sizes, scheme.stages
-    first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
+    first, n, ny = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny
     more, tail, states = ny - first, n - sizes.states, sizes.states
     if run.control[abi.KNOWN] == 0:
         begin_step(system, run, t)
@@ -148,15 +190,8 @@ def attempt(
         last, fresh, end = math.inf, True, 0
         for _ in range(_MOST_ITERATIONS):
             if fresh:
-                for s in range(low, high):
-                    stage_state(system, scheme, run, h, s, k, rates)
-                    slopes = part(scheme.slopes, (s - low) * count, count)
-                    system.tangent(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, slopes)
-                    for j in range(low, high):
-                        factors[1 + (s - low) * (high - low) + j - low] = h * scheme.a[s * s_count + j]
-                if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
+                if not factorise_stages(system, scheme, run, t, h, low, high, k, rates, factors):
                     return TOO_LARGE
-                run.control[abi.JACOBIANS] += 1
                 fresh = False
             moved, size = 0.0, 0.0
             for s in range(low, high):
@@ -205,21 +240,9 @@ def attempt(
         for s in range(low, high):
             at_stage, at_change = s * n + first, (s - low) * n + first
             if not is_settled(part(k, at_stage, sizes.m), part(change, at_change, sizes.m)):
-                stage_state(system, scheme, run, h, s, k, rates)
-                system.residual(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, part(right, 0, n))
-                run.control[abi.EVALUATIONS] += 1
-                for i in range(more):
-                    if i == 0 or i > states:
-                        rates[s * more + i] = run.w[sizes.auxiliary + (i - states if i > 0 else 0)]
+                renew_rates(system, scheme, run, t, h, s, k, rates, part(right, 0, n))
     if tail > first + sizes.m:
-        # multipliers of index 2 are of lower order than the state: these rates use those of the law
-        of_law = part(run.room, 0, sizes.width)
-        for s in range(s_count):
-            stage_state(system, scheme, run, h, s, k, rates)
-            evaluate(system, run, t + scheme.c[s] * h, run.trial, of_law)
-            for i in range(more):
-                rates[s * more + i] = of_law[first + i]
-        run.control[abi.EVALUATIONS] += s_count
+        take_rates_of_law(system, scheme, run, t, h, k, rates)
     copied(sizes.width, run.y, run.trial)
     for s in range(s_count):
         for i in range(first):

@@ -16,30 +16,36 @@ import math
 from typing import Any
 
 from symgen.compile.loopcode.bare import part
-from symgen.compile.loopcode.loop_instances import called, viewing
-from symgen.compile.loopcode.nodes import (
-    PLACES,
-    POINTS,
-    TERMS,
-    distance,
-    expand,
-    extrapolate,
-    integrate_legendre,
-    place,
-    refine,
-    sum_up,
-)
+from symgen.compile.loopcode.loop_instances import called
+from symgen.compile.loopcode.nodes import PLACES, distance, expand, extrapolate, place
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
-from symgen.run.layout.records import Run
 from symgen.run.layout.scales import still, weights_of
 from symgen.run.layout.scheme_records import NODES as SCHEME
 from symgen.run.loops.frame import loop
-from symgen.run.loops.frame_parts import DIVERGED, correct, evaluate, store
+from symgen.run.loops.frame_parts import DIVERGED, evaluate
 from symgen.run.loops.schemes.explicit import attempt as one_step
-from symgen.run.loops.schemes.explicit import complete_stages, read_stages
-from symgen.run.loops.watch import keep_maxima
+from symgen.run.loops.schemes.picard_memory import (
+    ACROSS,
+    ADRIFT,
+    ALONE,
+    BUFFER,
+    BUFFERS,
+    COARSE,
+    COEFFICIENTS,
+    RATIO,
+    SINGLE,
+    SLOW,
+    SQUARES,
+    STALE,
+    STATES,
+    STEP,
+    TIMES,
+    WEIGHED,
+    WIDE,
+)
+from symgen.run.loops.schemes.picard_outputs import as_one_step, inside, interpolate, one_by_one
 
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
@@ -59,53 +65,6 @@ _SLOW, _SMOOTH = 0.008, 1.0
 STRICT = 10.0
 #: Outputs use more rates where the last coefficients of rates, over the tolerance, are more than this.
 _LEFT_OUT = 12.0
-#: Memory, before rates at the start of a step and Legendre coefficients of those of the last: the last step [s], 0 at
-#: a start; 1 where nodes are evaluated one by one; 1 where the rates at the start of the step have to be evaluated.
-STEP, SINGLE, STALE = range(3)
-#: In working memory: the next step over this one; the buffer with the rates of the step; 1 where outputs need more of
-#: them; 1 where nodes were evaluated one by one; 1 where the iteration has not converged; 1 where convergence bounds
-#: the step, not the motion. A step across a singular position has `ACROSS` for the last but one.
-RATIO, BUFFER, COARSE, ALONE, ADRIFT, SLOW = range(6)
-ACROSS = 2.0
-#: First indices of its parts: times of nodes, squares of coefficients, places of eight outputs, integrals and second
-#: integrals of polynomials up to them, and arrays of the width of a state.
-_TIMES, _SQUARES, _PARTS_OF_STEP, _ONCE = NODES, 2 * NODES, 4 * NODES, 5 * NODES
-_TWICE = _ONCE + TERMS * NODES
-_WIDE = _TWICE + TERMS * NODES
-#: Of these, in widths: weights, a state, its rate, coefficients, states at nodes, two buffers of rates, a third, and
-#: coefficients from all three.
-_WEIGHED, _STATE, _RATE, _COEFFICIENTS, _STATES, _BUFFERS = 0, 1, 2, 3, 3 + 2 * NODES, 3 + 3 * NODES
-_MORE = _BUFFERS + 2 * NODES
-_REFINED = _MORE + NODES
-_ENDS = _REFINED + TERMS
-
-
-def memory(width: int) -> int:
-    """Return the length of the memory of a run."""
-    return NODES + width + 2 * NODES * width
-
-
-def room(width: int, windings: int) -> int:
-    """Return the working memory of a step behind the trial state; `windings` angles count turns."""
-    return _WIDE + _ENDS * width + abi.N_STATUS + windings
-
-
-# -- a step ------------------------------------------------------------------------------------------------------------
-
-
-@called
-def one_by_one(system: Any, run: Any, times: Any, states: Any, rates: Any) -> None:
-    """Evaluate the right-hand side at one node after another."""
-    n, width = system.sizes.ny, system.sizes.width
-    y, rate = part(run.room, _WIDE + _STATE * width, width), part(run.room, _WIDE + _RATE * width, width)
-    for i in range(n, width):
-        y[i] = 0.0
-    for k in range(NODES):
-        for i in range(n):
-            y[i] = states[i * NODES + k]
-        evaluate(system, run, times[k], y, rate)
-        for i in range(n):
-            rates[i * NODES + k] = rate[i]
 
 
 def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: Any, weights: Any) -> None:
@@ -145,31 +104,63 @@ def step_rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
     return bool(largest <= still(span))
 
 
+def begin_nodes(
+    system: Any, scheme: Any, run: Any, t: float, following: float, h: float, times: Any, rates: Any
+) -> None:
+    """Set the times of nodes, and their first rates: by the polynomial of the step before, or those at the start."""
+    rows, table, width = scheme.rows, scheme.table, system.sizes.width
+    last, first = run.memory[STEP], part(run.memory, NODES, width)
+    if last > 0.0:
+        coefficients = part(run.memory, NODES + width, 2 * NODES * width)
+        extrapolate(rows, scheme.degree, h / last, part(table, PLACES, NODES), coefficients, rates)
+    else:
+        for c in range(1, rows[0] + 1):
+            i = rows[c]
+            for k in range(NODES):
+                rates[i * NODES + k] = first[i]
+    for k in range(NODES):
+        times[k] = t + table[PLACES + k] * h
+    times[NODES - 1] = following
+
+
+def ratio_at_aim(change: float, fall: float, iterations: int) -> float:
+    """Return the step over this one that converges in `AIM` iterations, by the last change and how changes fall."""
+    ratio = _LONGEST
+    if not change < _ENDLESS:
+        ratio = _SHORTEST
+    else:
+        at_aim = change
+        for _ in range(iterations, AIM + 1):
+            at_aim *= min(fall, 1.0)
+        for _ in range(AIM + 1, iterations):
+            at_aim /= min(fall, 1.0)
+        if at_aim > 1e-7:
+            ratio = 0.93 * at_aim ** (-0.5 / (NODES + AIM))
+    return ratio
+
+
+def set_end(sizes: Any, run: Any, states: Any) -> None:
+    """Set the trial state to the one at the last node."""
+    copied(sizes.width, run.y, run.trial)
+    for i in range(sizes.ny):
+        run.trial[i] = states[i * NODES + NODES - 1]
+
+
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step; rates, their Legendre coefficients and the next step over this one are kept in working memory."""
     sizes, rows, table = system.sizes, scheme.rows, scheme.table
-    n, width, size = sizes.ny, sizes.width, NODES * sizes.width
+    width, size = sizes.width, NODES * sizes.width
     head, first = part(run.memory, 0, NODES), part(run.memory, NODES, width)
-    single, times = part(run.room, 0, NODES), part(run.room, _TIMES, NODES)
-    squares, weights = part(run.room, _SQUARES, 2 * NODES), part(run.room, _WIDE + _WEIGHED * width, width)
-    states, buffers = part(run.room, _WIDE + _STATES * width, size), _WIDE + _BUFFERS * width
+    single, times = part(run.room, 0, NODES), part(run.room, TIMES, NODES)
+    squares, weights = part(run.room, SQUARES, 2 * NODES), part(run.room, WIDE + WEIGHED * width, width)
+    states, buffers = part(run.room, WIDE + STATES * width, size), WIDE + BUFFERS * width
     old = part(run.room, buffers, size)
     if head[STALE] != 0.0:
         begin_polynomial(system, run, t)
     last = head[STEP]
-    if last > 0.0:
-        coefficients = part(run.memory, NODES + width, 2 * size)
-        extrapolate(rows, scheme.degree, h / last, part(table, PLACES, NODES), coefficients, old)
-    else:
-        for c in range(1, rows[0] + 1):
-            i = rows[c]
-            for k in range(NODES):
-                old[i * NODES + k] = first[i]
-    for k in range(NODES):
-        times[k] = t + table[PLACES + k] * h
-    times[NODES - 1] = following
+    begin_nodes(system, scheme, run, t, following, h, times, old)
     alone = scheme.vector == 0 or head[SINGLE] != 0.0
     patient = last == 0.0
     most = CONSTANT if not ADAPTIVE else (FIRST if patient else MOST)
@@ -215,17 +206,7 @@ def attempt(
     run.control[abi.EVALUATIONS] += NODES * iterations
     rates = part(run.room, buffers + which * size, size)
     single[BUFFER] = float(which)
-    ratio = _LONGEST
-    if not change < _ENDLESS:
-        ratio = _SHORTEST
-    else:
-        at_aim = change
-        for _ in range(iterations, AIM + 1):
-            at_aim *= min(fall, 1.0)
-        for _ in range(AIM + 1, iterations):
-            at_aim /= min(fall, 1.0)
-        if at_aim > 1e-7:
-            ratio = 0.93 * at_aim ** (-0.5 / (NODES + AIM))
+    ratio = ratio_at_aim(change, fall, iterations)
     single[RATIO] = min(_AGAIN, max(_SHORTEST, ratio))
     if not ADAPTIVE and not converged:
         return DIVERGED
@@ -234,7 +215,7 @@ def attempt(
         crosses = run.control[abi.IN_ZONE] == 1 and run.control[abi.BARRED] == 0 and run.gauges[abi.FALL] > 0.0
         return step_across(system, scheme, span, run, t, following, h) if crosses else math.inf
     single[ALONE] = 1.0 if alone else 0.0
-    coefficients = part(run.room, _WIDE + _COEFFICIENTS * width, 2 * size)
+    coefficients = part(run.room, WIDE + COEFFICIENTS * width, 2 * size)
     expand(rows, weights, first, rates, scheme.legendre, coefficients, squares)
     ends, middle = max(squares[NODES], squares[NODES - 1]), max(squares[NODES - 2], squares[NODES - 3])
     decay = min(1.0, math.sqrt(ends / middle)) if middle > 0.0 else 1.0
@@ -248,9 +229,7 @@ def attempt(
         ratio = min(_FIRST_GROWTH, 0.9 * max(truncation, 1e-12) ** (-1.0 / 16.0))
     single[RATIO] = min(_FIRST_GROWTH if last == 0.0 else _LONGEST, max(_SHORTEST, ratio))
     place(h, rows, run.y, first, rates, table, states)
-    copied(width, run.y, run.trial)
-    for i in range(n):
-        run.trial[i] = states[i * NODES + NODES - 1]
+    set_end(sizes, run, states)
     if not ADAPTIVE:
         return 0.0
     if truncation > 1.0:
@@ -270,16 +249,6 @@ def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, followi
     run.control[abi.ORDER] = NODES
     run.room[ADRIFT] = ACROSS
     return max(2.0, error)
-
-
-@viewing
-def as_one_step(system: Any, tableau: Any, run: Any) -> Any:
-    """Return the run with the stages of a step across a singular position for its memory."""
-    width = system.sizes.width
-    stages = part(run.room, _WIDE + _STATES * width, tableau.nodes.shape[0] * width)
-    room = part(run.room, _WIDE + _WEIGHED * width, _STATES * width)
-    fields = run.y, run.trial, run.p, run.w, run.iw, run.clock, run.gauges, run.control, run.passages, stages
-    return Run(*fields, run.share, run.metric, run.scales, room)
 
 
 def refuse(run: Any) -> None:
@@ -332,94 +301,12 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
         return
     run.control[abi.POINTS] += int(run.room[SLOW])
     width, size, rows = system.sizes.width, NODES * system.sizes.width, scheme.rows
-    rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
+    rates = part(run.room, WIDE + BUFFERS * width + int(run.room[BUFFER]) * size, size)
     for c in range(1, rows[0] + 1):
         i = rows[c]
         run.memory[NODES + i] = rates[i * NODES + NODES - 1]
-    copied(2 * size, part(run.room, _WIDE + _COEFFICIENTS * width, 2 * size), part(run.memory, NODES + width, 2 * size))
+    copied(2 * size, part(run.room, WIDE + COEFFICIENTS * width, 2 * size), part(run.memory, NODES + width, 2 * size))
     run.memory[STEP], run.memory[SINGLE] = run.clock[abi.STEP], run.room[ALONE]
-
-
-@called
-def interpolate(
-    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
-) -> None:
-    """Write the outputs inside a step, each corrected; the status at the end of the step is restored.
-
-    Where the polynomial of the nodes is less accurate than the tolerance inside the step, the right-hand side is
-    evaluated once more, at eight points between the nodes. Eight states are summed up at once.
-    """
-    rows, n, width, size = scheme.rows, system.sizes.ny, system.sizes.width, NODES * system.sizes.width
-    states, new = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _STATE * width, width)
-    places, once = part(run.room, _PARTS_OF_STEP, NODES), part(run.room, _ONCE, TERMS * NODES)
-    twice, terms, coefficients = part(run.room, _TWICE, TERMS * NODES), POINTS, _WIDE + _COEFFICIENTS * width
-    windings, behind = outputs.status.shape[1] - abi.N_STATUS, _WIDE + _ENDS * width
-    before, angles = part(run.room, behind, abi.N_STATUS), part(run.room, behind + abi.N_STATUS, windings)
-    for i in range(abi.N_STATUS):
-        before[i] = run.w[i]
-    for i in range(windings):
-        angles[i] = run.w[abi.WINDING + i]
-    one, across = as_one_step(system, scheme.tableau, run), run.room[ADRIFT] == ACROSS
-    if across:
-        complete_stages(system, scheme.tableau, run, one.memory, one.room, t, following, h)
-    elif run.room[COARSE] != 0.0:
-        refine_rates(system, scheme, run, t, h)
-        terms, coefficients = TERMS, _WIDE + _REFINED * width
-    series = part(run.room, coefficients, TERMS * width)
-    spare = part(run.room, _WIDE + _COEFFICIENTS * width, TERMS * width)
-    out = last = run.control[abi.OUTPUTS]
-    while last < outputs.times.shape[0] and outputs.times[last] < following:
-        last += 1
-    copied(width, run.y, new)
-    while out < last:
-        count = min(NODES, last - out)
-        for k in range(NODES):
-            places[k] = (outputs.times[out + min(k, count - 1)] - t) / h
-        if not across:
-            integrate_legendre(terms, places, once, twice)
-            sum_up(h, terms, places, rows, run.y, series, once, twice, states)
-        for k in range(count):
-            if across:
-                read_stages(width, scheme.tableau, places[k], h, run.y, one.memory, spare, new)
-            else:
-                for i in range(n):
-                    new[i] = states[i * NODES + k]
-            correct(system, run, outputs.times[out], new, True)
-            keep_maxima(system.sizes, run, new)
-            store(system.sizes, run.w, outputs, out, new)
-            out += 1
-    run.control[abi.OUTPUTS] = out
-    for i in range(abi.N_STATUS):
-        run.w[i] = before[i]
-    for i in range(windings):
-        run.w[abi.WINDING + i] = angles[i]
-
-
-def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
-    """Set `y` to the state at a node inside a good attempt, and return its part of the step; 0 without nodes."""
-    if run.room[ADRIFT] != 0.0:
-        return 0.0
-    states = part(run.room, _WIDE + _STATES * system.sizes.width, NODES * system.sizes.width)
-    for j in range(system.sizes.ny):
-        y[j] = states[j * NODES + i]
-    return float(scheme.table[PLACES + i])
-
-
-@called
-def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None:
-    """Evaluate rates between the nodes; set Legendre coefficients that they correct."""
-    rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
-    states, more = part(run.room, _WIDE + _STATES * width, size), part(run.room, _WIDE + _MORE * width, size)
-    rates = part(run.room, _WIDE + _BUFFERS * width + int(run.room[BUFFER]) * size, size)
-    coefficients, refined = _WIDE + _COEFFICIENTS * width, part(run.room, _WIDE + _REFINED * width, 2 * size)
-    times = part(run.room, _TIMES, NODES)
-    place(h, rows, run.y, part(run.memory, NODES, width), rates, scheme.middle, states)
-    for k in range(NODES):
-        times[k] = t + scheme.middle[PLACES + k] * h
-    if scheme.vector == 0 or scheme.derive(times, states, run.p, run.w, more) != 0:
-        one_by_one(system, run, times, states, more)
-    run.control[abi.EVALUATIONS] += NODES
-    refine(rows, scheme.dense, part(run.room, coefficients, 2 * size), more, refined)
 
 
 _PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew, "inside": inside}

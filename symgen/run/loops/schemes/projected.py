@@ -71,7 +71,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 @called
-def follow(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
+def complete_trial(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
     """Set velocities and accelerations, states and their rates, from the changes of positions and states."""
     nq, nv, states, first = system.sizes.nq, system.sizes.nv, system.sizes.states, system.sizes.unknowns
     for i in range(nv):
@@ -81,6 +81,47 @@ def follow(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
     for i in range(nv, nv + states):
         run.trial[nq + 1 + i] = run.y[nq + 1 + i] + 2.0 / h * shift[i]
         k[first - states - nv + i] = 4.0 / (h * h) * shift[i] - run.memory[nq + 1 + i]
+
+
+def project(
+    system: Any,
+    scheme: Any,
+    run: Any,
+    following: float,
+    h: float,
+    penalty: float,
+    k: Any,
+    rest: Any,
+    right: Any,
+    change: Any,
+) -> None:
+    """Project velocities, then accelerations, on the constraints; `rest`, `right` and `change` are working memory."""
+    sizes = system.sizes
+    nq, nv, m, n, count = sizes.nq, sizes.nv, sizes.m, sizes.unknowns, sizes.nv + sizes.states
+    quarter = 0.25 * h * h
+    for i in range(nv, count):
+        right[i] = 0.0
+    for level in range(2):
+        last = math.inf
+        for _ in range(_MOST_ITERATIONS):
+            for i in range(nv):
+                k[i] = run.trial[nq + i]
+            system.residual(following, run.trial, k, run.p, run.w, rest)
+            run.control[abi.EVALUATIONS] += 1
+            violation = 0.0
+            for c in range(m):
+                violation += rest[n + level * m + c] ** 2
+            violation = math.sqrt(violation)
+            if violation > 0.95 * last or violation == 0.0:
+                break
+            last = violation
+            pull_back(quarter * penalty, nv, scheme.pulls, scheme.slopes, rest, n + level * m, right)
+            solve(scheme.plan, scheme.numbers, right, change)
+            for i in range(nv):
+                if level == 0:
+                    run.trial[nq + i] -= change[i]
+                else:
+                    k[nq + i] -= change[i]
 
 
 @called
@@ -106,7 +147,7 @@ def attempt(
         held[c] = k[first + c] = run.memory[width + c]
     last, fresh, converged = math.inf, True, False
     for iteration in range(_MOST_ITERATIONS):
-        follow(system, run, h, shift, k)
+        complete_trial(system, run, h, shift, k)
         system.residual(following, run.trial, k, run.p, run.w, rest)
         for c in range(m):
             weight = 0.5 * h * penalty if scheme.nonholonomic[c] > 0.0 else penalty
@@ -148,32 +189,10 @@ def attempt(
         last = moved
     if not converged:
         return DIVERGED
-    follow(system, run, h, shift, k)
+    complete_trial(system, run, h, shift, k)
     if not lead(system, scheme, run, following, h, penalty, k, shift):
         return TOO_LARGE
-    for i in range(nv, count):
-        right[i] = 0.0
-    for level in range(2):  # velocities, then accelerations
-        last = math.inf
-        for _ in range(_MOST_ITERATIONS):
-            for i in range(nv):
-                k[i] = run.trial[nq + i]
-            system.residual(following, run.trial, k, run.p, run.w, rest)
-            run.control[abi.EVALUATIONS] += 1
-            violation = 0.0
-            for c in range(m):
-                violation += rest[n + level * m + c] ** 2
-            violation = math.sqrt(violation)
-            if violation > 0.95 * last or violation == 0.0:
-                break
-            last = violation
-            pull_back(quarter * penalty, nv, scheme.pulls, scheme.slopes, rest, n + level * m, right)
-            solve(scheme.plan, scheme.numbers, right, change)
-            for i in range(nv):
-                if level == 0:
-                    run.trial[nq + i] -= change[i]
-                else:
-                    k[nq + i] -= change[i]
+    project(system, scheme, run, following, h, penalty, k, rest, right, change)
     # multipliers of the iteration belong to accelerations before their projection, of order 1: rates of auxiliary
     # states use those of the law
     evaluate(system, run, following, run.trial, rate)

@@ -44,6 +44,16 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
         run.memory[i] = 0.0
 
 
+def relative_change(sizes: Any, run: Any, change: Any, h: float) -> float:
+    """Return the change of positions in a step of `h` seconds by one of accelerations, over the size of positions."""
+    size, total = 0.0, 0.0
+    for i in range(sizes.nv):
+        size += (run.metric[sizes.nq + i] * change[i]) ** 2
+    for i in range(sizes.nq):
+        total += (run.scales[i] * run.trial[i]) ** 2
+    return float(0.5 * h * h * math.sqrt(size) / (run.w[abi.LENGTH] * (1.0 + math.sqrt(total))))
+
+
 @called
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
@@ -87,14 +97,9 @@ def attempt(
         run.control[abi.EVALUATIONS] += 2
         solved(system, scheme, run, right, change)
         run.control[abi.NEWTON_ITERATIONS] += 1
-        size, total = 0.0, 0.0
         for i in range(nv + m):
             x[i] -= change[i]
-        for i in range(nv):
-            size += (run.metric[nq + i] * change[i]) ** 2
-        for i in range(nq):
-            total += (run.scales[i] * run.trial[i]) ** 2
-        size = 0.5 * h * h * math.sqrt(size) / (run.w[abi.LENGTH] * (1.0 + math.sqrt(total)))
+        size = relative_change(sizes, run, change, h)
         if not math.isfinite(size):
             break
         if size < 1e-17 or (size > 0.5 * last and size < 1e-12):

@@ -77,7 +77,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 @called
-def read_step(model: Any, scheme: Any, state: Any, outputs: Any) -> int:
+def read_within_step(model: Any, scheme: Any, state: Any, outputs: Any) -> int:
     """Write the first output where it lies inside the last step; return 1, or 0 where it does not."""
     system = ModelSystem(*model)
     sizes, memory, n = system.sizes, state.memory, scheme.nodes.shape[0]
@@ -109,5 +109,11 @@ adaptive = loop(
     "adaptive",
     TABLEAU,
     **ADAPTIVE_PARTS
-    | {"prepare": prepare, "attempt": attempt, "renew": renew, "interpolate": write_nothing, "read_step": read_step},
+    | {
+        "prepare": prepare,
+        "attempt": attempt,
+        "renew": renew,
+        "interpolate": write_nothing,
+        "read_step": read_within_step,
+    },
 )

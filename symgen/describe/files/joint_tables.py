@@ -1,0 +1,142 @@
+"""Tables of joints in a mechanism file: joints may refer to each other, so that each is resolved on demand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.base.vocabulary.expressions import ONE, call
+from symgen.describe.bounded import BoundedRow
+from symgen.describe.bounds.keys import keys_of_any_joint, rows_of_joint
+from symgen.describe.mechanism import Hold, Joint, Rotor
+from symgen.describe.parts.collected import Errors, Incomplete
+from symgen.describe.parts.fields import Flag, JointStart, Scalar, read_table, read_value
+from symgen.describe.parts.holds import joint_holds
+from symgen.describe.parts.kinds import JOINTS, kind_and_keys
+from symgen.describe.parts.topology import articulation_of
+
+if TYPE_CHECKING:
+    from symgen.base.vocabulary.measures import Marker
+    from symgen.describe.parts.scope import Scope
+
+#: Joints in a chain of references.
+LONGEST_CHAIN = 20
+
+
+class JointTables:
+    """The tables of joints.
+
+    Parameters
+    ----------
+    tables : mapping of str to object
+        Joint -> its table.
+    errors : Errors
+        Errors of the description.
+    where : callable
+        Takes a path, such as ``joints.A.type``; returns what a message begins with.
+    scope : callable
+        Takes a section, a name and a kind; returns the scope in which an entry is resolved.
+
+    Attributes
+    ----------
+    seats, starts, rotors : dict
+        Joint -> its point ``at``, what its table says of the start, and its rotor, of those that have one.
+    cuts : list of str
+        Joints that carry nothing in a tree.
+    """
+
+    def __init__(
+        self, tables: Mapping[str, Any], errors: Errors, where: Callable[[str], str], scope: Callable[..., Scope]
+    ) -> None:
+        self.tables, self.errors, self.where, self.scope = tables, errors, where, scope
+        self.seats: dict[str, Marker] = {}
+        self.starts: dict[str, tuple[Hold, ...]] = {}
+        self.rotors: dict[str, Rotor] = {}
+        self.cuts: list[str] = []
+        self._joints: dict[str, Joint | None] = {}
+        self._open = 0  # joints being resolved, each because the one before refers to it
+        self._scopes: dict[str, tuple[Scope, Joint]] = {}  # in the order in which joints are resolved
+        self._keys = tuple(keys_of_any_joint())
+
+    def joint(self, name: str, where: str) -> Joint:
+        """Return the joint `name`, resolved now if another one asks for it first."""
+        if name not in self.tables:
+            got = f"the unknown joint {quoted(name)}"
+            raise InputError(where, "the name of a joint", got, nearest(name, self.tables))
+        if name in self._joints:
+            self.errors.need(name)
+            resolved = self._joints[name]
+            if resolved is None:
+                raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
+            return resolved
+        self._joints[name] = None
+        self._open += 1
+        with self.errors.apart(name):
+            if self._open > LONGEST_CHAIN:
+                raise InputError(where, f"joints that refer to each other in at most {LONGEST_CHAIN} steps", "more")
+            self._joints[name] = joint = self._read(name)
+            self._open -= 1
+            return joint
+        self._open -= 1
+        raise Incomplete
+
+    def _read(self, name: str) -> Joint:
+        """Return the joint `name`, and note what else its table says."""
+        where, whole = self.where(f"joints.{name}"), self.tables[name]
+        kind, table = kind_and_keys(where, whole, "joint type", *self._keys)
+        struct = JOINTS.get(kind, f"{where}.type")
+        scope = self.scope("joints", name, JOINTS.canonical(kind))
+        scope.check_space(struct.SPACES)
+        section = read_table(struct, table, where, ("type", *self._keys))
+        joint = section.build(scope)
+        scope.coordinates = {label: joint.unit(label) for label, _ in joint.coordinates}
+        at = getattr(section, "at", None)
+        if at is not None:
+            point = at[0] if hasattr(section, "between") else at
+            self.seats[name] = scope.marker("at", joint.bodies[0], point)
+        if "start" in whole:
+            self.starts[name] = joint_holds(scope, read_value(JointStart, whole["start"], f"{where}.start"), joint)
+        if read_value(Flag, whole.get("cut", False), f"{where}.cut"):
+            if articulation_of(joint) is None:
+                got = f"a {joint.kind} joint, which has rows in any case"
+                raise InputError(f"{where}.cut", "a joint that can carry a body", got)
+            self.cuts.append(name)
+        if (rotor := rotor_of(scope, joint, whole)) is not None:
+            self.rotors[name] = rotor
+        self._scopes[name] = scope, joint
+        return joint
+
+    def bounded(self, joints: Sequence[Joint]) -> list[BoundedRow]:
+        """Return the rows with bounds of all joints, and note which joints have their reactions as multipliers."""
+        rows, cuts = dict[str, tuple[BoundedRow, ...]](), list[str]()
+        for name, (scope, joint) in self._scopes.items():  # behind all joints, as formulas may read any
+            with self.errors.apart(name):
+                rows[name] = tuple(rows_of_joint(scope, joint, self.tables[name]))
+            if name in self.cuts or any(row.pressed for row in rows.get(name, ())):
+                cuts.append(name)  # its reaction is a multiplier
+        self.cuts = cuts
+        return [row for joint in joints for row in rows.get(joint.name, ())]
+
+
+def rotor_of(scope: Scope, joint: Joint, table: Mapping[str, Any]) -> Rotor | None:
+    """Return the rotor of a joint, None where its table has none."""
+    if "rotor_inertia" not in table:
+        if "gear_ratio" in table:
+            raise scope.error("gear_ratio", "the key rotor_inertia beside it", "no such key")
+        return None
+    angles = [measure for label, measure in joint.coordinates if Joint.unit(label) == "rad"]
+    if not angles and len(joint.coordinates) == 1:  # a slide, which the rotor drives by a spindle or a belt
+        angles = [measure for _, measure in joint.coordinates]
+    if len(angles) != 1:
+        got = f"a {joint.kind} joint with {len(angles) or 'none'}"
+        raise scope.error("rotor_inertia", "a joint with one angle, or one displacement alone", got)
+    inertia, ratio = (
+        scope.constant(key, read_value(Scalar, table.get(key, 1.0), scope.where(key)), positive=positive)
+        for key, positive in (("rotor_inertia", True), ("gear_ratio", False))
+    )
+    if ratio != ONE:
+        inertia = call("mul", inertia, call("mul", ratio, ratio))
+    way = articulation_of(joint)
+    axes = (way.of_a[2], way.of_b[2]) if way is not None and way.turn == "axis" and way.of_a else ()
+    return Rotor(joint.name, angles[0], inertia, axes)

@@ -1,0 +1,112 @@
+"""Frames of an SDF file: poses in chains of frames, and the links that frames move with."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from symgen.base.errors import InputError, nearest, quoted
+from symgen.describe.formats._frames import Pose, of_quaternion, of_rpy
+from symgen.describe.formats._robot import GROUND
+from symgen.describe.formats._xml import decimals
+
+MODEL, WORLD = "__model__", "world"
+
+
+@dataclass(frozen=True)
+class PlacedFrame:
+    """A frame of the file: the frame that its pose is in, and the link or frame that it moves with."""
+
+    base: str
+    pose: Pose
+    attached: str
+
+
+class SdfFrames:
+    """The frames of a file.
+
+    Parameters
+    ----------
+    source : str
+        The file, with which every message begins.
+    links : collection of str
+        Names of its links.
+    """
+
+    def __init__(self, source: str, links: Collection[str]) -> None:
+        self.source, self.links = source, links
+        self.placed = {WORLD: PlacedFrame("", Pose(), WORLD)}
+        self.places = {WORLD: Pose()}
+
+    def add(self, name: str, placed: PlacedFrame, where: str) -> None:
+        """Note a frame."""
+        if name in self.placed:
+            raise InputError(where, "a name used once", f"{quoted(name)} twice")
+        self.placed[name] = placed
+
+    def add_element(
+        self, element: ET.Element, name: str, prefix: str, otherwise: str, attached: str, where: str
+    ) -> None:
+        """Note the frame of an element, whose pose is in a frame that it names, or `otherwise`."""
+        self.add(name, PlacedFrame(self.base(element, prefix, otherwise), self.pose(element), attached), where)
+
+    def base(self, element: ET.Element, prefix: str, otherwise: str) -> str:
+        """Return the frame that the pose of an element is in."""
+        pose = element.find("pose")
+        name = "" if pose is None else pose.get("relative_to", pose.get("frame", ""))
+        return prefix + name if name else otherwise
+
+    def pose(self, element: ET.Element, where: str = "", base: str = "") -> Pose:
+        """Return the pose of an element; at the top of a file it has no other base."""
+        pose = element.find("pose")
+        if pose is None:
+            return Pose()
+        where = f"{self.source}: pose of {quoted(element.get('name', element.tag))}"
+        if base == WORLD and pose.get("relative_to", WORLD) != WORLD:
+            raise InputError(where, "a pose in the world", quoted(pose.get("relative_to", "")))
+        text, factor = pose.text or "", 1.0
+        if not text.strip():
+            return Pose()
+        if pose.get("rotation_format", "euler_rpy") == "quat_xyzw":
+            x, y, z, *e = decimals(where, text, 7)
+            if not any(e):
+                raise InputError(where, "a quaternion other than 0 0 0 0", "0 0 0 0")
+            return Pose((x, y, z), of_quaternion((e[3], *e[:3])))
+        if pose.get("degrees", "false") in ("true", "1"):
+            factor = 0.017453292519943295
+        x, y, z, *angles = decimals(where, text, 6)
+        return Pose((x, y, z), of_rpy([factor * angle for angle in angles]))
+
+    def found(self, name: str, where: str) -> str:
+        """Return the name of a frame; a model is its own frame."""
+        if name not in self.placed and f"{name}::{MODEL}" in self.placed:
+            name = f"{name}::{MODEL}"
+        if name not in self.placed:
+            raise InputError(where, "the name of a frame", quoted(name), nearest(name, self.placed))
+        return name
+
+    def place(self, name: str) -> Pose:
+        """Return the place of a frame in the ground frame."""
+        chain, at = list[str](), name
+        while at not in self.places:
+            if at in chain:
+                raise InputError(f"{self.source}: frame {quoted(at)}", "poses in chains", "a ring of them")
+            chain.append(at)
+            at = self.found(self.placed[at].base, f"{self.source}: pose of {quoted(at)}, relative_to")
+        for at in reversed(chain):
+            base = self.found(self.placed[at].base, self.source)
+            self.places[at] = self.places[base] @ self.placed[at].pose
+        return self.places[name]
+
+    def link_of(self, name: str, where: str) -> str:
+        """Return the link that a frame moves with; empty for the ground."""
+        passed, at = set[str](), self.found(name, where)
+        while at not in self.links:
+            if at == WORLD:
+                return GROUND
+            if at in passed or not self.placed[at].attached:
+                raise InputError(where, "a frame that a link carries", quoted(name))
+            passed.add(at)
+            at = self.found(self.placed[at].attached, where)
+        return at

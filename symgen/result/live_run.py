@@ -1,0 +1,130 @@
+"""The live part of a page: emitted code that works out other motions in the coordinates of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.base.errors import AssemblyError, InputError
+from symgen.derive.methods import METHODS
+from symgen.describe.formulas.evaluate import independent_values, parameter_values
+from symgen.describe.parts.events import DOES
+from symgen.result.labelled import Array
+from symgen.result.live_columns import live_columns
+from symgen.result.player.live import NONE, Live, live_part
+from symgen.run.integrators import INTEGRATORS
+from symgen.run.layout import abi
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.run.planning.prepare import Prepared
+    from symgen.run.planning.tree import TreeRun
+
+#: The scheme of pages.
+LIVE_INTEGRATOR = "rk4"
+
+
+def is_live(method: str) -> bool:
+    """Whether pages can run a method: its law has to be one for their scheme."""
+    return bool(set(METHODS.get(method).forms) & set(INTEGRATORS.get(LIVE_INTEGRATOR).forms))
+
+
+def live_of_run(mechanism: Mechanism, run: Mapping[str, Any], method: str = "") -> tuple[Live | None, str]:
+    """Return the live part of a page with coordinates, start, parameters and inputs of a run, by their names in JSON.
+
+    Formulas of inputs are part of the mechanism. Inputs jump where one has other words, or is held by switches.
+    """
+    from symgen.base.settings import Settings
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import prepare
+
+    inputs, formulas, initial = run["inputs"], dict(mechanism.input_formulas), run["start"]
+    if any(isinstance(x, str) and name not in formulas for name, x in inputs.items()) or (
+        not set(mechanism.inputs) <= set(inputs)
+    ):
+        return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
+    if initial["t"]:
+        return None, f"{NONE}: the run went on from another one at t = {initial['t']:.6g} s"
+    own = {event.name for event in mechanism.events}
+    for name, action in run["watched"]:
+        if action in DOES and name not in own:
+            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages look only for events of the file"
+    numbers = {name: x for name, x in inputs.items() if not isinstance(x, str)}
+    parameters = independent_values(mechanism, parameter_values(mechanism, {**run["parameters"], **numbers}))
+    step = run["step"] or mechanism.defaults.step
+    settings = Settings(shape="straight", coordinates=run["coordinates"], parameters=parameters, step=step)
+    settings = replace(settings, method=method) if method else settings
+    if mechanism.bounded:  # whose run is the loop of this scheme
+        settings = replace(settings, integrator=LIVE_INTEGRATOR)
+    prepared = prepare(mechanism, settings, Purpose.STATE)
+    state = {**initial["q"], **initial["v"]}
+    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
+    names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
+    begin = np.array([state[n] for n in names]) if set(names) <= set(state) else None
+    if prepared.tree is not None:
+        return _live_on_tree(prepared, prepared.tree, step, begin)
+    live, note = live_part(
+        mechanism, prepared.compiled, prepared.start, step, begin, acting=prepared.mechanism, run=prepared
+    )
+    if live is None and run["coordinates"] == "absolute":  # a tree has a tenth of the operations, or less
+        prepared = prepare(mechanism, replace(settings, coordinates="joint"), Purpose.STATE)
+        if prepared.tree is not None:
+            return _live_on_tree(prepared, prepared.tree, step, begin)
+    return _with_columns(live, mechanism, prepared), note
+
+
+def _live_on_tree(run: Prepared, tree: TreeRun, step: float, initial: Array | None) -> tuple[Live | None, str]:
+    """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
+    from symgen.run.planning.plan import Purpose
+    from symgen.run.planning.prepare import prepare
+    from symgen.run.planning.start_lines import exported_start
+    from symgen.run.planning.tree_starts import begin_on_tree, carried_of
+
+    mechanism, settings, start = run.plan.mechanism, run.plan.settings, run.start
+    values, moving, info = parameter_values(mechanism, run.plan.parameters), list[str](), run.compiled.info
+    turns = start.w[abi.WINDING :][: info.windings].tolist()
+    own_start = exported_start(run.mechanism, run.compiled, start.datum or (), turns)
+    for name, x in values.items():
+        parameters = {**settings.parameters, name: 1.01 * x if x else 0.01}
+        try:
+            other = prepare(mechanism, replace(settings, parameters=parameters), Purpose.STATE).start
+        except (AssemblyError, InputError):
+            moving.append(name)
+            continue
+        y, v = start.y.copy(), start.y[info.nq : info.nq + info.nv]
+        y[info.nq : info.nq + info.nv] = 0.0
+        own_start.close(y, v, other.p.copy())
+        if np.abs(y - other.y)[: info.work].max() > 1e-7 * np.abs(y).max(initial=1.0):
+            moving.append(name)
+    if initial is not None:
+        y = np.concatenate([initial, tree.body_start.y[len(initial) :]])
+        of_bodies = replace(tree.body_start, y=y)
+        carried = carried_of(mechanism, tree.mechanism, tree.bodies, tree.compiled)
+        start = begin_on_tree(mechanism, tree.mechanism, carried, of_bodies, run.plan.method_parameters).start
+    live, note = live_part(mechanism, run.compiled, start, step, still=moving, acting=run.mechanism, run=run)
+    if live is not None and moving:
+        note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
+    return _with_columns(live, mechanism, run), note
+
+
+def _with_columns(live: Live | None, mechanism: Mechanism, run: Prepared) -> Live | None:
+    """Return a live part that works out all columns that it can."""
+    if live is None:
+        return None
+    law = run.compiled.law
+    units = {parameter.name: parameter.unit for parameter in METHODS.get(law.method).parameters}
+    gains = [
+        {"name": f"method.{name}", "unit": units[name], "value": float(x), "follows": False, "place": place}
+        for place, ((name, _), x) in enumerate(
+            zip(law.parameters, run.start.p[law.parameter_offset :], strict=False), law.parameter_offset
+        )
+        if name in units and not name.endswith("tolerance")
+    ]
+    bodies = None if run.tree is None else run.tree.bodies
+    text, spec = live_columns(mechanism, run.compiled, run.start, bodies, run.mechanism)
+    return replace(
+        live, columns=text, spec={**live.spec, "parameters": [*live.spec["parameters"], *gains], "columns": spec}
+    )

@@ -1,0 +1,63 @@
+"""One simulation: a run, where it can be judged a second one that estimates its error, and their result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from symgen.compile.store.stats import seconds_in_cache
+from symgen.result.build import build_result
+from symgen.result.judge import is_long, unchecked
+from symgen.result.reruns.verification import part_verified, verified
+from symgen.run.planning.prepare import prepare
+from symgen.run.single.timing import timed
+
+if TYPE_CHECKING:
+    from symgen.base.settings import Settings
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+
+
+def verified_result(
+    mechanism: Mechanism, settings: Settings, progress: Callable[[float], None] | None, by: Sequence[str]
+) -> Result:
+    """Return the result of a run.
+
+    Parameters
+    ----------
+    mechanism, settings : Mechanism, Settings
+        What runs, and how.
+    progress : callable or None
+        Called with the time reached.
+    by : sequence of str
+        Numbers that the motion is differentiated by, as `symgen.api.Model.simulate` takes them.
+    """
+    before = seconds_in_cache()
+    if by:
+        from symgen.describe.facts.lifted import lifted
+        from symgen.result.sensitivities import Differentiated
+
+        own = lifted("sensitivities", mechanism, by)
+        directed = Differentiated(own.mechanism, settings, own.keys)
+        run, integrate = directed.run, directed.integrate
+    else:
+        run = prepare(mechanism, settings)
+        integrate = run.integrate
+    runs = timed(lambda: integrate(progress), settings.repeat)
+    outcome, verification = runs.outcome, None
+    if unchecked(run, outcome) is None:
+        free = bool(run.plan.notes) and settings.rtol is None and settings.atol is None and not by
+        run, outcome, verification = verified(run, outcome, free)
+        if settings.verify and run.plan.mechanism.beams:
+            from symgen.result.reruns.discretisation import discretisation
+
+            words = discretisation(run, outcome, settings)
+            note = "; ".join(x for x in (verification.note, words) if x)
+            verification = replace(verification, note=note or None)
+    elif is_long(run, outcome):
+        verification = part_verified(run, outcome)
+    # assembly calls emitted functions too: compiling them belongs to the run
+    outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
+    result = build_result(run, outcome, runs.spread or 0.0, verification)
+    return directed.result(result) if by else result

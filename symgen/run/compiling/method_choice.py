@@ -1,0 +1,92 @@
+"""The choice of a method: its structural options, the shape of its code, and what the mechanism makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from symgen.base.errors import InputError
+from symgen.compile.store.identity import combined_digest
+from symgen.derive.methods import METHODS
+from symgen.derive.methods._base import EXPLICIT_FORMS, Method
+from symgen.describe.bounds.by_reaction import held_by_reactions
+from symgen.describe.mechanism import Mechanism
+
+#: Characters of a file stem that say which velocities are free, at most.
+LONGEST_FREE = 18
+
+
+@dataclass(frozen=True)
+class MethodChoice:
+    """A method with its requested structural options, the shape of its code, and velocities that loops leave free.
+
+    `directed`: with a right-hand side for derivatives.
+    """
+
+    method: Method
+    options: Mapping[str, str]
+    implicit: bool = False
+    shape: str = "straight"
+    free: tuple[int, ...] = ()
+    directed: bool = False
+
+    @property
+    def stem(self) -> str:
+        """File stem of its module."""
+        return self.method.stem(self.options, self.implicit) + self.suffix
+
+    @property
+    def suffix(self) -> str:
+        """End of the file stem, which says the free velocities, and whether it is for derivatives.
+
+        Many free velocities are said by a digest: names of modules have an end.
+        """
+        free = "".join(f"_f{j}" for j in self.free)
+        if len(free) > LONGEST_FREE:
+            free = f"_f{combined_digest(free)[: LONGEST_FREE - 2]}"
+        return free + "_slopes" * self.directed
+
+    def with_options(self, **options: str) -> MethodChoice:
+        """Return the choice with other values of some options."""
+        return replace(self, options={**self.options, **options})
+
+
+def choose_method(name: str, options: Mapping[str, str] | None = None, implicit: bool = False) -> MethodChoice:
+    """Return the method called `name` with its options, defaults filled in, and the form that an integrator needs.
+
+    Raises
+    ------
+    InputError
+        If there is no such method or option.
+    """
+    method = METHODS.get(name, "method")
+    implicit = implicit or not EXPLICIT_FORMS & set(method.forms)  # some methods have no other form
+    return MethodChoice(method, method.complete_options(options or {}), implicit)
+
+
+def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
+    """Return a choice for the mechanism's coordinates: the metric of bodies is the identity in their own."""
+    if mechanism.topology is not None or choice.options.get("weight") != "body":
+        return choice
+    return choice.with_options(weight="identity")
+
+
+def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
+    """Return a choice for massless bodies: v' is not eliminated, where the solver is `free` to be chosen.
+
+    Raises
+    ------
+    InputError
+        If a body is massless, and the method inverts M.
+    """
+    if not mechanism.has_massless:
+        return choice
+    if pressed := held_by_reactions(mechanism):
+        name = next(body.name for body in mechanism.bodies if body.massless)
+        expected = (
+            f"a mass and moments of inertia above 0, as {pressed[0].family.one} depends on the reaction of a joint"
+        )
+        raise InputError(f"bodies.{name}", expected, "one that is 0", pressed[0].family.apart)
+    if choice.method.needs_regular_mass(choice.options):
+        raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
+    return choice.with_options(solver="augmented") if free and "solver" in choice.options else choice
