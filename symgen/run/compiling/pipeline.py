@@ -29,7 +29,6 @@ from symgen.compile.store.entries import Entries, Modules, folder_name
 from symgen.compile.store.identity import combined_digest
 from symgen.compile.store.modules import load_module
 from symgen.compile.store.sources import CODE, reached_digest
-from symgen.describe.bounds.by_reaction import held_by_reactions
 from symgen.describe.facts.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.method_choice import MethodChoice, choose_method, for_coordinates
