@@ -9,10 +9,7 @@ it reads, it is added. Values of the function itself are computed again, and not
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-
-import msgspec
+from collections.abc import Callable, Iterator
 
 from symgen.base.ir.graph import CARRIED
 from symgen.base.ir.program import FREE_RHS
@@ -21,10 +18,9 @@ from symgen.compile.native import sines
 from symgen.compile.native.llvm import LlvmPrinter, declarations, taken
 from symgen.compile.native.llvm_values import TYPES, literal
 from symgen.compile.native.read_values import Foreign
+from symgen.compile.native.straightening import Place, whole_number
 from symgen.compile.native.tangents import Dual, TangentPrinter
 
-#: An element of an array.
-Place = tuple[str, int]
 #: A direction in a sum, and the text of its factor, which is printed where it is needed; None for 1.
 Term = tuple[str, Callable[[], str] | None]
 
@@ -256,7 +252,7 @@ class AdjointPrinter(TangentPrinter):
 
     def whole(self, e: lang.Expression) -> int:
         """Return an index, which has to be known."""
-        return _whole(e, self.counters)
+        return whole_number(e, self.counters)
 
     def either(self, test: str, yes: Dual, no: Dual) -> Dual:
         """Print one of two values by a test."""
@@ -312,125 +308,8 @@ class AdjointPrinter(TangentPrinter):
         return self.put(f"fmul{self.flag} double {factor}, {bar}")
 
 
-def _whole(e: lang.Expression, counters: Mapping[str, int]) -> int:
-    """Return an index, which has to be known."""
-    if isinstance(e, lang.Constant):
-        return int(e.value)
-    if isinstance(e, lang.Variable) and e.name in counters:
-        return counters[e.name]
-    if isinstance(e, lang.ScalarOperation) and e.name in ("add", "sub", "mul"):
-        a, b = (_whole(argument, counters) for argument in e.arguments)
-        return {"add": a + b, "sub": a - b, "mul": a * b}[e.name]
-    raise Foreign("an index that changes in a function with an adjoint")
-
-
 def _branches(function: lang.Function) -> bool:
     """Whether a function of numbers alone has a loop or a choice between statements."""
     if function.returned != "float" or any(p.array or p.type != "float" for p in function.parameters):
         return False
     return any(isinstance(x, lang.If | lang.While | lang.For | lang.StatementBlock) for x in function.body)
-
-
-def correction(accept: lang.Function, rounds: int) -> lang.Function:
-    """Return what ``accept`` does to a state in a number of rounds, as a straight function.
-
-    Parameters
-    ----------
-    accept : Function
-        Functions that it calls, then a loop whose last pass is the one in which a variable is true, then measures.
-    rounds : int
-        Number of passes before the last one.
-
-    Raises
-    ------
-    Foreign
-        If it is of another form.
-    """
-    kept, behind = list[lang.Statement](), False
-    for statement in accept.body:
-        own = accesses((statement,))
-        if not any(array in ("y", "w") for array, _ in own.stored):
-            continue
-        if behind and any(array == "y" for array, _ in own.stored):
-            raise Foreign("a correction behind another one")
-        if isinstance(statement, lang.For) and not behind:
-            kept += [*_pass(statement.body, False) * rounds, *_pass(statement.body, True)]
-            behind = True
-        elif not behind:
-            kept += _acting(statement)
-    return msgspec.structs.replace(accept, body=tuple(kept))
-
-
-def _acting(statement: lang.Statement) -> list[lang.Statement]:
-    """Return a statement that stores floats, without its result."""
-    if isinstance(statement, lang.Assign) and isinstance(statement.value, lang.FunctionCall):
-        return [lang.Evaluate(statement.value)]
-    if isinstance(statement, lang.Evaluate | lang.Store | lang.For):
-        return [statement]
-    raise Foreign("a correction that depends on the state")
-
-
-def _pass(body: tuple[lang.Statement, ...], last: bool) -> list[lang.Statement]:
-    """Return the statements of a pass through the rounds of a correction that store floats."""
-    kept, tests = list[lang.Statement](), set[str]()
-    for statement in body:
-        if isinstance(statement, lang.If):
-            if not isinstance(statement.test, lang.Variable):
-                raise Foreign("a correction with tests of other things than its last pass")
-            tests.add(statement.test.name)
-            for each in statement.then if last else statement.otherwise:
-                if isinstance(each, lang.Leave):
-                    return kept
-                kept += _acting(each)
-        elif any(array in ("y", "w") for array, _ in accesses((statement,)).stored):
-            kept += _acting(statement)
-    if last or len(tests) > 1:
-        raise Foreign("a correction without a last pass")
-    return kept
-
-
-@dataclass(frozen=True)
-class Accesses:
-    """What a function and those that it calls read before they store it, and what they store.
-
-    Attributes
-    ----------
-    read, stored : frozenset of (str, int)
-        Elements by array and index; index -1 means any.
-    """
-
-    read: frozenset[Place]
-    stored: frozenset[Place]
-
-
-def accesses(body: tuple[lang.Statement, ...]) -> Accesses:
-    """Return what statements read and store of arrays, which callees have under the same names."""
-    read, stored = set[Place](), set[Place]()
-
-    def index(e: lang.Expression) -> int:
-        try:
-            return _whole(e, {})
-        except Foreign:
-            return -1
-
-    def walk(part: object) -> None:
-        if isinstance(part, lang.Store):
-            walk(part.value)
-            stored.add((part.array, index(part.index)))
-        elif isinstance(part, lang.ArrayElement):
-            place = part.array, index(part.index)
-            if place not in stored:
-                read.add(place)
-        elif isinstance(part, lang.FunctionCall):
-            for argument in part.arguments:
-                walk(argument)
-            walk(part.function.body)
-        elif isinstance(part, tuple):
-            for each in part:
-                walk(each)
-        elif isinstance(part, lang.Statement | lang.Expression):
-            for name in part.__struct_fields__:
-                walk(getattr(part, name))
-
-    walk(body)
-    return Accesses(frozenset(read), frozenset(stored))
