@@ -168,9 +168,9 @@ class AdjointFunction(EmittedFunction):
     Parameters
     ----------
     function : EmittedFunction
-        ``rhs``, or ``accept`` with a number of rounds.
+        ``rhs``, or one of ``rhs`` and ``accept`` with a number of rounds.
     rounds : int, optional
-        Rounds of a correction before its last one.
+        Iterations of the rates, or rounds of a correction before its last one.
     """
 
     def __init__(self, function: EmittedFunction, rounds: int | None = None) -> None:
@@ -187,12 +187,12 @@ class AdjointFunction(EmittedFunction):
     def compiled_entry(self, arguments: Arguments, symbol: str) -> CacheEntry:
         """Return machine code, made from the source."""
         from symgen.compile.native.adjoints import adjoint_module
-        from symgen.compile.native.correction import correction
         from symgen.compile.native.machine import compiled
+        from symgen.compile.native.straightening import straightened
 
         function, ends = self.read(arguments[: self.py_func.__code__.co_argcount]), "ydot"
         if self.rounds is not None:
-            function, ends = correction(function, self.rounds), "y"
+            function, ends = straightened(function, self.rounds)
         return CacheEntry(function.returned, (), compiled(adjoint_module(function, symbol, ends, _together()), symbol))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
-from symgen.base.vocabulary.expressions import Call, Expr, Name, Number, names_in
+from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.inputs import Jump
@@ -180,26 +180,38 @@ def _lowest(over: Over, sign: Array, low: Array, high: Array) -> Array:
 
 
 def line_of(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
-    """Return value at 0 and slope of a jump's argument if it is linear in t, else None."""
+    """Return value at 0 and slope of a jump's argument if it is a straight line over time, else None."""
+    parts = line_parts(jump.argument)
+    try:
+        return None if parts is None else (evaluate(parts[0], values), evaluate(parts[1], values))
+    except InputError:
+        return None
 
-    def line(e: Expr) -> tuple[float, float] | None:
-        if isinstance(e, Name) and e.name == "t":
-            return 0.0, 1.0
-        if isinstance(e, Number | Name) or "t" not in set(names_in(e)):
-            try:
-                return evaluate(e, values), 0.0
-            except InputError:
-                return None
-        assert isinstance(e, Call), "a tree has three kinds of nodes"
-        parts = [line(a) for a in e.arguments]
-        if any(part is None for part in parts):
-            return None
-        (a, m), (b, n) = (parts[0] or (0.0, 0.0)), ((parts[1] if len(parts) > 1 else None) or (0.0, 0.0))
-        if e.function in ("add", "sub", "neg"):
-            sign = {"add": 1.0, "sub": -1.0, "neg": -1.0}[e.function]
-            return (sign * a, sign * m) if e.function == "neg" else (a + sign * b, m + sign * n)
-        if e.function == "mul" and 0.0 in (m, n):
-            return a * b, a * n + b * m
-        return (a / b, m / b) if e.function == "div" and n == 0.0 and b != 0.0 else None
 
-    return line(jump.argument)
+def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
+    """Return the formulas of the value at 0 and of the slope of a straight line over time; None for another formula."""
+    if isinstance(e, Name) and e.name == "t":
+        return ZERO, ONE
+    if "t" not in set(names_in(e)):
+        return e, ZERO
+    assert isinstance(e, Call), "a name or a number has no other names in it"
+    parts = [line_parts(a) for a in e.arguments]
+    if any(part is None for part in parts) or e.function not in ("add", "sub", "neg", "mul", "div"):
+        return None
+    (a, m), *others = [part for part in parts if part is not None]
+    if e.function == "neg":
+        return call("neg", a), call("neg", m)
+    ((b, n),) = others
+    if e.function in ("add", "sub"):
+        return _sum(e.function, a, b), _sum(e.function, m, n)
+    if e.function == "div":
+        return (call("div", a, b), call("div", m, b)) if n == ZERO else None
+    if ZERO not in (m, n):
+        return None
+    return call("mul", a, b), call("mul", a, n) if m == ZERO else call("mul", m, b)
+
+
+def _sum(function: str, a: Expr, b: Expr) -> Expr:
+    if b == ZERO:
+        return a
+    return call(function, a, b) if a != ZERO else b if function == "add" else call("neg", b)

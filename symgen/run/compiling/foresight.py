@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.base.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, call, names_in
+from symgen.base.vocabulary.expressions import names_in
 from symgen.describe.parts.inputs import Jump
-from symgen.run.breaks.in_time import line_of
+from symgen.run.breaks.in_time import line_of, line_parts
 from symgen.run.breaks.seams import BESIDE as BESIDE_A_SIDE
 from symgen.run.breaks.seams import NEXT_TO, SAME, Foreseen
 from symgen.run.compiling.side import Side, compile_side
@@ -30,35 +30,6 @@ if TYPE_CHECKING:
 _ROOM, _MOST_ROOM = 64, 256
 #: Seams of a passage at most; and those at the begin and at the end of a window.
 _OF_PASSAGE, _OF_WINDOW = 3, 2
-
-
-def line_parts(e: Expr) -> tuple[Expr, Expr] | None:
-    """Return the formulas of the value at 0 and of the slope of a straight line over time; None for another formula."""
-    if isinstance(e, Name) and e.name == "t":
-        return ZERO, ONE
-    if "t" not in set(names_in(e)):
-        return e, ZERO
-    assert isinstance(e, Call), "a name or a number has no other names in it"
-    parts = [line_parts(a) for a in e.arguments]
-    if any(part is None for part in parts) or e.function not in ("add", "sub", "neg", "mul", "div"):
-        return None
-    (a, m), *others = [part for part in parts if part is not None]
-    if e.function == "neg":
-        return call("neg", a), call("neg", m)
-    ((b, n),) = others
-    if e.function in ("add", "sub"):
-        return _sum(e.function, a, b), _sum(e.function, m, n)
-    if e.function == "div":
-        return (call("div", a, b), call("div", m, b)) if n == ZERO else None
-    if ZERO not in (m, n):
-        return None
-    return call("mul", a, b), call("mul", a, n) if m == ZERO else call("mul", m, b)
-
-
-def _sum(function: str, a: Expr, b: Expr) -> Expr:
-    if b == ZERO:
-        return a
-    return call(function, a, b) if a != ZERO else b if function == "add" else call("neg", b)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ result is differentiated by.
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,8 @@ from numpy.typing import NDArray
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.native.accesses import Accesses, accesses
-from symgen.compile.native.correction import correction
 from symgen.compile.native.read_values import Foreign
+from symgen.compile.native.straightening import correction, iterates
 from symgen.compile.store.emitted import AdjointFunction, EmittedFunction
 from symgen.run.layout import abi
 from symgen.run.single.bounded_rows import CONSTANT, LIMIT
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Iterations of rates in an adjoint, at least.
+ITERATIONS = 6
 _HINT = "lagrange and direct-correction have one; forward directions take all methods"
 
 
@@ -77,7 +80,7 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
 
     method = f"the method {law}"
     own, other = _accesses(rhs, abi.RHS), _accesses(accept, abi.ACCEPT)
-    _compile(_adjoint(rhs), RATES, f"accelerations of {method}")
+    _compile(_adjoint(rhs, _iterations(rhs)), RATES, f"accelerations of {method}")
     angles = {("w", abi.WINDING + i) for i in range(windings)}
     passing = {place for place in own.stored | other.stored if place[0] == "w"} - (angles - own.stored)
     read = own.read
@@ -86,6 +89,20 @@ def _check_functions(rhs: EmittedFunction, accept: EmittedFunction, law: str, wi
         read |= _correction_accesses(accept).read
     if read & passing or ("w", -1) in own.read | own.stored:
         raise refusal("rates of the state alone", f"{method}, which keeps numbers from step to step")
+
+
+@functools.lru_cache(maxsize=256)
+def _iterates(rhs: EmittedFunction) -> bool:
+    """Whether rates of the state are found by iteration."""
+    return iterates(rhs.read(abi.RHS.signature.arguments))
+
+
+def _iterations(rhs: EmittedFunction, mean: float = 0.0) -> int | None:
+    """Return the iterations of rates in an adjoint, one more than a run takes as a mean; None without any.
+
+    Derivatives converge as fast as values, an iteration behind.
+    """
+    return max(ITERATIONS, math.ceil(mean) + 1) if _iterates(rhs) else None
 
 
 @functools.lru_cache(maxsize=256)
@@ -181,7 +198,8 @@ class WayBack:
         self._w = self._bars[width + sizes[0] :]
         self._room = np.zeros((int(run.scheme.stages) + 4) * width)
         self._now = state.p.copy(), state.w.copy(), state.iw.copy()
-        self._rates, self._table = _adjoint(for_derivatives(law, "rhs")), transposed(run.scheme)
+        rhs, mean = for_derivatives(law, "rhs"), state.iw[abi.LAW_ITERATIONS] / max(1, state.control[abi.EVALUATIONS])
+        self._rates, self._table = _adjoint(rhs, _iterations(rhs, mean)), transposed(run.scheme)
         self._angles = run.compiled.info.windings
         self._corrections = self._corrected() if _corrects(law.accept) else None
         self._found = np.zeros(seeds.count)

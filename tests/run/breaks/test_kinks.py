@@ -15,6 +15,7 @@ from symgen.describe import catalogue
 from symgen.describe.facts.kinks import compares_state, discontinuities_of, jumps_in_time
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.describe.parts.inputs import Jump
+from symgen.run.breaks.in_time import line_of
 from symgen.run.breaks.seams import merged, times_between
 from symgen.run.loops.run_spec import Seam
 from symgen.study.ensemble.sweep import sweep
@@ -170,3 +171,23 @@ def test_kinks_and_jumps_end_pieces_together() -> None:
     kinks = (Seam(0.0, {}), Seam(0.3, {}), Seam(0.5, {}), Seam(0.7, {}))
     assert merged(jumps, kinks) == (jumps[0], kinks[1], jumps[1], kinks[3])
     assert merged((), kinks) == kinks and merged(jumps, ()) == jumps
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("2*t - 1", (-1.0, 2.0)),
+        ("-(t - k)/c", (3.4, -2.0)),
+        ("k*(c*t + 1) - 3*t", (1.7, -2.15)),
+        ("sin(k)", (math.sin(1.7), 0.0)),
+        ("(z*t)*t", None),  # whatever the parameter is
+        ("t/(1 + z*t)", None),
+        ("t/z", None),
+    ],
+)
+def test_straight_lines_are_those_for_all_parameters(text: str, line: tuple[float, float] | None) -> None:
+    """A run in other languages, whose parameters change, takes the same formulas for lines."""
+    names = {name: name for name in ("t", "k", "c", "z")}
+    argument = parse(text, FormulaNames("a formula", names, {}, {}), "here")
+    found = line_of(Jump(argument), {"k": 1.7, "c": 0.5, "z": 0.0})
+    assert found == (None if line is None else pytest.approx(line, rel=1e-15))
