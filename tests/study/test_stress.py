@@ -373,16 +373,23 @@ def test_what_is_too_slow_is_told_without_a_clock():
     assert refused["outcome"] == "refused" and "one that solves the form of lagrange" in refused["reason"]
 
 
-def test_a_measured_budget_stops_a_run():
-
+@pytest.mark.parametrize("integrator", ["rk4", "dop853"])
+def test_a_run_ends_at_its_budget_of_evaluations_whatever_the_clock(integrator):
     from symgen.base.settings import Settings
     from symgen.run.layout import abi
     from symgen.run.planning.prepare import prepare
 
     model = symgen.load("four-bar")
-    settings = Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3)
-    outcome = prepare(model.mechanism, settings).with_spec(max_evaluations=1000, max_violation=1e30).integrate()
-    assert outcome.code == abi.STOPPED and outcome.evaluations > 1000 and not outcome.interrupted
+    step = 1e-6 if integrator == "rk4" else None
+    settings = Settings(method="lagrange", integrator=integrator, step=step, until=1e3, output_step=1e3)
+    run = prepare(model.mechanism, settings).with_spec(max_violation=1e30, max_energy_error=1e30)
+    for most in (1, 1000):
+        outcome = run.with_spec(max_evaluations=most).integrate()
+        assert outcome.code == abi.STOPPED and most < outcome.evaluations < most + 13 and not outcome.interrupted
+    short = Settings(method="lagrange", integrator=integrator, step=step, until=1e-4)
+    whole = prepare(model.mechanism, short).integrate()
+    ended = prepare(model.mechanism, short).with_spec(max_evaluations=whole.evaluations).integrate()
+    assert ended.code == abi.DONE and np.array_equal(ended.states, whole.states)
 
 
 @pytest.mark.slow

@@ -55,7 +55,7 @@ N_COUNTERS = len(COUNTERS)
 
 # -- control: integers of a run, shared with the thread that watches it ------------------------------------------------
 (
-    STOP,  # set from outside to end the run
+    STOP,  # set from outside to end the run: `AT_ONCE`, or once it has taken more evaluations than this number
     STEPS,
     REJECTED,
     EVALUATIONS,
@@ -77,6 +77,8 @@ N_COUNTERS = len(COUNTERS)
     PASSED,  # seams that have been passed
 ) = range(20)
 N_CONTROL = 20
+#: Value of ``control[STOP]`` that ends a run before its next step; 0 lets it go on.
+AT_ONCE = 1
 #: Value of ``control[BEGUN]`` if the rates have changed at the present state: the scheme begins anew.
 AFRESH = 2
 #: The same, but the step goes on: other rows are in force, and the motion is as fast as before.

@@ -116,7 +116,8 @@ def choose_step(
     """
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     code, h, following, crossing, proposal = abi.DONE, 0.0, 0.0, False, 0.0
-    if control[abi.STOP] != 0:
+    stop = control[abi.STOP]
+    if stop == abi.AT_ONCE or 0 < stop < control[abi.EVALUATIONS]:
         code = abi.STOPPED
     elif control[abi.STEPS] >= span.pause:
         code = abi.PAUSED

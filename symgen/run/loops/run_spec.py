@@ -197,7 +197,7 @@ class RunSpec:
     integrator_parameters : mapping
         Values of the integrator's parameters that differ from the defaults.
     max_evaluations : int or None
-        Evaluations of the right-hand side, some time after which the run is stopped.
+        Evaluations of the right-hand side, after which no step begins.
     max_attempts : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None

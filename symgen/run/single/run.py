@@ -70,7 +70,11 @@ def completed(simulation: Simulation, progress: Progress | None = None) -> Outco
     if start.saved is not None:
         simulation.store_first(outputs)
     simulation.warm(outputs)
-    code, seconds, cpu_seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
+    control, first = simulation.state.control, simulation.before[abi.EVALUATIONS]
+    if spec.max_evaluations is not None:
+        control[abi.STOP] = max(first + spec.max_evaluations, abi.AT_ONCE + 1)
+    code, seconds, cpu_seconds, interrupted = _in_thread(simulation, outputs, progress)
+    control[abi.STOP] = abi.AT_ONCE if code == abi.STOPPED else 0  # whoever goes on with it has no limit
     return outcome_of(simulation, outputs, code, seconds, interrupted, cpu_seconds)
 
 
@@ -177,14 +181,12 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
     return min((left[i], row.name) for i, row in enumerate(info.rows) if row.unit == "rad")[1]
 
 
-def _in_thread(
-    simulation: Simulation, outputs: Outputs, progress: Progress | None, budget: int | None
-) -> tuple[int, float, float, bool]:
+def _in_thread(simulation: Simulation, outputs: Outputs, progress: Progress | None) -> tuple[int, float, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
     Returns the end code of the loop, its seconds, those of the processor, and whether it was interrupted, even if too
-    late to stop it. A loop beyond its budget of evaluations is stopped as well, but does not count as interrupted.
-    Functions that a run compiles on its way, for modes and effects that come up, are no part of its seconds.
+    late to stop it. Functions that a run compiles on its way, for modes and effects that come up, are no part of its
+    seconds.
     """
     result: list[Any] = []
     interrupted = False
@@ -214,14 +216,12 @@ def _in_thread(
         try:
             # not Thread.join: interrupted there, Python 3.11 takes a running thread for a stopped one
             while not finished.wait(0.1):
-                if budget is not None and control[abi.EVALUATIONS] > budget:
-                    control[abi.STOP] = 1
                 if progress is not None:
                     progress(float(clock[abi.TIME]))
             break
         except KeyboardInterrupt:
             interrupted = True
-            control[abi.STOP] = 1
+            control[abi.STOP] = abi.AT_ONCE
     outcome = result[0]
     if isinstance(outcome, BaseException):
         raise outcome

@@ -22,5 +22,5 @@ def test_seconds_of_a_run_have_no_compilation_in_them(monkeypatch: pytest.Monkey
     monkeypatch.setattr(run, "time", SimpleNamespace(perf_counter=lambda: now[0]))
     monkeypatch.setattr(stats, "counters", stats.counters.copy())
     state = SimpleNamespace(clock=np.zeros(8), control=np.zeros(32, dtype=np.int64))
-    code, seconds, _, interrupted = run._in_thread(SimpleNamespace(enter=enter, state=state), (), None, None)  # type: ignore[arg-type]  # a stub
+    code, seconds, _, interrupted = run._in_thread(SimpleNamespace(enter=enter, state=state), (), None)  # type: ignore[arg-type]  # a stub
     assert (code, seconds, interrupted) == (abi.DONE, 3.0, False)
