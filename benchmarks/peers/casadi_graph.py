@@ -23,6 +23,7 @@ def shared_by_casadi(block: Block) -> int:
         op, args, payload = g.nodes[node]
         numbers = [values[a] for a in args]
         if op == "const":
+            assert isinstance(payload, float), "constants are numbers"
             values[node] = ca.SX(payload)
         elif op in ("input", "table"):
             values[node] = ca.SX.sym(f"x{node}")

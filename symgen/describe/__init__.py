@@ -10,7 +10,7 @@ Imports: msgspec; `base`; kinds of `forces` and `joints` by name.
 from __future__ import annotations
 
 from symgen.describe.files.builder import MechanismBuilder
-from symgen.describe.files.load import load_mechanism
+from symgen.describe.files.load import load_mechanism as load
 from symgen.describe.mechanism import Mechanism
 
-__all__ = ["Mechanism", "MechanismBuilder", "load_mechanism"]
+__all__ = ["Mechanism", "MechanismBuilder", "load"]

@@ -12,7 +12,7 @@ import pytest
 
 from describe.measured import Posed, complex_value
 from symgen.base.vocabulary.expressions import ZERO
-from symgen.describe import load_mechanism
+from symgen.describe.files.load import load_mechanism
 
 DATA = json.loads((Path(__file__).parents[1] / "data" / "andrews_ivp.json").read_text())
 PARAMETERS = DATA["parameters"]

@@ -8,8 +8,7 @@ import tomllib
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe import load_mechanism
-from symgen.describe.files.load import LARGEST_FILE, parse_toml
+from symgen.describe.files.load import LARGEST_FILE, load_mechanism, parse_toml
 from symgen.describe.files.validate import errors_of, validate
 
 GOOD = """

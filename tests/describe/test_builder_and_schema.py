@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from support.texts import texts
 
 from symgen.base.errors import InputError
-from symgen.describe import MechanismBuilder, catalogue, load_mechanism
+from symgen.describe import MechanismBuilder, catalogue
 from symgen.describe.files.builder import to_toml
-from symgen.describe.files.load import read_raw
+from symgen.describe.files.load import load_mechanism, read_raw
 from symgen.describe.files.schema import schema
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES

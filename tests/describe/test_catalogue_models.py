@@ -12,9 +12,9 @@ import pytest
 
 from describe.measured import Posed
 from symgen.base.errors import InputError
-from symgen.describe import catalogue, load_mechanism
+from symgen.describe import catalogue
 from symgen.describe.files.builder import to_toml
-from symgen.describe.files.load import read_raw
+from symgen.describe.files.load import load_mechanism, read_raw
 from symgen.describe.files.template import template
 from symgen.describe.files.validate import validate
 from symgen.describe.forces import FORCES

@@ -8,9 +8,9 @@ import pytest
 from symgen.api import Model, load
 from symgen.base.errors import InputError
 from symgen.cli import main
-from symgen.describe import load_mechanism
 from symgen.describe.facts.digest import digest
 from symgen.describe.files.builder import MechanismBuilder
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import evaluation_order, parameter_values
 from symgen.describe.formulas.parser import FormulaNames, parse
 from symgen.study.ensemble.sweep import sweep

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 HEAVY = {"sympy", "numpy", "numba", "scipy", "jinja2", "rich", "click", "matplotlib", "pandas"}
-LOAD = "from symgen.describe import load_mechanism as load"
+LOAD = "from symgen.describe import load"
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,9 @@ import tomllib
 
 import pytest
 
-from symgen.describe import catalogue, load_mechanism
+from symgen.describe import catalogue
 from symgen.describe.facts.digest import canonical, digest
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.files.validate import validate
 
 TEXT = """

@@ -6,8 +6,7 @@ import tomllib
 import pytest
 
 from symgen.base.errors import InputError
-from symgen.describe import load_mechanism
-from symgen.describe.files.load import LARGEST_FILE
+from symgen.describe.files.load import LARGEST_FILE, load_mechanism
 from symgen.describe.files.problems import problems, with_line
 from symgen.describe.files.validate import errors_of, validate
 

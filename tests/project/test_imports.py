@@ -179,7 +179,7 @@ def test_running_a_generated_model_needs_neither_sympy_nor_jinja2_nor_numba(tmp_
 
 def test_generating_needs_no_numba(tmp_path: Path) -> None:
     code = (
-        "from symgen.describe import load_mechanism as load\n"
+        "from symgen.describe import load\n"
         "from symgen.derive.formulate.formulate import formulate\n"
         "from symgen.derive.lower.model import lower_model\n"
         "from symgen.derive.emit.emit import emit_model\n"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.emitted import Emitted
 
-from symgen.describe import load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import scalars
 from symgen.describe.formulas.start import described_start
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.spatial_runs import columns, point, run, start_of
 
-from symgen.describe import load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.formulas.evaluate import evaluate
 from symgen.result.points import Points
 from symgen.study.references.reference import reference

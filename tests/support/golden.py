@@ -8,7 +8,7 @@ from pathlib import Path
 from symgen.derive.lower.looped.law import is_loopable
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
-from symgen.describe import load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.choices import on_tree
 from symgen.run.compiling.closing import at_start

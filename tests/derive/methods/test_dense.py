@@ -8,7 +8,7 @@ from support.models import EVERYTHING
 from benchmarks import robustness
 from symgen.api import load
 from symgen.base.ir.program import COUNTERS, STATUS
-from symgen.describe import load_mechanism as describe
+from symgen.describe import load as describe
 
 DENSE = {"method.solver": "dense"}
 

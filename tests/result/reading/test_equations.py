@@ -14,7 +14,8 @@ from support.rotation import of_turn
 import symgen
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.describe import catalogue, load_mechanism
+from symgen.describe import catalogue
+from symgen.describe.files.load import load_mechanism
 from symgen.result.reading import symbolic_equations as reading
 from symgen.result.reading.symbolic_equations import SymbolicEquations
 from symgen.run.compiling.choices import on_tree

@@ -10,7 +10,7 @@ from symgen.cli import main
 from symgen.compile.native.compiler import interpreted
 from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.model import lower_model
-from symgen.describe import load_mechanism
+from symgen.describe.files.load import load_mechanism
 from symgen.result.reading import page as pages
 from symgen.result.reading.html import of_factor, prose
 
