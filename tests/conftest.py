@@ -31,6 +31,10 @@ providers._get_local_constants = lambda: providers._local_constants
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
+# Each processor has a worker: threads of linear algebra would wait for each other, at matrices of a few rows.
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+
 # The turn by which `support.rotation` chooses cases: the same ones every time unless another one, or all, is asked for.
 os.environ.setdefault("SYMGEN_TEST_TURN", "0")
 
