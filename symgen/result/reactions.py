@@ -319,7 +319,9 @@ def _minimum_norm(outcome: Motion) -> Array:
     if outcome.compiled.law.unique_multipliers:
         return values
     held = _held(outcome)
-    dependent = outcome.status_columns[:, abi.RANK] < held.sum(axis=1)
+    # looped code keeps a pivot of rows that are off, and counts it
+    counted = outcome.compiled.info.m if outcome.compiled.shape == "looped" else held.sum(axis=1)
+    dependent = outcome.status_columns[:, abi.RANK] < counted
     dependent |= outcome.start.rank < outcome.compiled.in_force(outcome.start.w)
     usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
     for k in np.flatnonzero(dependent & usable):

@@ -119,3 +119,32 @@ def test_short_and_long_code_agree_on_a_rubbing_chain():
     np.testing.assert_allclose(looped.q.values, straight.q.values, rtol=0.0, atol=1e-9)
     for name in straight.outputs.names:
         np.testing.assert_allclose(looped[name], straight[name], rtol=0.0, atol=1e-7)
+
+
+def parallel_bars():
+    """A plate on three equal bars: one row repeats what the others hold, and a pin rubs."""
+    builder = MechanismBuilder("parallel-bars", gravity=[0.0, -G])
+    builder.parameter("torque", 0.5)
+    builder.body("plate", mass=2.0, inertia=0.5, position=[1.0, 1.0])
+    for i in range(3):
+        builder.body(f"bar{i}", mass=1.0 + i, inertia=0.1, position=[float(i), 0.5], angle=0.5 * np.pi)
+        more = {} if i else {"friction": {"sliding": "torque"}, "start": {"rate": 1.0}}
+        builder.joint(f"foot{i}", "revolute", between=["ground", f"bar{i}"], at=[[float(i), 0.0], [-0.5, 0.0]], **more)
+        builder.joint(f"head{i}", "revolute", between=[f"bar{i}", "plate"], at=[[0.5, 0.0], [i - 1.0, 0.0]])
+    return symgen.load(builder.build())
+
+
+@pytest.mark.parametrize("count", [3, pytest.param(300, marks=pytest.mark.slow)], ids=["3", "300"])
+def test_reactions_that_are_not_unique_are_those_of_straight_code(count):
+    """Rows that are off count neither as rows in force nor in the rank, also where all of them move."""
+    model, names = (
+        parallel_bars(),
+        [f"{joint}{i}.{axis}" for joint in ("foot", "head") for i in range(3) for axis in ("Fx", "Fy")],
+    )
+    for torque in np.linspace(0.1, 9.0, count):
+        settings = {"until": 0.2, "output_step": 0.05, "integrator": "rk4", "step": 1e-3, "method": "lagrange"}
+        runs = [model.simulate(parameters={"torque": torque}, shape=s, **settings) for s in ("straight", "looped")]
+        straight, looped = runs
+        assert looped.shape == "looped" and looped.rank.rank == straight.rank.rank == 11 and looped.rank.rows == 12
+        assert looped.non_unique_reactions == straight.non_unique_reactions != ()
+        np.testing.assert_allclose(looped.select(names).values, straight.select(names).values, rtol=0, atol=1e-9)

@@ -221,8 +221,10 @@ class CompiledModel(ABC):
         return w[offset : offset + size]
 
     def rank(self, w: Array) -> int:
-        """Return the rank of D at the position of `w`: the number of pivots above rounding."""
-        return int(np.sum(self.section(w, "pivot") >= SKIP))
+        """Return the rank of D at the position of `w`: the number of pivots above rounding, of rows in force."""
+        kept = self.section(w, "pivot") >= SKIP
+        kept[list(self.info.switchable)] &= self.modes(w)[:, 0] != 0.0
+        return int(np.sum(kept))
 
     def redundant(self, w: Array) -> tuple[str, ...]:
         """Return the names of the dependent rows that are left out in `w`."""
