@@ -6,6 +6,7 @@ Rules for elementary functions are the slopes in `symgen.base.vocabulary.functio
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any
 
@@ -21,7 +22,7 @@ from symgen.compile.native.read_values import Foreign
 Dual = tuple[str, str | None]
 
 
-class TangentRules(LlvmPrinter):
+class TangentRules(LlvmPrinter, ABC):
     """Prints operations with directions.
 
     Attributes
@@ -36,9 +37,9 @@ class TangentRules(LlvmPrinter):
     kind: str
     printed: dict[tuple[str, ...], str]
 
+    @abstractmethod
     def dual(self, e: lang.Expression) -> Dual:
         """Print the instructions of a float and return it with its directions."""
-        raise NotImplementedError
 
     def differentiated(self, e: lang.ScalarOperation) -> Dual:
         """Print an operation by its rule."""

@@ -150,9 +150,7 @@ class _Rewriting:
             content = Force(
                 "e", "", (), *(tuple(self.walk(e) for e in part) for part in (element.efforts, element.flexures))
             )
-        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
-        nothing = (ZERO,) * len(self.mechanism.gravity)
-        instance = self.instance(kind, element.name, element.kind, nothing, frames, content)
+        instance = self.massless(kind, element.name, element.kind, content)
         angles = turns(measures_of(element))
         return replace(instance, angles=angles) if angles else instance
 
@@ -162,9 +160,7 @@ class _Rewriting:
         whole: Any = self.walk(row)
         named = {field: "e" for field in ("name", "joint", "owner") if field in whole.__struct_fields__}
         content = msgspec.structs.replace(whole, **named)
-        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
-        nothing = (ZERO,) * len(self.mechanism.gravity)
-        instance = self.instance("bound", row.row, row.family.one, nothing, frames, content)
+        instance = self.massless("bound", row.row, row.family.one, content)
         angles = turns([row.measure])
         return replace(instance, angles=angles) if angles else instance
 
@@ -175,11 +171,10 @@ class _Rewriting:
         labels = {f"{joint.name}.{each.label}": f"r{i}" for i, each in enumerate(joint.rows)}
         rows = zip((self.walk(each) for each in joint.rows), labels.values(), strict=True)
         held = tuple(msgspec.structs.replace(each, label=label) for each, label in rows)
-        pressed: Any = msgspec.structs.replace(row, pressed=tuple(f"e.{labels[name]}" for name in row.pressed))  # type: ignore[type-var]
+        whole: Any = row  # all kinds are structs
+        pressed = msgspec.structs.replace(whole, pressed=tuple(f"e.{labels[name]}" for name in row.pressed))
         content = msgspec.structs.replace(self.walk(pressed), name="e", joint="e")
-        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
-        nothing = (ZERO,) * len(self.mechanism.gravity)
-        instance = self.instance("drag", row.row, row.family.one, nothing, frames, content)
+        instance = self.massless("drag", row.row, row.family.one, content)
         abstract = msgspec.structs.replace(instance.abstract, joints=(Joint("e", "", (), held),), bounded=(content,))
         key = instance.key + msgspec.json.encode([*held, content])
         angles = turns([*measures_of(Joint("e", "", (), joint.rows)), row.measure])
@@ -189,9 +184,7 @@ class _Rewriting:
         """Return a rotor on a joint as an instance: its inertia, and the rate of its angle."""
         self.begin()
         content = Rotor("e", self.walk(rotor.angle), self.formula(rotor.inertia), self.walk(rotor.axes))
-        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
-        nothing = (ZERO,) * len(self.mechanism.gravity)
-        instance = self.instance("rotor", rotor.joint, "rotor", nothing, frames)
+        instance = self.massless("rotor", rotor.joint, "rotor")
         abstract = msgspec.structs.replace(instance.abstract, rotors=(content,))
         angles = turns([rotor.angle])
         return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(content), angles=angles)
@@ -201,13 +194,16 @@ class _Rewriting:
         self.begin()
         self.aliases[state.name] = "z0"
         rate = self.formula(state.rate)
-        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
-        nothing = (ZERO,) * len(self.mechanism.gravity)
-        instance = self.instance("state", state.name, "state", nothing, frames)
+        instance = self.massless("state", state.name, "state")
         first, *others = instance.abstract.states
         abstract = msgspec.structs.replace(instance.abstract, states=(StateVariable(first.name, ZERO, rate), *others))
         angles = turns(measure.source for measure in readings(state.rate))
         return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(rate), angles=angles)
+
+    def massless(self, kind: str, name: str, label: str, content: Any = None) -> Instance:
+        """Return an instance without inertia of its own, on bodies as mere frames."""
+        frames = tuple(self.frame(self.bodies[body], alias) for body, alias in self.frames.items())
+        return self.instance(kind, name, label, (ZERO,) * len(self.mechanism.gravity), frames, content)
 
     def instance(
         self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None
