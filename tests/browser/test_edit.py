@@ -216,6 +216,7 @@ def test_a_file_that_changed_on_the_disk_asks(page: Page, file: Path) -> None:
     assert file.read_text().endswith("# theirs\n")
     page.key("s", 2)
     page.until("document.getElementById('ask').open")
+    page.rested()  # what the motion says stands where the file's own word comes
     page.press("#overwrite")
     page.until("document.getElementById('status').textContent.startsWith('saved')")
     assert file.read_text().startswith("# ours\n") and not file.read_text().endswith("# theirs\n")
@@ -274,6 +275,24 @@ def test_narrow_and_dark_pages_have_names_for_all_controls(page: Page) -> None:
         )
         assert nameless == []
         assert page.said() == []
+
+
+def test_places_are_those_of_the_next_picture(page: Page, file: Path) -> None:
+    """A tool that makes room and keeps the picture as it is moves no place until then: a click would miss its point."""
+    file.write_text('[mechanism]\nname = "mine"\n\n[run]\nuntil = 1.0\n')
+    page.open()
+    page.until("!document.getElementById('errors').hidden")
+    for ends in (((-0.6, -0.4), (-0.5, -0.1)), ((-0.5, -0.1), (-0.35, 0.0)), ((-0.35, 0.0), (-0.3, 0.1))):
+        before = page.text("text")
+        page.press("[data-tool=bar]")
+        for end in ends:
+            page.click(*page.place(*end))
+        page.until(f"document.getElementById('text').value.length > {len(before)}")
+        page.rested()
+        chosen = "document.querySelector('[data-tool=bar]').click(), window.symgen.editor.place(0, 0)"
+        at = page.run(f"({chosen})")
+        page.chromium.frame()
+        assert page.run("window.symgen.editor.place(0, 0)") == at
 
 
 def test_a_driven_four_bar_from_an_empty_file_by_the_mouse_alone(page: Page, file: Path) -> None:

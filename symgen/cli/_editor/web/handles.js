@@ -53,13 +53,14 @@ function choosing(name) {
 
 // -- places on the picture ------------------------------------------------------------------------------------------------
 
+// By what is in the middle: where the camera was last drawn from may be a picture ago.
 const onPicture = (x, y) => {
-  const { camera } = view;
-  return [(x - camera.x) * camera.scale + camera.width / 2, camera.height / 2 - (y - camera.y) * camera.scale];
+  const { at, scale, width, height } = view.camera;
+  return [(x - at[0]) * scale + width / 2, height / 2 - (y - at[1]) * scale];
 };
 const onPlane = (px, py) => {
-  const { camera } = view;
-  return [(px - camera.width / 2) / camera.scale + camera.x, (camera.height / 2 - py) / camera.scale + camera.y];
+  const { at, scale, width, height } = view.camera;
+  return [(px - width / 2) / scale + at[0], (height / 2 - py) / scale + at[1]];
 };
 // The step of a grid whose lines are some pixels apart, and a number on it.
 const gridded = (pixels) => 10 ** Math.ceil(Math.log10(pixels / view.camera.scale) - 0.3);
