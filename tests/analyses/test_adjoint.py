@@ -47,6 +47,7 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar, method, coordinate
         assert found.memory > 1000
 
 
+@pytest.mark.slow_cases("rod.theta")
 @pytest.mark.parametrize("quantity", ["rod.theta", "length**2/3*rod.omega**2", "rod.alpha"])
 def test_the_rod_on_a_pin(tmp_path, quantity):
     rod = model(tmp_path, ROD)
@@ -63,7 +64,7 @@ def test_the_integral_of_idas(tmp_path):
     assert energy.by == pytest.approx(G_BY, rel=1e-11)
 
 
-@pytest.mark.fast("dop853-options2-direct-correction")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 @pytest.mark.parametrize(
     ("integrator", "options"),
@@ -242,6 +243,7 @@ def test_angles_that_count_turns(tmp_path, method, coordinates):
     assert wheel.simulate(verify=False, **settings)["axle.angle"].max() > 12.0
 
 
+@pytest.mark.slow
 def test_objectives(four_bar):
     settings = {"until": 0.5, "method": "lagrange", "integrator": "rk4", "step": 1e-2, "start": {"crank.omega": 0.3}}
     by = (*BY_NAME, "crank.omega", "bodies.coupler.angle")

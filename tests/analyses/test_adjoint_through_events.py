@@ -55,6 +55,7 @@ def test_the_adjoint_is_what_forward_directions_are(tmp_path, steps, case):
     assert one.by == pytest.approx(other.by, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_ball_that_bounces_twice(tmp_path):
     found = model(tmp_path, BALL).gradient("ball.y", by=("h0", "e", "g"), way="adjoint", until=1.5, **TIGHT)
     expected = {"h0": 1.488826194916769, "e": 4.310179282157103, "g": -0.1463225081634283}

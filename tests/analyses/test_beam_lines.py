@@ -36,6 +36,7 @@ def place(rest, axes="xy"):
     return np.array([rest.q[f"rod.end.{axis}"] for axis in axes])
 
 
+@pytest.mark.slow
 def test_right_angled_frame_bends_as_the_handbooks_say():
     """A small load along the first leg bends both: the corner turns by F b a / E I."""
     load, a, b = 1e-5, 1.0, 0.7
@@ -129,7 +130,7 @@ def test_masses_of_a_frame_are_those_of_its_rods(space):
     np.testing.assert_allclose(found[compared], expected[compared], atol=1e-14)
 
 
-@pytest.mark.fast("planar")
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_frame_vibrates_as_beams_with_a_rigid_joint(space):
     line = CORNER if space == "planar" else BENT[:3].tolist()
@@ -147,7 +148,7 @@ def test_frame_vibrates_as_beams_with_a_rigid_joint(space):
     np.testing.assert_allclose(found, joined, rtol=1e-8)
 
 
-@pytest.mark.fast("planar")
+@pytest.mark.slow
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_points_on_a_straight_line_change_nothing(space):
     """Elements of the same lengths as those of a beam with a start and an end."""

@@ -44,6 +44,7 @@ def test_elastica_converges_with_fourth_order():
     assert np.all((slopes > 3.8) & (slopes < 4.2))
 
 
+@pytest.mark.slow
 def test_soft_beam_converges_with_fourth_order():
     """E A = 200 and G A = 80 beside E I = 1: stretch and shear matter; by shooting (DOP853, 1e-12)."""
     expected, errors = np.array([0.275417259584, 0.876892375944]), []

@@ -37,6 +37,7 @@ def test_a_rod_beside_a_stiff_spring(stiffness, way):
         assert_allclose(found.omega_squared[0], math.copysign(14.715, -angle), rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("{}")
 @pytest.mark.parametrize("way", WAYS[::2], ids=str)
 def test_a_column_flutters_beside_a_stiff_spring(way):
@@ -77,6 +78,7 @@ def test_a_balanced_lamp_stays_wherever_it_is_put(angle, way):
         assert_allclose(found.q["rod.theta"], angle, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_crane_and_its_motor():
     """1e6 kg m^2 and 1e-5 kg m^2: what a torque does to one is 1e-11 of what it does to the other."""
     inertias, torques = {"boom": 1e6, "rotor": 1e-5}, {"boom": 2e5, "rotor": 3e-3}

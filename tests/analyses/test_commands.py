@@ -16,6 +16,7 @@ def facts(cli, *words):
 KEYS = {"q", "stability", "omega_squared", "residual", "iterations", "multipliers", "not_unique"}
 
 
+@pytest.mark.slow
 def test_equilibria_as_programs_read_them(cli):
     found = facts(cli, "equilibrium", "four-bar", "--scan", "crank.theta=lin(0,6.28,13)")["equilibria"]
     assert [e["stability"] for e in found] == ["unstable", "stable"] and all(set(e) >= KEYS for e in found)

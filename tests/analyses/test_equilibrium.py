@@ -73,7 +73,7 @@ def test_both_equilibria_of_a_four_bar(doubled, coordinates):
         assert found.not_unique == (("D", "D2", "link") if doubled else ())
 
 
-@pytest.mark.fast("joint-zigzag", "joint-roof")
+@pytest.mark.fast("joint-roof")
 @pytest.mark.parametrize("start", STARTS)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_links_hang_as_a_catenary(start, coordinates):
@@ -100,7 +100,7 @@ def test_the_catenary_has_the_least_energy():
     assert_allclose([found.q[f"l{i}.theta"] for i in range(10)], least, atol=1e-6)  # what SLSQP reaches
 
 
-@pytest.mark.fast("1.0-straight", "0.001-looped")
+@pytest.mark.fast("1.0-straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("unit", [1.0, 1e-3])
 def test_redundant_joints_share_a_load_as_in_a_run(unit, shape):
@@ -120,6 +120,7 @@ def test_parameters_and_drivers_are_held():
     assert_allclose(spring.equilibrium(parameters={"k": 100.0}).omega_squared, [100 / 1.6], rtol=1e-13)
 
 
+@pytest.mark.slow_cases("scan3-values that the coordinate can have")
 @pytest.mark.parametrize(
     ("scan", "says"),
     [
@@ -196,6 +197,7 @@ def test_a_scan_goes_over_angles_that_do_not_close():
     assert all(min(abs(slope(x, True)), abs(slope(x, False))) < 1e-6 for x in found)
 
 
+@pytest.mark.slow
 def test_no_equilibrium_is_said():
     with pytest.raises(AnalysisError, match=r"no equilibrium was found with crank\.theta from 2 to 3"):
         rods.four_bar().equilibria(("crank.theta", [2.0, 2.5, 3.0]))
@@ -213,6 +215,7 @@ def test_level_rods_fall_at_once():
     assert_allclose(found.omega_squared[2:], np.repeat(squares, 2), rtol=1e-2)  # rods have some thickness
 
 
+@pytest.mark.slow
 def test_a_motor_that_never_rests_has_no_equilibrium():
     """At rest it exerts 8 N m wherever its crank stands, and nothing holds against it."""
     with pytest.raises(AnalysisError, match="no equilibrium was found from this start"):

@@ -48,6 +48,7 @@ def close(value, exact, part=1e-12):
     return np.abs(value - exact).max() <= part * max(1.0, np.abs(exact).max())
 
 
+@pytest.mark.slow_cases("chain", "fork")
 def test_trees_are_those_of_own_recursions(robot):
     model, recursion = robot
     f = model.functions()
@@ -65,6 +66,7 @@ def test_trees_are_those_of_own_recursions(robot):
         assert abs(f.kinetic_energy(q, v) - 0.5 * v @ mass @ v) < 1e-12 * (v @ mass @ v)
 
 
+@pytest.mark.slow_cases("fork")
 def test_frames_are_those_of_own_recursions(robot):
     model, recursion = robot
     f = model.functions()
@@ -279,7 +281,7 @@ def test_states_of_a_stepped_run_are_arguments(monkeypatch):
         f.bias(run.q.tolist(), run.v)
 
 
-@pytest.mark.fast("press")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["press", "bucket"])
 def test_functions_have_the_states_of_runs_whose_rows_with_bounds_they_lack(name):
     model = load(BOUNDED / f"{name}.toml")

@@ -52,6 +52,7 @@ def test_five_parameters_from_an_angle(four_bar, measured):
     assert fit.deviations["crank.theta"] < 1e-10
 
 
+@pytest.mark.slow
 def test_what_can_be_multiplied_together_is_named_before_a_fit(four_bar, measured):
     said = "k, damping, m1, m2 and m3 can be multiplied by one number; leave one of them"
     with pytest.raises(InputError, match=said):
@@ -73,6 +74,7 @@ def test_intervals_cover_the_truth(four_bar, measured):
     assert 104 <= inside <= 120
 
 
+@pytest.mark.slow
 def test_data_that_determine_nothing_are_named(four_bar, measured):
     noise = 2e-2 * np.std(measured["crank.theta"]) * np.random.default_rng(3).standard_normal(100)
     data = measured | {"crank.theta": measured["crank.theta"] + noise}

@@ -132,6 +132,7 @@ def test_the_platform_gives_the_efforts_of_its_legs_back():
             assert np.abs(other.efforts[f"drive{i}"] - efforts).max() < 1e-10 * np.abs(efforts).max()
 
 
+@pytest.mark.slow
 def test_a_rotor_in_space_gives_its_torque_back():
     """On a pin across its axes of inertia, from more than a turn away: the torque is one of t and of its angle."""
     body = {"mass": 2.0, "inertia": [0.1, 0.2, 0.3], "centre_of_mass": [0.1, 0.0, 0.2]}
@@ -195,6 +196,7 @@ def test_a_motion_that_the_actuators_cannot_give_is_said(pendulum):
     assert found.missing.max() > 0.1
 
 
+@pytest.mark.slow
 def test_data_of_a_recorded_motion_are_asked_for_again(pendulum):
     """Not taken for a formula, and not for the default: with the same data the spring is what it was."""
     t = np.linspace(0.0, 0.5, 6)

@@ -179,6 +179,7 @@ def test_looped_code_gives_the_same(driven):
         assert np.abs(own - other).max() < 1e-11 * np.abs(other).max()
 
 
+@pytest.mark.slow
 def test_forces_of_inputs_that_jump_reach_the_motor():
     raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
     raw["inputs"] = {"load": {"default": 0.0, "unit": "N m"}}
@@ -224,6 +225,7 @@ def test_a_rhombus_goes_through_its_change_points(rhombus, times):
     assert all(p.kind == "passed" and "singular position at t =" in p.words for p in found.passages)
 
 
+@pytest.mark.slow_cases("fine")
 @pytest.mark.parametrize("times", [np.linspace(0.0, 1.0, 101), [0.0, 0.25, 0.5, 1.0]], ids=["fine", "coarse"])
 def test_redundant_links_go_through_flat_positions(times):
     """Three parallel links: a row depends on the others for ever, and two more positions are singular."""
@@ -388,6 +390,7 @@ def test_too_many_drivers_are_named(value):
         model(raw).kinematics([0.0])
 
 
+@pytest.mark.slow
 def test_conditions_on_velocities_and_singular_starts_are_refused():
     with pytest.raises(InputError, match="a condition on velocities"):
         symgen.load("rolling-disc").kinematics([0.0])
@@ -423,6 +426,7 @@ def test_transmission_at_a_slider():
     assert np.abs(np.abs(np.cos(found.transmission["C"])) - np.abs(sine)).max() < 1e-13
 
 
+@pytest.mark.slow
 def test_doubled_pins_leave_reactions_that_are_not_unique():
     raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
     alone = model(raw).kinematics([0.0, 0.3])
@@ -435,6 +439,7 @@ def test_doubled_pins_leave_reactions_that_are_not_unique():
     assert any("not unique" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_files_and_json(driven, tmp_path, capsys):
     code = main(
         [

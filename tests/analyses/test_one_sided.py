@@ -72,6 +72,7 @@ def test_a_rope_does_not_hold_a_mass_from_below() -> None:
         rope().linearise(at="start", start={"bob.y": 2.0})
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_an_arm_on_a_stop_carries_a_pendulum(coordinates: str) -> None:
     """Gravity turns the arm down: a lower stop holds it."""

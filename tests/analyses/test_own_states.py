@@ -34,6 +34,7 @@ def model_of(description):
     return Model(validate(description, "test"))
 
 
+@pytest.mark.slow
 def test_a_prescribed_motion_integrates_the_state():
     """The effort is I theta'' - c, with theta'' = 2 and c = 2 exp(-t), before the start as well."""
     model, t = model_of(disc(joints=DRIVEN, outputs={"o": "c + 1"})), np.array([-0.5, 0.0, 0.5, 1.0])
@@ -134,7 +135,7 @@ def test_random_states_along_driven_chains(seed):
         np.testing.assert_allclose(needed[name], moved.efforts[name], atol=1e-6)
 
 
-@pytest.mark.fast("1", "3", "6")
+@pytest.mark.fast("1", "6")
 @pytest.mark.parametrize("seed", range(8))
 def test_random_states_in_recorded_motions(seed):
     """A motor's torque is a formula of time in the run; the motion needs just that."""

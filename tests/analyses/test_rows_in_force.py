@@ -32,6 +32,7 @@ def test_linear_systems_modes_and_equilibria_are_those_of_the_closed_mechanism()
     np.testing.assert_allclose(list(rest.multipliers.values()), list(expected.multipliers.values()), rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_efforts_of_a_motion_are_those_of_the_closed_mechanism():
     switched, whole = models()
     motion = whole.simulate(**RUN, times=(0.0, 0.1, 0.2))
@@ -51,6 +52,7 @@ def test_rows_of_a_sweep_are_those_of_the_closed_mechanism(how):
             np.testing.assert_allclose(found[name][i, -1], one[name][-1], rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow_cases("lagrange")
 @pytest.mark.parametrize("method", ["lagrange", "implicit-constraint"])
 def test_semi_implicit_steps_without_the_joint_are_those_of_the_open_mechanism(method):
     """The joint is off from 0.1 s on: the same steps from there as without it."""

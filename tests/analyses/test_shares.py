@@ -82,6 +82,7 @@ def two_masses():
     return rods.model(bodies, joints, gravity=[0.0, 0.0], forces=forces)
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_shares_of_damped_modes_are_those_of_two_by_two_matrices(coordinates):
     found = two_masses().modes(coordinates=coordinates)
@@ -126,6 +127,7 @@ def test_tables_are_those_of_bodies_in_both_coordinates(name):
                 assert_allclose(mine.get(key, 0.0), theirs[key], atol=1e-8)
 
 
+@pytest.mark.slow
 def test_a_riding_bicycle_weaves_with_its_frame():
     found = symgen.load("bicycle").modes(at="start", states=("lean", "steer"))
     assert_allclose(sum(found.participation.values()), 1.0, rtol=1e-12)

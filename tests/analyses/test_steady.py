@@ -109,6 +109,7 @@ def conical(rate=5.0):
     return rods.model(bodies, joints, "spatial")
 
 
+@pytest.mark.slow
 def test_a_driven_conical_pendulum():
     angle, omega = 1.167556903805, 4.598973363698  # arccos(g / Omega^2), Omega sin(angle)
     found = conical().steady()
@@ -266,6 +267,7 @@ def test_what_a_turning_body_carries_turns_along_in_the_plane(driven):
     assert len(system.states) == len(moving) + (not driven)
 
 
+@pytest.mark.slow
 def test_what_is_at_an_end_of_its_swing_is_no_state():
     """An Euler parameter of the shaft hardly changes next to where it is 1, and its rate follows from it by 1/0."""
     found = symgen.load("flyball-governor").linearise(at="steady", start={"bearing.angle": 1e-9})

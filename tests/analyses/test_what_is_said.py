@@ -78,6 +78,7 @@ def test_lowest_modes_are_those_of_a_potential():
     assert alone.omega_squared == pytest.approx(squares[:1], rel=1e-6)
 
 
+@pytest.mark.slow_cases("9.81")
 @pytest.mark.parametrize("gravity", [9.81, 0.0])
 def test_sparse_equilibria_of_what_only_springs_hold(gravity):
     bodies = {n: {"type": "point", "mass": 1.0, "position": [0.0, y]} for n, y in (("first", -1.0), ("second", -2.0))}

@@ -64,6 +64,7 @@ def test_a_quantity_alone_is_judged_beside_its_motion(capsys: pytest.CaptureFixt
     assert all(shown[f"ram.{name}"] == ["0"] * 3 for name in ("theta", "vy", "omega", "ay", "alpha"))
 
 
+@pytest.mark.slow_cases("run bicycle --until 0.3")
 @pytest.mark.parametrize(
     "command",
     [

@@ -183,6 +183,7 @@ def test_the_python_interface_is_lazy():
         symgen.nothing  # noqa: B018  # looking it up is the test
 
 
+@pytest.mark.slow
 def test_long_lines_are_written_by_terms_that_mean_the_same(capsys):
     """Forces of the governor by lengths and rates of its springs, against an interpreter of the graph."""
     assert main(["inspect", "flyball-governor"]) == 0

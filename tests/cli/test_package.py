@@ -82,6 +82,7 @@ def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=Fal
     return found
 
 
+@pytest.mark.slow
 def test_a_package_gives_the_numbers_of_a_run(alone, tmp_path):
     found = agrees("four-bar", alone, tmp_path)
     assert next(iter(found)) == "t" and list(found)[-1] == "work"
@@ -119,7 +120,7 @@ def test_all_methods_that_suit_a_mechanism(tmp_path):
     assert main(["generate", "pendulum", "--all", "--method", "ggl", "-o", str(tmp_path / "other")]) == 2
 
 
-@pytest.mark.fast("augmented-lagrangian")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["coordinate-partitioning", "null-space", "augmented-lagrangian"])
 def test_a_package_gives_the_numbers_of_runs_by_other_methods(method, alone, tmp_path):
     agrees("four-bar", alone, tmp_path, method=method)
@@ -176,6 +177,7 @@ def test_what_cannot_be_run_has_code_and_a_reason(text, arguments, why, tmp_path
     assert "run" not in json.loads((folder / "model.json").read_text())
 
 
+@pytest.mark.slow
 def test_a_package_on_a_tree_has_the_state_of_its_start(alone, tmp_path):
     """A motor whose effort is integrated as an output keeps its row in runs; packages have no outputs."""
     path = tmp_path / "motor.toml"
@@ -213,7 +215,7 @@ def options_of(folder, method):
     return json.loads((folder / "model.json").read_text())["methods"][method]["options"]
 
 
-@pytest.mark.fast("none")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("link", "solver"),
     [("mass = 0\ninertia = 0", "augmented"), ("mass = 1e-12\ninertia = 1e-14", "elimination")],
@@ -244,6 +246,7 @@ def test_methods_that_invert_m_are_not_emitted_for_massless_bodies(tmp_path, cap
     assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "augmented"
 
 
+@pytest.mark.slow
 def test_inspect_tells_the_solver_that_runs_take_for_light_bodies(tmp_path, capsys):
     method = "coordinate-partitioning"
     model = three_rods(tmp_path / "rods.toml", "mass = 1e-12\ninertia = 1e-13")
@@ -344,6 +347,7 @@ def test_a_file_of_somebody_else_is_left_alone(options, name, tmp_path, capsys):
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == files | {"README.md": b"mine"}
 
 
+@pytest.mark.slow_cases("dry-four-bar")
 @pytest.mark.parametrize("name", ["dry-four-bar", "toggle-press"])
 def test_code_of_dry_friction_and_stops_is_that_of_runs(name, tmp_path, monkeypatch):
     """Callers choose modes: with rows in force, with signs and with none, accelerations are those of runs."""

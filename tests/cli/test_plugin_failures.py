@@ -132,6 +132,7 @@ def test_python_gets_the_sentence_of_joints_and_forces(tmp_path):
         assert ends_in_the_plugin(caught, file, AttributeError)
 
 
+@pytest.mark.slow
 def test_an_error_in_another_process_is_the_same_sentence(tmp_path):
     file = tmp_path / "broken-there.py"
     file.write_text("def compute(task):\n    return 1 / task\n")

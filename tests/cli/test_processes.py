@@ -56,6 +56,7 @@ print(os.environ.get("OPENBLAS_NUM_THREADS"), file=sys.stderr)
 """
 
 
+@pytest.mark.slow
 def test_a_study_in_one_process_computes_with_one_thread():
     """Small matrices of two threads took ten times the processor time on busy cores."""
     command, plain = [sys.executable, "-c", THREADS], {k: v for k, v in os.environ.items() if "NUM_THREADS" not in k}
@@ -64,6 +65,7 @@ def test_a_study_in_one_process_computes_with_one_thread():
     assert (lines[0], lines[-1]) == ("1", "None"), found.stderr
 
 
+@pytest.mark.slow
 def test_running_a_generated_model_imports_no_heavy_library():
     arguments = ("run", "four-bar", "--until", "0.05", "--json")
     assert symgen(arguments).returncode == 0  # now it is in the cache
@@ -191,6 +193,7 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
     assert b"pendulum, direct-correction" in shown and b"%" in shown
 
 
+@pytest.mark.slow
 def test_the_interpreter_runs_the_command_line():
     done = subprocess.run([sys.executable, "-m", "symgen", "list", "--jsno"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")

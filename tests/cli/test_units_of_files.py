@@ -234,7 +234,7 @@ def test_a_sweep_varies_and_writes_in_the_unit_of_the_file(typed, found, tmp_pat
     assert float(rows[2][4]) == pytest.approx(math.degrees(float(rows[2][5])), rel=1e-14)
 
 
-@pytest.mark.slow_cases("log(10 cm, 1 m, 3)-numbers0")
+@pytest.mark.slow_cases("log(10 cm, 1 m, 3)-numbers0", "uniform(100, 20 cm, 2, 1)-None")
 @pytest.mark.parametrize(
     ("values", "numbers"),
     [("log(10 cm, 1 m, 3)", (0.1, math.sqrt(0.1), 1.0)), ("uniform(100, 20 cm, 2, 1)", None), ("values(5)", (0.005,))],
@@ -260,6 +260,7 @@ def test_pictures_of_sweeps_have_the_unit_of_the_file(typed, tmp_path):
     assert {"length [mm]", "turn [deg]", "200", "600", "lean = 0 deg", "lean = 45 deg"} <= {*labels(tmp_path / "s.svg")}
 
 
+@pytest.mark.slow
 def test_a_root_locus_is_over_the_unit_of_the_file(typed, tmp_path):
     text = ROD.replace('torque = "push"', 'torque = "(1 - 5*length)*rod.omega"')  # grows in short rods
     (tmp_path / "rod.toml").write_text(text, encoding="utf-8")
@@ -308,6 +309,7 @@ def test_sliders_of_pages_have_the_unit_of_the_file(typed, tmp_path):
     assert entry and json.loads(entry[1]) == {"unit": "mm", "factor": 0.001}
 
 
+@pytest.mark.slow
 def test_fits_are_shown_in_the_unit_of_the_file(typed, tmp_path):
     words = ("--until", "0.5", "--output-step", "0.02")
     assert typed("run", "rod.toml", *words, "--set", "length=50 cm", "--save", "data.csv")[0] == 0

@@ -92,6 +92,7 @@ def test_a_start_outside_the_limits_is_moved_into_them(tmp_path: Path) -> None:
     assert run["pivot.angle"][0] == pytest.approx(0.3, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_limits_become_stops(tmp_path: Path) -> None:
     path = tmp_path / "arm.urdf"
     path.write_text(ARM, encoding="utf-8")
@@ -123,6 +124,7 @@ def test_mimic_and_a_floating_base(tmp_path: Path) -> None:
     assert (total[-1] - total[0]) / 6 == pytest.approx(-9.81 * 0.3**2 / 2, abs=1e-8)  # the base falls
 
 
+@pytest.mark.slow
 def test_a_joint_that_mimics_with_an_offset_starts_where_its_leader_leaves_it(tmp_path: Path) -> None:
     """The leader stays at 0, also of a follower of a follower, and nothing is closed by moving."""
     mass = '<inertial><origin xyz="0.2 0 0"/><mass value="1"/><inertia ixx="0.01" iyy="0.02" izz="0.02"/></inertial>'
@@ -226,6 +228,7 @@ def test_equalities_of_mjcf(tmp_path: Path) -> None:
     assert np.allclose(end.T, [1.2 * math.cos(np.radians(40)), 0.0], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_armature_between_links_without_mass_is_left_out(tmp_path: Path) -> None:
     text = """<mujoco><worldbody><body name="torso"><joint name="x" type="slide" axis="1 0 0" armature="0.2"/>
       <joint name="z" type="slide" axis="0 0 1" armature="0.3"/><geom type="box" size="0.1 0.1 0.1" mass="2"/></body>

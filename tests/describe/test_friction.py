@@ -122,6 +122,7 @@ def test_a_joint_without_a_reaction_has_none_to_rub_by() -> None:
         four_bar(GONE, wheel=wheel)
 
 
+@pytest.mark.slow
 def test_bounds_of_parameters_are_checked_in_runs() -> None:
     raw, source = read_raw("four-bar")
     raw = copy.deepcopy(raw)

@@ -80,6 +80,7 @@ def test_every_function_of_every_method_agrees(mechanism):
     assert not apart
 
 
+@pytest.mark.slow
 def test_every_method_has_loops_or_says_why_not():
     covered = {case.split()[1] for case in of_all("support.both_shapes")}
     for name in METHODS.names:
@@ -102,6 +103,7 @@ def test_residuals_and_their_jacobians_agree(mechanism):
     assert not apart
 
 
+@pytest.mark.slow
 def test_every_level_of_a_descriptor_form_is_covered():
     covered = {case.split()[1] for case in of_all("support.both_forms")}
     with_form = {name for name in METHODS.names if any(form.startswith("index") for form in METHODS.get(name).forms)}

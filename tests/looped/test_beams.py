@@ -57,6 +57,7 @@ def test_both_shapes_move_alike(space):
     assert all(run.energy_drift_max <= 1e-4 for run in runs)
 
 
+@pytest.mark.slow_cases("spatial")
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_rigid_motions_strain_nothing(space):
     """A beam that is thrown without spin keeps its shape; one that spins is stretched by rotation alone."""
@@ -92,6 +93,7 @@ def test_momentum_and_energy_are_kept_in_space():
     assert np.ptp(energy) <= 1e-10 * energy[0] and run.potential.max() > 1e-3 * energy[0]
 
 
+@pytest.mark.slow
 def test_overbent_elements_make_a_run_unverified():
     keys = {"axial": 1e3, "rotary": 1e-2}
     bent = cantilever(2, forces={"tip": at_end(0.0, -8.0)}, **keys).simulate(until=0.6, step=5e-4)

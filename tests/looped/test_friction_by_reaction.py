@@ -18,6 +18,7 @@ TIGHT = {"rtol": 1e-12, "atol": 1e-12}
 LOOPS = {"coordinates": "absolute", "shape": "looped"}
 
 
+@pytest.mark.slow
 def test_a_slide_rubs_by_its_normal_force():
     """Times and angle of minimal coordinates and full Newton-Euler in NumPy."""
     model, settings = symgen.load(slider_crank({"coefficient": 0.3})), {"until": 2.5, "output_step": 0.5, **LOOPS}

@@ -108,6 +108,7 @@ def test_a_chain_of_100_links_that_rub_is_taken_by_loops():
     np.testing.assert_allclose(run.q.values[-1][2::3], exact[:100], rtol=0.0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_short_and_long_code_agree_on_a_rubbing_chain():
     """Some pins stick and others slide: modes are the same, events and the motion within rounding."""
     model, settings = rubbing_chain(4, {"sliding": 0.02, "static": 0.03}), {"until": 0.6, "method": "lagrange"}
@@ -134,6 +135,7 @@ def parallel_bars():
     return symgen.load(builder.build())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [3, pytest.param(300, marks=pytest.mark.slow)], ids=["3", "300"])
 def test_reactions_that_are_not_unique_are_those_of_straight_code(count):
     """Rows that are off count neither as rows in force nor in the rank, also where all of them move."""

@@ -196,6 +196,7 @@ def test_the_metric_of_bodies_is_the_identity_in_their_own_coordinates(weight, e
     assert compile_model(mechanism, asked).law == compile_model(mechanism, identity).law
 
 
+@pytest.mark.slow_cases("chain:10-10000.0-looped")
 @pytest.mark.parametrize(
     ("model", "evaluations", "shape"), [("four-bar", 1e4, "straight"), ("chain:10", 1e4, "looped")]
 )

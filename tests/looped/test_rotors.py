@@ -51,6 +51,7 @@ def swung(count, rate, until):
     return solve_ivp(rates, (0.0, until), y, method="DOP853", rtol=1e-12, atol=1e-12).y[:count, -1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("count", "until"), [(3, 0.4), pytest.param(100, 0.02, marks=pytest.mark.slow)], ids=["3", "100"]
 )

@@ -28,6 +28,7 @@ def test_all_kinds_of_arguments_are_counted():
     assert arguments_of(source) == {"f:2": 3, "g:3": 2}
 
 
+@pytest.mark.slow_cases("run")
 @pytest.mark.parametrize("package", PACKAGES)
 def test_no_function_takes_a_long_list(package):
     files = sorted((Path(symgen.__file__).parent / package).rglob("*.py"))

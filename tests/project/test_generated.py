@@ -64,6 +64,7 @@ def difference(name: str, found: str, expected: str) -> str:
     return "\n".join([f"{name} is not what the sources emit; {HOW}", *lines[:60], *more])
 
 
+@pytest.mark.slow_cases("andrews", "n_four_bar_2")
 @pytest.mark.parametrize("name", everything())
 def test_emitted_modules_name_nothing_of_this_machine(name: str) -> None:
     for stem, text in everything()[name]().items():

@@ -69,7 +69,10 @@ def ended(tmp_path_factory):
     return dict(zip(REQUESTS, json.loads(found.stdout), strict=True))
 
 
-@pytest.mark.slow_cases("sweep pendulum --vary bob.vy=lin(0,1,1000000000) --until 0.02")
+@pytest.mark.slow_cases(
+    "sweep pendulum --vary bob.vy=lin(0,1,1000000000) --until 0.02",
+    "sweep pendulum --vary bob.vy=uniform(0,1,1e9,7) --until 0.02",
+)
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="bounds the address space")
 @pytest.mark.parametrize("words", REQUESTS)
 def test_one_sentence_before_anything_is_allocated(ended, words):

@@ -589,7 +589,7 @@ def test_single_words_and_numbers_are_lists_of_one(model, study):
 # -- copies and other processes ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("four-bar-straight", "bricard-straight")
+@pytest.mark.fast("four-bar-straight")
 @pytest.mark.parametrize(
     ("name", "shape"),
     [

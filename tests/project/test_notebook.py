@@ -47,6 +47,7 @@ CELLS = (
 LONGEST = 200
 
 
+@pytest.mark.slow
 def test_every_object_shows_itself() -> None:
     names: dict[str, Any] = {}
     for text, method, contained in CELLS:

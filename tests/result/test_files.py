@@ -69,6 +69,7 @@ def test_parquet(result, tmp_path):
     assert frame.attrs["run"]["mechanism"] == "driven-four-bar"
 
 
+@pytest.mark.slow
 def test_netcdf(result, tmp_path):
     path = result.save(tmp_path / "run.nc")
     with xr.open_dataset(path, engine="h5netcdf") as data:
@@ -98,12 +99,14 @@ def test_plots(result, tmp_path, ending):
     assert b"/Type3" not in path.read_bytes()  # printers refuse such fonts
 
 
+@pytest.mark.slow
 def test_an_svg_says_units_and_is_the_same_every_time(result, tmp_path):
     first = result.plot(tmp_path / "a.svg").read_text()
     assert "dc:date" not in first
     assert result.plot(tmp_path / "b.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_a_plot_without_a_path_shows_itself(result, tmp_path):
     plot = result.plot()
     assert plot._repr_png_().startswith(b"\x89PNG") and len(plot.figure.axes) >= 3
@@ -187,6 +190,7 @@ def test_a_table_that_its_file_cannot_hold_is_not_read(result, tmp_path):
         read_recorded("motion", path)
 
 
+@pytest.mark.slow
 def test_variables_that_are_not_of_a_result_are_not_read(tmp_path):
     """A file of 150 kB may hold a variable of 8 GB."""
     path = tmp_path / "run.nc"

@@ -23,7 +23,7 @@ SIZES = {
 }
 
 
-@pytest.mark.slow_cases("stewart-platform")
+@pytest.mark.slow_cases("stewart-platform", "front-suspension")
 @pytest.mark.parametrize("name", SIZES)
 def test_sizes_and_ranks(name):
     mechanism = load_mechanism(name)

@@ -121,6 +121,7 @@ def test_a_hinge_rubs_by_the_force_across_its_axis(coordinates: str) -> None:
     assert abs(result["A.angle"][-1] - x[0]) < 1e-9
 
 
+@pytest.mark.slow
 def test_the_couple_of_a_hinge_does_not_count() -> None:
     """Two hinges on one axis share a couple that one hinge has alone: their forces differ, and the friction."""
     result = symgen.load(hinge(coefficient=0.6, radius=0.1)).simulate(until=0.5, output_step=0.1, **EXACT)
@@ -238,6 +239,7 @@ def sleeved(x: np.ndarray, v: np.ndarray) -> tuple[Any, ...]:
     return both, np.eye(2), np.array([right[0], MASS * AXIS @ GRAVITY]), [reaction, reaction]
 
 
+@pytest.mark.slow
 def test_a_sleeve_rubs_along_and_about_its_axis() -> None:
     """Each of its coordinates has a force of its own by the force across the axis."""
     reference = Sliding(sleeved, lambda x, v: v, [0.05, 0.1])

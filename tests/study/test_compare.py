@@ -41,6 +41,7 @@ def study():
     )
 
 
+@pytest.mark.slow
 def test_rows_come_in_order(study):
     found = [(r.method, r.integrator, r.step or r.rtol) for r in study.rows]
     one = [("rk4", 8e-3), ("rk4", 4e-3), ("dop853", 1e-6), ("dop853", 1e-8), ("dop853", 1e-10)]
@@ -66,6 +67,7 @@ def test_errors_shrink_with_the_fourth_power_of_the_step_and_follow_the_toleranc
         assert errors[0] > errors[1] > errors[2] > 0.0 and errors[2] < 1e-7
 
 
+@pytest.mark.slow
 def test_a_failed_run_stays_a_row():
     """Constraints drift without correction: on the way past a singular position rounding would decide how far."""
     study = symgen.compare("four-bar", ["lagrange", "direct-correction"], ["rk4"], [2e-2], until=3.0, repeat=1)
@@ -96,6 +98,7 @@ def test_a_run_that_exceeds_its_limits_is_measured_to_its_end(capsys):
     assert any(note.startswith("+ exceeded a limit of a run") for note in notes)
 
 
+@pytest.mark.slow
 def test_a_run_that_fails_without_limits_too_has_no_error():
     """A step beyond the stability of the correction: the numbers grow until they are none."""
     study = symgen.compare("four-bar", ["baumgarte:alpha=500:beta=500"], ["rk4"], [2e-2], until=3.0, repeat=1)
@@ -159,6 +162,7 @@ def test_rows_warn_of_what_single_runs_warn_of():
     assert [note for note in table.notes if "exceeds 0.4 s" in note and note.startswith("baumgarte, euler, step 0.5 s")]
 
 
+@pytest.mark.slow
 def test_what_the_start_warns_of_is_in_every_row_and_said_once(capsys):
     rod = {"mass": 1.0, "inertia": 0.1, "position": [1.5, 0.0], "points": {"end": [-0.5, 0.0]}}
     pin = {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "end"]}
@@ -260,6 +264,7 @@ def test_without_methods_the_six_of_the_source_are_compared():
     )
 
 
+@pytest.mark.slow
 def test_violations_at_three_levels_are_those_of_the_run(study):
     """The same run by `simulate` with the same outputs."""
     row = next(r for r in study.rows if (r.method, r.integrator, r.step) == ("baumgarte", "rk4", 8e-3))
@@ -290,6 +295,7 @@ def test_what_a_ratio_may_vary_by_comes_from_both_runs():
     assert other.cost_ratio_spread == pytest.approx(1.5 * (0.1 + 0.2))
 
 
+@pytest.mark.slow
 def test_two_runs_give_the_same_errors_to_the_last_digit(study):
     again = symgen.compare("four-bar", ["baumgarte", "lagrange"], ["rk4"], [8e-3, 4e-3], until=1.0, repeat=1)
     for one in again.rows:
@@ -349,6 +355,7 @@ def test_errors_are_to_the_motion_from_the_start_that_is_asked_for(name, start):
     assert module.compute(module.ReferenceTask(mechanism, settings, times))["how"] == found.how
 
 
+@pytest.mark.slow
 def test_failed_rows_come_back_from_a_journal_as_they_were(tmp_path):
     arguments = ["four-bar", ["lagrange"], ["rk4"], [2e-2]]
     studies = []

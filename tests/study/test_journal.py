@@ -53,7 +53,7 @@ def wait_for(condition, seconds=600.0):
         time.sleep(0.01)
 
 
-@pytest.mark.fast("1")
+@pytest.mark.slow
 @pytest.mark.parametrize("processes", [1, 2])
 def test_killed_in_the_middle_and_resumed(tmp_path, processes):
     process = start(tmp_path, processes)
@@ -82,6 +82,7 @@ def test_killed_in_the_middle_and_resumed(tmp_path, processes):
     assert sum(begun.values()) < killed_study.COUNT
 
 
+@pytest.mark.slow_cases("2")
 @pytest.mark.parametrize("processes", [1, 2])
 def test_interrupted_keeps_what_is_done(tmp_path, processes):
     process = start(tmp_path, processes)
@@ -94,6 +95,7 @@ def test_interrupted_keeps_what_is_done(tmp_path, processes):
     assert 3 <= len(done) < killed_study.COUNT
 
 
+@pytest.mark.slow
 def test_every_place_at_which_a_line_can_be_torn(tmp_path):
     path = tmp_path / "journal.jsonl"
     with Journal(path) as journal:

@@ -67,6 +67,7 @@ def test_smooth_laws_creep_at_the_rate_of_their_force(study) -> None:
     assert {row.reaction_error for row in study.rows} == {None}
 
 
+@pytest.mark.slow
 def test_the_energy_of_a_smooth_law_is_what_the_motion_lacks(study) -> None:
     row = next(row for row in study.rows if row.law == LAWS[1] and row.integrator == "dop853")
     trace = study.traces[study.rows.index(row)]

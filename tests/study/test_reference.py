@@ -37,6 +37,7 @@ def both(name, times, parameters=None):
     return reference(*arguments), reference(*arguments, solver="scipy-dop853"), Points.of(model.mechanism, values)
 
 
+@pytest.mark.slow_cases("n-four-bar:3-0.6-None", "pendulum-5.0-None")
 @pytest.mark.parametrize(
     ("name", "until", "parameters"),
     [
@@ -110,6 +111,7 @@ def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(wind
     assert general.estimated_error < 1e-6
 
 
+@pytest.mark.slow
 def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypatch):
     """Steps so long that a passage is a matter of chance: no two runs agree, and the reference says from when on."""
     from symgen.study.references import reference as module
@@ -129,6 +131,7 @@ def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypat
     assert points.distance(found.q, exact.q) > 1e-6  # and it was right not to be believed
 
 
+@pytest.mark.slow
 def test_a_regular_mechanism_with_short_links_is_not_taken_for_a_singular_one():
     """Links of centimetres make the singular values of D small everywhere."""
     model = symgen.load("andrews")
@@ -155,7 +158,7 @@ def test_redundant_rows_do_no_harm():
     assert one.rate(0.0, y)[5] == pytest.approx(-0.5 * 9.81 / (0.1 + 0.25))
 
 
-@pytest.mark.fast("four-bar-1.0-scipy-bdf", "four-bar-1.0-scipy-lsoda")
+@pytest.mark.fast("four-bar-1.0-scipy-lsoda")
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
     ("name", "until"),
@@ -267,7 +270,7 @@ def swung(times, passages):
     return found
 
 
-@pytest.mark.fast("scipy-dop853", "scipy-bdf", "scipy-lsoda")
+@pytest.mark.fast("scipy-bdf", "scipy-lsoda")
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_references_see_a_push_that_is_shorter_than_a_step(solver, tmp_path):
     """100 N for 3 ms: solvers do not see it, or take its ends for positions at which accelerations are unknown."""
@@ -288,7 +291,7 @@ def test_references_of_stress_studies_see_a_short_push_as_well(tmp_path):
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("scipy-bdf-0.001-None", "scipy-lsoda-0.001-None", "of stress studies-0.001-None")
+@pytest.mark.fast("scipy-lsoda-0.001-None")
 @pytest.mark.parametrize(
     ("solver", "w", "max_step"),
     [*((solver, 1e-3, None) for solver in (*SOLVERS, "of stress studies")), ("scipy-dop853", 3e-4, 6e-4)],
@@ -324,6 +327,7 @@ def test_references_see_a_force_between_two_places(solver, tmp_path):
     assert off < 10.0 * found.estimated_error + 1e-10 and found.estimated_error < 1e-7
 
 
+@pytest.mark.slow
 def test_runs_through_singular_positions_differ_between_close_outputs(monkeypatch):
     """Steps longer than from one output to the next would end at the outputs alone, and all runs be the same."""
     from symgen.study.references import reference as module

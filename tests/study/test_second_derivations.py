@@ -59,6 +59,7 @@ until = 2.0
 """
 
 
+@pytest.mark.slow
 def test_states_of_a_file_have_a_second_derivation(tmp_path):
     """The cart and its lag are linear: both forms of the equations meet a matrix exponential."""
     (path := tmp_path / "lagging.toml").write_text(LAGGING)

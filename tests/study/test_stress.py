@@ -34,6 +34,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # -- references --------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_compiled_equations_are_the_interpreted_ones():
     """SciPy's DOP853 on lambdified equations and extrapolation on compiled ones agree, at other parameter values."""
     mechanism = Base.of("slider-crank").stressed
@@ -192,6 +193,7 @@ def test_neutral_handles_change_nothing():
     np.testing.assert_allclose(same["coupler.x"][-1], plain["coupler.x"][-1], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_handles_turn_what_they_say():
     """Twice the mass factor and twice gravity, by the independent equations: forces and masses double."""
     base = Base.of("four-bar")
@@ -211,12 +213,14 @@ def test_families_say_why_they_do_not_apply():
     assert {family for _, family, _ in study.skipped} == {"mass-ratio", "redundancy", "spin-rate"}
 
 
+@pytest.mark.slow_cases("cart-pole")
 @pytest.mark.parametrize("model", ["cart-pole", "inverted-pendulum"])
 def test_a_body_that_its_file_holds_is_displaced_all_the_same(model):
     study = stress([model], ["inconsistent-start"], ["lagrange"], quick=True)
     assert [row.outcome for row in study.rows] == ["ok"]
 
 
+@pytest.mark.slow
 def test_starts_of_a_study_are_compiled(monkeypatch):
     """A study closes hundreds: interpreted as a single one is, they take a quarter of its time."""
     monkeypatch.setattr(assembler, "plain_form", lambda function: pytest.fail(f"{function.__name__} is interpreted"))
@@ -309,6 +313,7 @@ def test_baumgarte_s_gains_are_stable_up_to_the_limit_of_rk4():
     assert {good for _, good in real} == {True, False}
 
 
+@pytest.mark.slow
 def test_errors_of_long_links_count_in_lengths_of_the_crank():
     """In lengths of links of 1e6 m a crank that stands still would be right."""
     level = levels_of("length-ratio", Base.of("four-bar"), False)[-1]
@@ -332,6 +337,7 @@ def test_the_error_of_a_penalty_falls_with_its_factor():
             assert (row.outcome == "ok") == (row.error is not None and row.error <= 4e-3)
 
 
+@pytest.mark.slow
 def test_a_branch_is_lost_at_the_singular_position_without_correction():
     study = stress([], ["singular-passage"], ["lagrange", "direct-correction", "auto"], quick=True)
     found = {(row.method, row.values[0]): row for row in study.rows}

@@ -109,6 +109,7 @@ def test_causes_are_told_from_the_rows(changes, words):
     assert words in cause(replace(row("-", "null-space", "inaccurate"), **changes))
 
 
+@pytest.mark.slow
 def test_the_report_shows_all_models_at_once(monkeypatch):
     monkeypatch.setattr(report, "regions", lambda study: ())
     document = report.stress_report(STUDY)

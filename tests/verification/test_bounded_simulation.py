@@ -68,6 +68,7 @@ def test_what_is_at_its_bound_at_the_start_breaks_loose(static: float) -> None:
     assert motion.u[-1][0] == pytest.approx(ahead, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_impacts_accumulate() -> None:
     tree = Tree([slide(np.array([0.0, 1.0, 0.0]), 2.0)], [], DOWN)
     ball = [Bounded("floor", joint(0), lower=0.0, restitution=0.7)]
@@ -122,6 +123,7 @@ def test_a_knee_of_points_without_inertia() -> None:
     assert [e.t for e in motion.events] == pytest.approx([0.604396464058, 0.969906743564], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_point_on_a_rod_without_inertia_sticks() -> None:
     tree = Tree([pin(GROUND, NOTHING, np.array([0.0, 0.5, 0.0]), 1.0, 0.0)], [], DOWN)
     motion = moved(tree, [Bounded("pin", joint(0), sliding=2.0, static=2.0)], [1.5], [0.0], 4.0)

@@ -31,6 +31,7 @@ def test_a_number_means_the_same_mechanism_in_every_process() -> None:
     assert done.stdout.strip() == "".join(text(draw(5, i).raw) for i in range(4)).strip()
 
 
+@pytest.mark.slow
 def test_files_read_back_as_they_were_written() -> None:
     for index in range(30):
         raw = draw(5, index).raw

@@ -42,6 +42,7 @@ def outcome(reference: Reference, status: str = "ok") -> Outcome:
     )
 
 
+@pytest.mark.slow
 def test_the_reference_itself_is_right(reference: Reference) -> None:
     verdict = judge(reference, CONFIGURATION, outcome(reference))
     assert verdict.honest and verdict.right and set(verdict.errors) == set(groups(reference.system, reference.motion))

@@ -110,6 +110,7 @@ def test_the_part_of_a_file_on_a_page_stands_in_the_entry():
     assert set(text.splitlines()) <= set(whole.splitlines())
 
 
+@pytest.mark.slow_cases("flexible-slider-crank")
 @pytest.mark.parametrize("name", ["cantilever", "flexible-slider-crank"])
 def test_the_beams_run_as_they_come(name):
     """Loads and speeds are such that beams bend by some percent of their lengths; energy keeps its balance."""
@@ -143,6 +144,7 @@ def dry_four_bar(theta):
     return np.stack([theta, coupler - theta, rocker - coupler, rocker]), GRAVITY * (5 * b[1] + 6.5 * c[1])
 
 
+@pytest.mark.slow
 def test_dry_pins_take_the_height_between_turns() -> None:
     """Of each half swing: 4 N m times the ways of all pins, which turn round at dead centres, too."""
     result = run("dry-four-bar")
@@ -233,6 +235,7 @@ def test_the_wiper_swings_as_its_four_bar_says():
     assert_allclose(place(result, "arm.b"), b, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_wiper_turns_as_an_equation_of_its_crank_alone_says():
     """J w' + J' w^2/2 = torque; J' by a central difference, whose error of 1e-9 stays below the bound."""
     result = model("wiper").simulate(until=1.0, times=(0.0, 0.5, 1.0))
@@ -302,6 +305,7 @@ def klann(p, theta):
 LEGS = {"jansen-leg": (jansen, 0.0), "klann-leg": (klann, math.pi)}
 
 
+@pytest.mark.slow_cases("klann-leg")
 @pytest.mark.parametrize("name", LEGS)
 def test_a_leg_walks_where_circles_meet(name):
     result, (points, start) = run(name), LEGS[name]
@@ -364,6 +368,7 @@ def test_the_cylinder_of_the_lift_gives_what_virtual_work_says():
 # -- quick return ------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_ram_returns_in_half_the_turn_of_its_cut():
     """The lever turns back where it touches the crank's circle, at crank angles of -30 and 210 degrees."""
     events = model("shaper").simulate(until=2.2, output_step=1.1).events

@@ -202,6 +202,7 @@ def test_upright_disc_falls_at_the_known_rate() -> None:
     np.testing.assert_allclose(axis, expected, rtol=2e-5)
 
 
+@pytest.mark.slow
 def test_screw_gear_and_rack() -> None:
     """A nut that falls along its thread: (m + J (2 pi / p)^2) a = m g. Two wheels: tau = (J1 + J2 (r1/r2)^2) alpha."""
     nut = head(True, "[0.0, 0.0, -9.81]") + body("n", "") + '[joints.s]\ntype = "screw"\nbetween = ["ground", "n"]\n'
@@ -237,6 +238,7 @@ def shafts(kind: str, keys: str, bend: float) -> str:
     return text + '[joints.m]\ntype = "driver"\njoint = "A"\nvalue = "3*t"\n'
 
 
+@pytest.mark.slow
 def test_shafts_turn_as_their_joints_say() -> None:
     """Cardan: tan(out) = tan(in) cos(bend) with the driving fork across the shafts' plane; homokinetic: alike."""
     bend, times = 0.6, np.linspace(0.0, 1.0, 6)
@@ -300,6 +302,7 @@ def test_bushing_swings_at_the_root_of_stiffness_over_mass() -> None:
     assert column(system, motion, "b.wz")[-1] == pytest.approx(1e-5 * np.cos(np.sqrt(40.0) * 0.9), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_constant_steps_converge_with_order_four() -> None:
     raw = catalogue("four-bar")
     _, exact = moved(raw, [0.0, 0.4], 1e-13)

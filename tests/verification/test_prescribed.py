@@ -129,6 +129,7 @@ def spatial(flip: bool) -> dict:
     }
 
 
+@pytest.mark.slow_cases("planar-True")
 @pytest.mark.parametrize("flip", [False, True])
 @pytest.mark.parametrize("make", [planar, pytest.param(spatial, marks=pytest.mark.slow)])
 def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
@@ -179,6 +180,7 @@ def test_a_state_keeps_one_coordinate(tmp_path):
     assert carried.topology.cut == ("shoulder_motor",)
 
 
+@pytest.mark.slow
 def test_a_second_driver_of_a_coordinate_keeps_its_row(tmp_path):
     raw = planar(False)
     raw["joints"]["again"] = driver("elbow", "0.5 + 0.7*t + 0.3*t**2")

@@ -131,14 +131,7 @@ def routes() -> dict[str, Any]:
 
 
 @pytest.mark.fast(
-    "-2.0-0.0-SymPy",
-    "-2.0-0.05-formula",
-    "-0.5--1.5-formula",
-    "-0.5--1.5-SymPy",
-    "-0.5-2.0-SymPy",
-    "0.005--1.5-formula",
-    "0.5-0.05-SymPy",
-    "3.0-0.0-formula",
+    "-0.5--1.5-formula", "-0.5--1.5-SymPy", "-0.5-2.0-SymPy", "0.005--1.5-formula", "0.5-0.05-SymPy", "3.0-0.0-formula"
 )
 @pytest.mark.parametrize("route", ["formula", "SymPy"])
 @pytest.mark.parametrize("a, b", STATES)

@@ -74,6 +74,7 @@ def interpreted(function, spaces=None):
     return FunctionType(function.py_func.__code__, spaces[id(own)])
 
 
+@pytest.mark.slow
 def test_what_is_no_call_is_copied(emitted):
     law = load_module(emitted / "direct_correction_lanes.py")
     f = law.accept.read((NUMBER, ARRAY))

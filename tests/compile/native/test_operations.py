@@ -152,6 +152,7 @@ def test_more_random_programs(tmp_path_factory, program):
     assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
 
 
+@pytest.mark.slow
 def test_powers_of_rounded_numbers_are_those_of_floats(tmp_path):
     """Powers of integers would overflow, and raise where 0 has a negative one: what raises ends the process."""
     graph = Graph()
@@ -190,6 +191,7 @@ def test_each_operation_alone(tmp_path):
     assert judged(tmp_path, printed(graph, outputs, truth)) == []
 
 
+@pytest.mark.slow
 def test_sums_of_products(tmp_path):
     """A product that several sums want may go into any of them where something is contracted, which is not here."""
     products = " + ".join(f"y[{2 * i}]*y[{2 * i + 1}]" for i in range(6))
@@ -212,6 +214,7 @@ def f(y, out):
     assert judged(tmp_path, text) == []
 
 
+@pytest.mark.slow
 def test_loops_and_branches(tmp_path):
     text = """
 def f(y, out):

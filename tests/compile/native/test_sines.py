@@ -168,6 +168,7 @@ def test_functions_with_and_without(tmp_path):
     assert differ > 0, "the same sines, so nothing was taken together"
 
 
+@pytest.mark.slow
 def test_right_hand_side_of_andrews():
     """Seven angles: rates with both kinds of sines agree to rounding times the condition of the rows."""
     model = load("andrews")

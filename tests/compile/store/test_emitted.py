@@ -46,6 +46,7 @@ class TestKey:
         monkeypatch.setattr(jit, "reached_digest", lambda *roots: "another")
         assert function.symbol(KINDS) != before
 
+    @pytest.mark.slow
     def test_another_processor_has_code_of_its_own(self, law, python):
         names = dict.fromkeys(("generic", llvmlite.binding.get_host_cpu_name()))
         found = [python(RUN, law, NUMBA_CPU_NAME=name) for name in names]

@@ -31,6 +31,7 @@ def counts(found: dict) -> tuple[int, int]:
 
 
 class TestSecondProcess:
+    @pytest.mark.slow
     def test_finds_everything_whatever_the_hash_seed(self, law, cache, python):
         first = python(RUN, law, PYTHONHASHSEED="1")
         assert counts(first) == (0, 4)
@@ -112,6 +113,7 @@ print(json.dumps([outer.g(1.0), cache_stats()["misses"]]))
         found = python(RUN, generated / "lagrange.py", SYMGEN_CACHE_DIR=str(tmp_path / "file" / "cache"))
         assert (*counts(found), found["status"]) == (0, 4, 0)
 
+    @pytest.mark.slow
     def test_two_at_once_and_one_that_is_killed(self, law, python, tmp_path):
         path = os.pathsep.join([str(tmp_path / "library"), str(Path(__file__).parents[3])])
         environment = {**os.environ, "PYTHONPATH": path}

@@ -84,6 +84,7 @@ def test_every_name_is_used_and_every_line_is_needed(model):
             assert len(set(terms)) == len(terms), f"{where}: straight-line terms are assigned once"
 
 
+@pytest.mark.slow
 def test_planar_code_knows_no_third_axis_and_no_ground():
     """Three columns a body, and none for the ground; nothing of z or of Euler parameters."""
     equations = formulate(mechanism("four-bar"))
@@ -142,6 +143,7 @@ def test_printed_operations_are_those_counted():
             assert printed <= counted and 0.98 * counted <= printed + signs, f"{stem}.{function.name}"
 
 
+@pytest.mark.slow_cases("everything")
 @pytest.mark.parametrize("model", MODELS)
 def test_the_header_says_what_it_must(model):
     for stem, source in sources(model).items():

@@ -27,9 +27,7 @@ def pushed(force: str) -> Model:
 
 
 @pytest.mark.fast(
-    "2 if t > 0.3 and a > 0.5 else 0",
-    "1 if (a > 0.5 or b < 1) and not (t < 0.2) else 0",
-    "1 if a > 0.5 and b > 1 and t > 0.5 and not (b > 3) else 0",
+    "1 if (a > 0.5 or b < 1) and not (t < 0.2) else 0", "1 if a > 0.5 and b > 1 and t > 0.5 and not (b > 3) else 0"
 )
 @pytest.mark.parametrize("force", FORCES)
 def test_single_runs(force):
@@ -40,6 +38,7 @@ def test_single_runs(force):
         np.testing.assert_allclose(run.q["m.x"][-1], FORCES[force], atol=1e-6)
 
 
+@pytest.mark.slow
 def test_rows_of_sweeps_choose_by_their_own_parameters():
     model = pushed("2 if a > 0.5 and t > 0.3 else 0")
     rows = {"step": 0.1, "until": 1.0, "integrator": "rk4", "quantities": ("q",)}
@@ -50,6 +49,7 @@ def test_rows_of_sweeps_choose_by_their_own_parameters():
         symgen.sweep(model, {"a": [0.2, 0.7]}, target="lanes", **rows)
 
 
+@pytest.mark.slow
 def test_lanes_choose_by_their_own_parameters():
     found = symgen.sweep(
         *(pushed("2 if a > 0.5 and b > 1 else 0"), {"a": [0.2, 0.7]}),

@@ -85,6 +85,7 @@ def test_a_law_that_closes_coordinates_has_both_right_hand_sides():
     assert "def accelerate(" in source and "def rhs(" in source and "return accelerate(" in source
 
 
+@pytest.mark.slow
 def test_a_law_with_a_metric_of_its_own_calls_the_models_functions_by_another_name():
     assert "from model import geometry, measure\n" in emitted("four-bar")["direct_correction"], "it has no factor"
     source = emitted("four-bar")["mass_orthogonal_projection"]

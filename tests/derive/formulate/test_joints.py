@@ -82,7 +82,7 @@ def check_emitted(raw, t, q, v, compiled=False):
         close(found.coordinates[2 * k : 2 * k + 2], pair, name)
 
 
-@pytest.mark.slow_cases("coupling")
+@pytest.mark.slow_cases("coupling", "distance")
 @pytest.mark.parametrize("kind", KINDS)
 @RANDOM
 @given(data=st.data())

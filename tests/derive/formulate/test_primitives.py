@@ -90,7 +90,7 @@ ARMS = {
 }
 
 
-@pytest.mark.fast("plane-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("where", ARMS)
 def test_a_rotor_is_a_body_with_a_gear(where, coordinates):
@@ -234,7 +234,7 @@ SAME = {
 }
 
 
-@pytest.mark.fast("universal")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAME)
 def test_joints_are_put_together_of_primitives(name):
     whole, parts = SAME[name]
@@ -261,6 +261,7 @@ def test_a_primitive_that_starts_half_a_turn_away_is_found():
 # -- bushings, balls and springs ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_bushing_in_the_plane_is_three_springs_and_dampers():
     raw = {
         "mechanism": {"name": "buffer"},
@@ -331,6 +332,7 @@ def ball(spring, start):
     }
 
 
+@pytest.mark.slow_cases("absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_stiffness_and_damping_of_a_ball(coordinates):
     """About a principal axis it is an oscillator; else the torque is -k times the rotation vector less c omega."""

@@ -78,7 +78,7 @@ def test_sliding_costs_few_operations(friction: dict[str, float], pins: str, mor
     assert dry["rhs_held"] > dry["rhs_free"]
 
 
-@pytest.mark.fast("absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_friction_in_motion_is_a_torque(coordinates: str) -> None:
     """Constant friction of given signs is a torque on both bodies: the same accelerations and forces of joints."""
@@ -95,7 +95,7 @@ def test_friction_in_motion_is_a_torque(coordinates: str) -> None:
         np.testing.assert_allclose(mine, other, rtol=1e-12, atol=1e-12 * np.abs(other).max())
 
 
-@pytest.mark.fast("BC-0.1-0-udwadia-kalaba")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pins", "radius", "doubtful", "method"),
     [

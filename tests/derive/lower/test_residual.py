@@ -75,7 +75,7 @@ def test_both_ways_have_the_same_derivatives(name, coordinates, method):
     assert inner == pytest.approx(ends @ found[0][1], rel=1e-10)
 
 
-@pytest.mark.fast("slider-crank-absolute-0", "rolling-disc-joint-0")
+@pytest.mark.fast("slider-crank-absolute-0")
 @pytest.mark.parametrize(
     ("name", "coordinates", "left_out"),
     [

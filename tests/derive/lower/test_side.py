@@ -87,6 +87,7 @@ def test_nothing_of_the_model_is_made_anew_and_the_module_is_found_again(tmp_pat
     assert len(list(tmp_path.rglob("trial_*.py"))) == 2
 
 
+@pytest.mark.slow_cases("stewart-platform")
 @pytest.mark.parametrize("name", [*catalogue.names(), "everything", "rough", "spatial"])
 def test_angles_stand_where_each_shape_has_them(name):
     made = {"everything": EVERYTHING, "rough": ROUGH}

@@ -86,6 +86,12 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     "lagrange-newmark",
     "symmetric-projection-gauss",
     "lagrange-abm4",
+    "coordinate-partitioning-rk4",
+    "generalized-alpha-generalized-alpha",
+    "ggl-radau5",
+    "lagrange-sdirk",
+    "null-space-abm4",
+    "rattle-rattle",
 )
 @pytest.mark.parametrize(
     ("method", "integrator"),

@@ -44,7 +44,7 @@ def test_a_step_meets_the_equations_of_the_scheme(name):
     np.testing.assert_allclose(book.rows(h, q1, v1)[0], 0.0, atol=1e-14)
 
 
-@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2")
+@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2", "spatial-slider-crank-0.5-keys3")
 @pytest.mark.parametrize(("name", "until", "keys"), MOTIONS)
 def test_order_two_with_positions_on_their_constraints(name, until, keys):
     results, errors = compared(load(name), until, method="discrete-gradient", max_violation=1e-2, **keys)

@@ -134,6 +134,7 @@ def test_one_law_under_many_names(name, options):
                 close(acceleration, form(e.mass, e.d, e.f, e.gamma), form.__name__, tolerance)
 
 
+@pytest.mark.slow_cases("(('solver', 'dense'),)")
 @pytest.mark.parametrize("options", SOLVERS[1:], ids=str)
 def test_forms_for_singular_mass_matrices_are_oracles_for_the_solvers_that_need_no_inverse(options):
     one = law("massless", "lagrange", *options)

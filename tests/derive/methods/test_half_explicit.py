@@ -34,6 +34,7 @@ def test_a_step_is_the_textbooks(name):
     np.testing.assert_allclose(v1, v, rtol=0.0, atol=1e-11)
 
 
+@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2")
 @pytest.mark.parametrize(("name", "until", "keys"), MOTIONS)
 def test_order_three_with_velocities_to_rounding(name, until, keys):
     results, errors = compared(load(name), until, method="half-explicit", max_violation=1e-4, **keys)

@@ -32,6 +32,7 @@ def check_redundant(methods):
         assert row.result.rank_event_count == 0
 
 
+@pytest.mark.slow
 def test_redundant_constraints():
     check_redundant(FEW)
 
@@ -107,6 +108,7 @@ def check_passages(method, windows, steps, until):
     return found
 
 
+@pytest.mark.slow_cases("lagrange")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
 def test_singular_positions(method):
     found = check_passages(method, 1, np.linspace(0.95e-3, 1.05e-3, 5), 10.0)
@@ -125,7 +127,7 @@ def test_singular_positions_by_every_method(method, windows):
     check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
 
 
-@pytest.mark.fast("0.02-0.001")
+@pytest.mark.slow
 @pytest.mark.parametrize(("step", "tolerance"), [(1e-3, 1e-6), (5e-3, 1e-5), (2e-2, 1e-3)])
 def test_partitions_are_released_near_singular_positions(step, tolerance):
     """Where no set of independent coordinates determines the others, all are corrected: the regular branch is kept."""
@@ -152,7 +154,7 @@ def two_links(massless: bool) -> Model:
     return Model(raw.build())
 
 
-@pytest.mark.fast("direct-correction", "stiffness-scaled-penalty")
+@pytest.mark.fast("direct-correction")
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "stiffness-scaled-penalty"])
 def test_a_massless_coupler_moves_as_a_distance_joint(method):
     keys = {"method": method, "integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 2.0, "output_step": 0.1}
@@ -250,6 +252,7 @@ def test_a_light_body_swings_as_a_heavy_one_with_implicit_integrators(integrator
         np.testing.assert_allclose(angles, angles[0], rtol=1e-13)
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_small_slider_crank_moves_alike_with_explicit_and_implicit_integrators(coordinates):
     """Links of 1 um and 1e-15 kg; in coordinates of joints the loop alone has rows."""

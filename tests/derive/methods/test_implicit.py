@@ -98,7 +98,6 @@ class Stage:
 
 
 @pytest.mark.fast(
-    "baumgarte",
     "adaptive-baumgarte",
     "compliant-constraints",
     "ggl",
@@ -165,7 +164,7 @@ def test_generalized_alpha_without_damping_is_refused(rho):
         make_plan(load("four-bar").mechanism, settings)
 
 
-@pytest.mark.fast("ggl-radau5-1e-11", "direct-correction-sdirk-1e-06")
+@pytest.mark.fast("direct-correction-sdirk-1e-06")
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [

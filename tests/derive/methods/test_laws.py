@@ -89,6 +89,7 @@ def compiled(name: str) -> tuple[Emitted, Plain]:
     return Emitted(mechanism_of(raw), "baumgarte", compiled=True), Plain(raw)
 
 
+@pytest.mark.slow_cases("everything")
 @pytest.mark.parametrize("name", ["everything", "rough"])
 def test_compiled_functions_on_every_joint_and_force(name):
     emitted, plain = compiled(name)

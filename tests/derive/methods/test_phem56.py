@@ -50,7 +50,6 @@ def test_conditions_of_the_coefficients():
     "four-bar-2.0-0.004-keys1",
     "spatial-slider-crank-0.4-0.00125-keys2",
     "spatial-slider-crank-0.4-0.0025-keys3",
-    "bricard-1.0-0.02-keys4",
     "heavy-top-0.5-0.0025-keys5",
 )
 @pytest.mark.parametrize(("name", "until", "step", "keys"), MOTIONS)

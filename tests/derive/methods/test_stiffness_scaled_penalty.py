@@ -51,6 +51,7 @@ def test_both_solvers_share_alike():
     np.testing.assert_allclose(own, other, rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_redundant_rows_do_not_pull_at_the_motion():
     """At constant steps of order 4, whose stages violate: the motion is that of the same correction without sharing."""
     description = raw("slider-crank")

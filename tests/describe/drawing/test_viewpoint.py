@@ -94,6 +94,7 @@ def test_a_body_inside_another_one_is_drawn_after_it() -> None:
     assert order.index("shaft") < order.index("slider") < order.index("sleeve")
 
 
+@pytest.mark.slow
 def test_the_scissor_lift_has_a_platform_and_a_cylinder() -> None:
     """The platform is as wide as the lift; barrel and rod fit between foot and head when the cylinder is shortest."""
     model = load("scissor-lift")

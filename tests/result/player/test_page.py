@@ -73,6 +73,7 @@ def test_large_equations_stay_outside_and_the_page_says_so(monkeypatch: pytest.M
     assert "function rhs(" not in page.html
 
 
+@pytest.mark.slow
 def test_without_compiled_code_a_page_has_no_live_part_and_says_so() -> None:
     script = "import symgen; print(symgen.load('pendulum').simulate(until=0.01).view().html)"
     found = processes.python(script, env=os.environ | {"NUMBA_DISABLE_JIT": "1"})
@@ -433,6 +434,7 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
     assert whole[-1] > 1e-9 and whole[-1] == pytest.approx(run.violations["position"][-1], rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
     (tmp_path / "x.nc").write_bytes(b"nothing")
     assert main(["view", str(tmp_path / "x.nc")]) == 2

@@ -198,6 +198,7 @@ def test_derivatives_go_through_modes_and_impacts(name, scheme, coordinates):
     compare(found, after, changes, {"push": numbers["push"]}, 1e-5, 3e-10)
 
 
+@pytest.mark.slow
 def test_a_step_in_which_friction_stops_the_cart_has_its_derivatives():
     run, _, found, after = made(rubbed(1.0, 0.05), {"coordinates": "joint", "integrator": "rk4", "step": 1e-2}, 1e-2, 8)
     assert [event.name for event in run.events] == ["rail.stick"] and not found.doubts

@@ -51,11 +51,7 @@ def test_both_ways_give_the_same_bits(method, integrator, adaptive):
     assert_same(sim, plain)
 
 
-@pytest.mark.fast(
-    "bricard-direct-correction-rk4-straight",
-    "n-four-bar:1-null-space-dopri5-straight",
-    "n-four-bar:1-null-space-dopri5-looped",
-)
+@pytest.mark.fast("bricard-direct-correction-rk4-straight", "n-four-bar:1-null-space-dopri5-looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(
     ("name", "method", "integrator"),
@@ -106,6 +102,7 @@ def test_room_for_factors_is_made_on_the_way(integrator):
     np.testing.assert_array_equal(sim.state, state)
 
 
+@pytest.mark.slow
 def test_without_compilation_steps_are_plain_python(tmp_path):
     code = (
         "import symgen\n"

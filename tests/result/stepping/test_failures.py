@@ -91,6 +91,7 @@ def test_a_start_beyond_a_limit_is_an_error_too():
         symgen.load("driven-four-bar").start(method="lagrange", step=1e-3, max_violation=1e-300)
 
 
+@pytest.mark.slow
 def test_an_interrupt_ends_a_long_run_at_an_accepted_state(four_bar):
     settings = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "shape": "straight"}
     sim = four_bar.start(**settings)

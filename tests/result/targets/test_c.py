@@ -122,6 +122,7 @@ def test_a_program_that_locks_says_what_a_run_says(name, step, tmp_path):
     assert float(ended.stdout.splitlines()[-1].partition(",")[0]) <= expected
 
 
+@pytest.mark.slow
 def test_a_program_whose_forces_are_undefined_says_until_when(tmp_path):
     """The root of 0.25 - t has no value behind 0.25 s, and nothing locks."""
     pushed = {
@@ -262,6 +263,7 @@ def test_what_c_has_not_is_refused(keys, words, tmp_path):
     assert not (tmp_path / "c").exists()
 
 
+@pytest.mark.slow
 def test_numbers_of_32_bits(tmp_path):
     folder = written(load("pendulum").mechanism, tmp_path)
     program = compiled(folder, "-DPENDULUM_SINGLE", "-fsingle-precision-constant")
@@ -292,6 +294,7 @@ def test_bytes_do_not_depend_on_the_process(name, tmp_path):
     assert texts[0] == texts[1]
 
 
+@pytest.mark.slow
 def test_the_loop_of_the_guide_compiles(tmp_path):
     guide = (Path(__file__).parents[3] / "docs" / "howto" / "c-and-fmu.md").read_text(encoding="utf-8")
     (loop,) = [block.split("```")[0] for block in guide.split("```c\n") if block.startswith('#include "cart_pole.h"')]

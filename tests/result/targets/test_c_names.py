@@ -87,6 +87,7 @@ def test_names_of_the_catalogue_stay(model):
         assert prefix_of(entry.name, model.text) == entry.name.replace("-", "_")
 
 
+@pytest.mark.slow
 def test_another_name_is_said_and_the_program_runs(tmp_path, capsys):
     path, folder = described("size-t", tmp_path), tmp_path / "c"
     assert main(["generate", str(path), "--target", "c", "-o", str(folder)]) == 0

@@ -78,6 +78,7 @@ def test_it_is_valid_and_small(four_bar):
     assert sum(v.derivative is not None for v in description.modelVariables) == 2
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("2-1e-09-7.5e-06", "2-1e-11-7.5e-08", "3-1e-09-7.5e-06")
 @pytest.mark.parametrize(("tolerance", "error"), [(1e-9, 7.5e-6), (1e-11, 7.5e-8)])
 def test_model_exchange_neither_drifts_nor_restarts(four_bar, tolerance, error):
@@ -93,6 +94,7 @@ def test_model_exchange_neither_drifts_nor_restarts(four_bar, tolerance, error):
         assert np.abs(run.compiled.section(w, "residual")).max() < 1e-12
 
 
+@pytest.mark.slow_cases("2")
 def test_co_simulation_is_a_run_with_the_same_step(four_bar):
     rows = simulated(four_bar, "CoSimulation", 1.0)
     own = load("four-bar").simulate(

@@ -27,11 +27,7 @@ def made(request, kind, tmp_path_factory):
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast(
-    "(3, 'absolute')-light body-model exchange",
-    "(3, 'joint')-massless body-model exchange",
-    "(3, 'joint')-light body-co-simulation",
-)
+@pytest.mark.fast("(3, 'joint')-light body-co-simulation")
 @pytest.mark.parametrize(
     ("simulated", "run"),
     [

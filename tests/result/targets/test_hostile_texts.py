@@ -289,6 +289,7 @@ def unpacked(file: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", titles(FEW[1]))
 def test_javascript(title, honest, tmp_path):
     words = ("generate", "--target", "javascript", "code")

@@ -24,6 +24,7 @@ def test_a_start_is_that_of_a_run(name, coordinates, tmp_path):
     np.testing.assert_allclose(y[: run.compiled.info.work], run.start.y[: run.compiled.info.work], rtol=0, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_code_is_small(tmp_path):
     """With the start of runs, at -Os [bytes]; the gate is 45 kB."""
     written(load("four-bar").mechanism, tmp_path)

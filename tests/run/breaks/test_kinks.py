@@ -138,6 +138,7 @@ def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:
     return Jump(parse(text, FormulaNames("a formula", {"w": "w", "t": "t"}, {}, {}), "here"), levels, period=period)
 
 
+@pytest.mark.slow
 def test_times_of_kinks() -> None:
     plain = symgen.load("pendulum").mechanism
     values, levels = {"w": -2.0}, (0.0, 1.0, 3.0)

@@ -162,6 +162,7 @@ def test_passages_of_any_frequency_are_found() -> None:
         np.testing.assert_allclose(there, kept, rtol=0.0, atol=sure)
 
 
+@pytest.mark.slow_cases("dop853")
 @pytest.mark.parametrize("integrator", ["dop853", "radau5"])
 def test_thousands_of_pushes_are_seen(tmp_path: Path, integrator: str) -> None:
     """A hundredth of each period at 50 Hz for 30 s: 3000 times on and off."""

@@ -39,7 +39,7 @@ def hammer():
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("plain-{'integrator': 'rk4', 'step': 0.002}")
+@pytest.mark.slow
 @pytest.mark.parametrize("settings", SETTINGS, ids=str)
 @pytest.mark.parametrize("inputs", [{}, {"push": "0.4 if t < 0.711 else 0"}], ids=["plain", "jump"])
 def test_rows_are_their_single_runs(settings, inputs):

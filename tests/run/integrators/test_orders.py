@@ -15,7 +15,7 @@ def observed(model):
     return {(o.method, o.integrator): o for o in orders.observe(model, METHODS, INTEGRATORS)}
 
 
-@pytest.mark.fast("dopri5-lagrange-four-bar")
+@pytest.mark.slow
 @pytest.mark.parametrize("model", orders.MODELS)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("integrator", INTEGRATORS)

@@ -127,6 +127,7 @@ def test_explicit_exponentials_are_of_order_four():
     assert fine < 2e-8
 
 
+@pytest.mark.slow
 def test_euler_parameters_reach_the_same_motion():
     coarse, fine = errors("lagrange", "rk4", 0.005)
     assert 2.0**3.7 < coarse / fine < 2.0**4.5

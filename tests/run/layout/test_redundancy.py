@@ -37,8 +37,6 @@ SETTINGS = (
     "two_pins_tilted-lagrange rk4",
     "two_pins_tilted-direct-correction dop853 1e-10",
     "two_pins_tilted-direct-correction radau5",
-    "two_pins_tilted-coordinate-partitioning rk4",
-    "two_pins_tilted-null-space dop853",
 )
 @pytest.mark.parametrize("settings", SETTINGS, ids=lambda s: " ".join(map(str, s.values())))
 @pytest.mark.parametrize("name", ["two_pins", "two_pins_tilted"])

@@ -180,6 +180,7 @@ def test_constant_steps_keep_their_grid(passing: symgen.Model) -> None:
     assert passing.simulate(method="lagrange", integrator="rk4").steps == 100
 
 
+@pytest.mark.slow
 def test_the_engine_keeps_to_an_equation_of_its_crank_alone() -> None:
     """Over the angle, whose points are known: d(omega)/d(theta), piece by piece between them, by SciPy."""
     model, raw = symgen.load("engine"), catalogue.raw("engine")["tables"]["pressure"]

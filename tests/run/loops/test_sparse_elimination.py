@@ -65,6 +65,7 @@ def matrices(draw):
     return matrix * 10.0 ** rng.integers(-6, 6, (n, 1)), rng
 
 
+@pytest.mark.slow
 @given(matrices())
 def test_random_patterns_as_numpy_solves_them(case):
     matrix, rng = case

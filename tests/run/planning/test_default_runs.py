@@ -164,6 +164,7 @@ def test_the_file_and_the_run_switch_it(monkeypatch, capsys):
     assert '"error_estimate": null' not in capsys.readouterr().out
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_run_that_goes_on_is_checked_from_where_it_begins(monkeypatch, coordinates):
     """A motor has done work until then."""
@@ -207,6 +208,7 @@ def test_a_long_run_is_checked_over_a_first_part(monkeypatch, coordinates):
             assert pendulum.simulate(until=10.0, times=times, coordinates=coordinates, **chosen).ok
 
 
+@pytest.mark.slow
 def test_a_stiff_run_proposes_an_implicit_integrator():
     """A damper of 4000 1/s, compared with the state or not: by the iteration, and by the eigenvalues at the start."""
     for force in ("1.0 - 4000*block.vx", "1.0 - 4000*block.vx if block.x > -1 else 0"):

@@ -116,6 +116,7 @@ def test_numbers_of_tables_that_a_description_has_twice():
     assert origin_of(model.mechanism).raw["bodies"]["coupler1"]["points"]["B"][0] == 0.5
 
 
+@pytest.mark.slow
 def test_quantities_at_the_end_and_fits(rod):
     found = rod.gradient("rod.omega", by=NUMBERS, until=3.0, **TIGHT)
     assert by_length(found.by) == pytest.approx(ROD_BY["length"][1], rel=1e-10)

@@ -57,6 +57,7 @@ def test_lengths_masses_and_gravity_of_the_four_bar(run):
     assert run.sensitivities.violation < 1e-9
 
 
+@pytest.mark.slow_cases("joint")
 def test_what_scales_alone_changes_nothing(run):
     # masses cancel; the clock of larger lengths is slower by the root of these over g
     speed, acceleration = run.v.row()["crank.omega"], run.a.row()["crank.alpha"]
@@ -96,6 +97,7 @@ def test_more_directions_than_vectors_hold(four_bar):
     )
 
 
+@pytest.mark.slow
 def test_the_slider_crank_of_idas(tmp_path):
     for tolerance, error in ((1e-9, 1e-8), (1e-13, 2e-12)):
         settings = {"rtol": tolerance, "atol": tolerance, "times": [10.0], "coordinates": "joint"}
@@ -164,7 +166,7 @@ def test_errors_fall_with_the_order_of_the_scheme(rod, integrator, order, step):
 CONSTANT = {"integrator": "rk4", "step": 1e-2, "until": 0.4, "times": [0.4]}
 
 
-@pytest.mark.fast("absolute-lean", "absolute-circle", "joint-radius")
+@pytest.mark.fast("absolute-lean", "absolute-circle")
 @pytest.mark.parametrize("name", ["lean", "circle", "radius"])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_rolling_disc_whose_start_is_closed_again(name, coordinates):
@@ -199,6 +201,7 @@ def test_parameters_of_the_method():
     assert run.gradient("crank.x").row()["method.alpha"] == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_inputs(tmp_path):
     text = """
 [mechanism]
@@ -254,6 +257,7 @@ def test_another_run_goes_on_from_one_with_sensitivities(four_bar):
     assert second.q.row()["crank.theta"] == pytest.approx(whole.q.row()["crank.theta"], rel=1e-11)
 
 
+@pytest.mark.slow
 def test_a_run_without_sensitivities_imports_none_of_it():
     code = (
         "import sys, symgen; symgen.simulate('pendulum', until=0.1); "
@@ -263,6 +267,7 @@ def test_a_run_without_sensitivities_imports_none_of_it():
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.slow
 def test_a_number_that_changes_nothing_is_named(tmp_path):
     text = FOUR_BAR.replace("[bodies.crank]", 'idle = { value = 1.0, unit = "N" }\n\n[bodies.crank]', 1)
     run = model(tmp_path, text).simulate(until=0.1, sensitivities="idle", integrator="rk4", step=1e-2)

@@ -335,7 +335,6 @@ def test_orders_with_a_state(method, integrator, order):
 
 @pytest.mark.fast(
     "lagrange-newmark-2-absolute",
-    "index3-augmented-lagrangian-trapezoidal-2-joint",
     "rattle-rattle-2-joint",
     "discrete-gradient-discrete-gradient-2-joint",
     "symmetric-projection-gauss-4-joint",

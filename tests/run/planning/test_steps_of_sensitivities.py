@@ -107,7 +107,7 @@ def test_a_tight_relative_tolerance_alone(rod):
     assert 300.0 * 1e-13 < run.sensitivities.error < 300.0 * 1e-10
 
 
-@pytest.mark.fast("four-bar")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "rolling-disc"])
 def test_ordinary_runs_are_not_in_doubt(name):
     mass = {"four-bar": "crank_mass", "slider-crank": "rod_mass", "rolling-disc": "radius"}[name]

@@ -27,7 +27,7 @@ def loaded():
     return description
 
 
-@pytest.mark.fast("baumgarte")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_work_of_drivers_and_losses_is_accounted_for(method):
     """E - E0 is the work that the run integrates as a state of its own; and that is the integral of the power."""
@@ -48,6 +48,7 @@ def test_work_of_drivers_and_losses_is_accounted_for(method):
     np.testing.assert_allclose(work, integral, atol=1e-3 * np.abs(work).max())
 
 
+@pytest.mark.slow
 def test_momentum_is_kept_where_nothing_acts_from_outside():
     """Two bodies and a point, tied to each other only: linear and angular momentum."""
     rod = {"mass": 1.3, "inertia": 0.4, "points": {"P": [0.6, 0.1]}}

@@ -63,6 +63,7 @@ def test_pendulum_of_a_beam_with_constant_and_adaptive_steps():
     assert runs["adaptive"][0].rejected < runs["adaptive"][0].steps
 
 
+@pytest.mark.slow
 def test_adaptive_steps_follow_the_tolerance():
     """Errors against a run with a tolerance a hundred times smaller fall by about the tolerance."""
     model = pendulum(8)
@@ -127,6 +128,7 @@ def test_free_beam_flies_as_its_centre_of_mass_does():
         np.testing.assert_allclose(found, at, atol=1e-2)
 
 
+@pytest.mark.slow_cases("spatial")
 @pytest.mark.parametrize("space", ["planar", "spatial"])
 def test_a_load_by_length_acts_on_clamped_ends_too(space):
     """A free body with a beam clamped to it: momentum is load times length times time."""

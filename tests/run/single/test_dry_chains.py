@@ -235,7 +235,7 @@ def reference(kind: type[Chain], seed: int, moving: bool) -> tuple[np.ndarray, i
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("Chain-1-False-joint", "Chain-2-True-joint", "Chain-4-True-absolute")
+@pytest.mark.fast("Chain-4-True-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize(
     ("kind", "seed", "moving"),

@@ -239,6 +239,7 @@ def test_two_blocks_with_static_bounds_above_sliding(coordinates: str) -> None:
     assert abs(found[-1][0] - LAST_OF_TWO) < 1e-10
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_dry_pins_of_a_four_bar(coordinates: str) -> None:
     """Four rows with one freedom: event-driven reference in minimal coordinates."""
@@ -326,7 +327,7 @@ OTHERS: dict[str, tuple[str, dict[str, float], float]] = {
 }
 
 
-@pytest.mark.slow_cases("generalized-alpha", "implicit-constraint", "null-space")
+@pytest.mark.slow_cases("generalized-alpha", "implicit-constraint", "null-space", "coordinate-partitioning")
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_finds_the_rest_angle_or_says_why_not(method: str) -> None:
     integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
@@ -369,6 +370,7 @@ def rest_by_the_reaction() -> tuple[int, float]:
         angle, turns = swing.y[0, -1], turns + 1
 
 
+@pytest.mark.slow_cases("coordinate-partitioning")
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None:
     integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
@@ -446,7 +448,7 @@ def test_rows_of_a_sweep_choose_modes_in_compiled_loops(integrator: str) -> None
 _JUMPS = "piecewise(t < 0.05, late, t < 0.3, 0.5, t < 0.3 + late, 2.0, t < 1.0, 0.5, 3.0)"
 
 
-@pytest.mark.fast("rk4-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("rk4", "absolute"), ("picard", "joint")]
 )

@@ -50,6 +50,7 @@ def slider_crank(friction: dict[str, Any]) -> Mechanism:
     return validate(raw, "slider.toml")
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("dop853-absolute", "picard-absolute")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "absolute"), ("picard", "absolute"), ("dop853", "joint")]
@@ -63,6 +64,7 @@ def test_a_pin_rubs_by_its_own_reaction(integrator: str, coordinates: str) -> No
     assert abs(result["crank.theta"][-1] + 2.14493122869) < 1e-10
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_slide_rubs_by_its_normal_force(coordinates: str) -> None:
     result = symgen.load(slider_crank({"coefficient": 0.3})).simulate(
@@ -73,6 +75,7 @@ def test_a_slide_rubs_by_its_normal_force(coordinates: str) -> None:
     assert abs(result["crank.theta"][-1] + 1.75991021743) < 1e-10
 
 
+@pytest.mark.slow
 def test_implicit_schemes_and_outputs() -> None:
     """Friction of unknown multipliers, and the force of an output, whose work is what the energy loses."""
     model = symgen.load(four_bar(A=ARM))
@@ -84,6 +87,7 @@ def test_implicit_schemes_and_outputs() -> None:
     np.testing.assert_allclose(result.outputs["A.force"][1:], sliding[1:], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_reactions_that_are_not_determined_are_named() -> None:
     raw, source = read_raw("four-bar")
     raw = copy.deepcopy(raw)
@@ -112,6 +116,7 @@ def ramp(angle: float, coefficient: float) -> Mechanism:
     return validate(raw, "ramp.toml")
 
 
+@pytest.mark.slow
 def test_a_block_slides_beyond_the_critical_angle() -> None:
     angle = float(np.arctan(0.4))
     result = symgen.load(ramp(angle - 1e-9, 0.4)).simulate(until=10.0, output_step=1.0)
@@ -149,6 +154,7 @@ def test_inspect_shows_jamming_numbers() -> None:
     )
 
 
+@pytest.mark.slow
 def test_friction_that_brings_about_its_own_reaction_is_named() -> None:
     """1 + 3 cos^2 = 3 mu sin cos: the least mu is 4/3 at tan = 2 (Painleve 1895)."""
     symgen.load(painleve(4.0 / 3.0 - 1e-9)).simulate(until=1e-6)

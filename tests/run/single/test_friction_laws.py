@@ -35,6 +35,7 @@ def pendulum(friction: str) -> Mechanism:
     return validate(parse_toml(PENDULUM.replace("FRICTION", friction), "p"), "p.toml")
 
 
+@pytest.mark.slow
 def test_a_smooth_law_creeps_where_the_exact_one_rests(tmp_path: Path) -> None:
     """It holds by its rate alone: 0.5 N m tanh(rate / speed) = m g l sin(angle)."""
     exact = symgen.load(pendulum("sliding = 0.5")).simulate(until=10.0, output_step=1.0)

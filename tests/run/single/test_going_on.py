@@ -66,10 +66,7 @@ def test_two_runs_are_the_run_in_one_piece(method, integrator):
     assert_the_rest(second, whole, 1e-12 if method == "null-space" else 0.0)
 
 
-@pytest.mark.fast(
-    "spherical-double-pendulum-lagrange-0.1-0.01-straight",
-    "parallelogram-coordinate-partitioning-1.0-0.001-straight",
-)
+@pytest.mark.fast("spherical-double-pendulum-lagrange-0.1-0.01-straight")
 @pytest.mark.parametrize(
     ("name", "method", "until", "step", "shape"),
     [
@@ -97,7 +94,7 @@ def test_in_space_with_redundant_rows_and_through_a_passage(name, method, until,
     assert found.rank_event_count == whole.rank_event_count and found.rank == whole.rank
 
 
-@pytest.mark.fast("csv")
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["nc", "parquet", "csv"])
 def test_files(tmp_path, ending):
     model, asked = symgen.load("four-bar"), {"integrator": "abm4", "step": STEP, "output_step": STEP}
@@ -332,6 +329,7 @@ def test_a_stopped_run_and_a_failed_one_are_gone_on_from(tmp_path: Path):
     assert third.ok and "that run failed" in third.notes[0]
 
 
+@pytest.mark.slow_cases("shapes0")
 @pytest.mark.parametrize("shapes", [("straight", "looped"), ("looped", "straight")])
 def test_turns_are_known_to_the_other_shape(shapes):
     """Discs on hinges of their own, of which the second is held by a torsion spring: it goes on from where it wound."""

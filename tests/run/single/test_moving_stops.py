@@ -143,6 +143,7 @@ def test_a_floor_that_swings_throws_what_rests_on_it(steps: dict[str, Any], coor
     assert result.energy_drift_max < 1e-6
 
 
+@pytest.mark.slow_cases("1.0-default-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -173,6 +174,7 @@ def test_a_wall_meets_a_block_that_slides(part: float, steps: dict[str, Any], co
     assert result.energy_drift_max < 1e-10
 
 
+@pytest.mark.slow_cases("1.0-default-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -227,7 +229,6 @@ def test_impacts_on_a_rising_floor_accumulate() -> None:
 @pytest.mark.fast(
     "max(0, t - 0.3037)-1.0-radau5-absolute",
     "max(0, t - 0.3037)-0.0-rk4-absolute",
-    "(t - 0.3037 if t > 0.3037 else 0)-0.5-dop853-joint",
     "(t - 0.3037 if t > 0.3037 else 0)-0.0-default-absolute",
 )
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
@@ -272,7 +273,7 @@ def test_rows_have_floors_that_start_at_once() -> None:
 INPUT = FLOOR.replace('"b.y - 0.5*t"', '"b.y - height"') + '[inputs.height]\nunit = "m"\ndefault = 0.0\n'
 
 
-@pytest.mark.fast("0.5*t-default", "0.5*t-dop853", "0.5*t-radau5", "given1-rk4")
+@pytest.mark.fast("0.5*t-default", "0.5*t-dop853", "0.5*t-radau5")
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("given", ["0.5*t", ([0.0, 0.1, 1.0], [0.0, 0.05, 0.5])])
 def test_an_input_moves_a_floor(given: Any, steps: dict[str, Any]) -> None:

@@ -74,7 +74,6 @@ CASES = {
 
 
 @pytest.mark.fast(
-    "dop853-joint",
     "dopri5-absolute",
     "generalized-alpha-joint",
     "half-explicit-joint",
@@ -141,7 +140,7 @@ def check_like(here, there):
     assert abs(there.steps - here.steps) <= 0.1 * here.steps
 
 
-@pytest.mark.fast("spherical-double-pendulum", "heavy-top")
+@pytest.mark.fast("heavy-top")
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_shifted_mechanisms(name):
     """Positions are measured from a place of the mechanism: no step depends on where the origin lies.

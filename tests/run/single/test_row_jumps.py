@@ -97,7 +97,7 @@ def test_rows_that_jump_or_have_kinks_end_a_run_with_their_name(scheme, coordina
         assert "row wire.row1 jumps: its" in sentence or "joints.wire.rows[0].position: expected a motion" in sentence
 
 
-@pytest.mark.fast("rk4-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize(("scheme", "coordinates"), CASES)
 def test_rows_that_change_smoothly_are_followed(scheme, coordinates):
     for wire, slope in SMOOTH.items():
@@ -228,7 +228,7 @@ def test_sweeps_count_turns_and_examine_rows():
         symgen.sweep(belt(CUT), vary, until=3.0, integrator="rk4", step=1e-2, target="lanes")
 
 
-@pytest.mark.slow_cases("adaptive")
+@pytest.mark.slow_cases("adaptive", "joint")
 @pytest.mark.parametrize(
     "settings",
     [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}, {"integrator": "dop853", "coordinates": "joint"}],

@@ -159,7 +159,7 @@ def test_a_ball_bounces_and_rests(integrator: str, coordinates: str) -> None:
     assert outcome.happened[0].energy == pytest.approx(-2.0 * G * 0.51, rel=1e-12)
 
 
-@pytest.mark.fast("dop853-absolute", "radau5-joint", "gauss-joint")
+@pytest.mark.fast("dop853-absolute", "gauss-joint")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"),
     [("dop853", "absolute"), ("picard", "joint"), ("radau5", "joint"), ("gauss", "absolute"), ("gauss", "joint")],
@@ -238,6 +238,7 @@ def leg_events(until: float) -> list[tuple[float, str]]:
     return events
 
 
+@pytest.mark.slow_cases("dop853-joint")
 @pytest.mark.parametrize(
     ("integrator", "coordinates"), [("dop853", "joint"), ("dop853", "absolute"), ("picard", "joint")]
 )
@@ -382,6 +383,7 @@ def test_rows_of_a_sweep_have_the_impacts_of_single_runs(
             np.testing.assert_allclose(rows[name][i], run[name], rtol=1e-10, atol=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("steps1")
 @pytest.mark.parametrize("steps", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}])
 def test_an_impact_at_the_start(steps: dict[str, Any]) -> None:
@@ -418,6 +420,7 @@ def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str
         assert_same_motion(rows["ball.y"][i][: len(run.t)], run["ball.y"], "ball.y")
 
 
+@pytest.mark.slow_cases("null-space")
 @pytest.mark.parametrize(
     "method",
     [

@@ -56,6 +56,7 @@ def two_stones(**events):
     return symgen.load(mechanism_of(raw))
 
 
+@pytest.mark.slow
 def test_a_blow_in_space_on_a_velocity_that_is_none_of_the_state():
     event = {"when": "t > 0.1", "reset": {"lower.vx": "0.5 - lower.vx", "upper.wz": "2*upper.wz"}}
     result = two_stones(blow=event).simulate(until=0.2, coordinates="joint")
@@ -121,6 +122,7 @@ def both(model, **settings):
 STRUCK = {"cart-pole": "pole.omega", "bricard": "rod3.wy", "rolling-disc": "disc.wz", "spatial-slider-crank": "rod.vx"}
 
 
+@pytest.mark.slow_cases("bricard")
 @pytest.mark.parametrize("name", STRUCK)
 def test_the_blow_is_that_of_the_coordinates_of_bodies(name):
     """At the first instant, where both are in one state, and the motions behind it within the integrator's error."""
@@ -173,6 +175,7 @@ def test_methods_with_memory_begin_anew(method, integrator):
     np.testing.assert_allclose(result.q.values, reference.q.values, rtol=0.0, atol=limit)
 
 
+@pytest.mark.slow
 def test_resets_at_the_same_time_and_those_that_contradict():
     events = {
         "one": {"when": "t > 0.1", "reset": {"crank.omega": "2"}},

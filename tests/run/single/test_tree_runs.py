@@ -82,6 +82,7 @@ OTHERS = [name for name in INTEGRATORS.names if name not in ("euler", "symplecti
 ALL = {*pairs(METHODS.names, ("rk4", "radau5")), *pairs(("lagrange", "generalized-alpha"), OTHERS)}
 
 
+@pytest.mark.slow_cases("four-bar-null-space-rk4")
 @pytest.mark.by_turns(3)
 @pytest.mark.parametrize(
     ("name", "method", "integrator"),
@@ -115,6 +116,7 @@ def test_what_the_state_is():
     assert model.simulate(until=0.01, coordinates="auto", shape="looped").coordinates == "absolute"
 
 
+@pytest.mark.slow_cases("andrews", "jansen-leg")
 @pytest.mark.parametrize(
     "name", ["four-bar", "andrews", "jansen-leg", "wiper", "heavy-top", "pendulum", "free-rigid-body", "rolling-disc"]
 )
@@ -216,7 +218,7 @@ E = { type = "revolute", between = ["ground", "c2"], at = [[2.0, 0.0], "a"] }
 """  # noqa: E501
 
 
-@pytest.mark.fast("dop853-absolute", "picard-joint", "radau5-absolute", "abm-absolute")
+@pytest.mark.fast("dop853-absolute", "radau5-absolute", "abm-absolute")
 @pytest.mark.parametrize("coordinates", ["joint", "absolute"])
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "radau5", "abm"])
 def test_parallel_cranks_stay_parallel_through_flat_positions_at_all_tolerances(integrator, coordinates, tmp_path):

@@ -191,7 +191,7 @@ def turn(axis: int, angle: float):
     return m
 
 
-@pytest.mark.fast("direct-correction-straight", "lagrange-looped")
+@pytest.mark.fast("lagrange-looped")
 @pytest.mark.parametrize(
     ("method", "shape"), [("lagrange", "straight"), ("direct-correction", "straight"), ("lagrange", "looped")]
 )

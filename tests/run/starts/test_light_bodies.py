@@ -31,6 +31,7 @@ def test_plain_python_finds_what_machine_code_finds(
     assert described.start(()).light == expected  # an error in plain Python is no answer
 
 
+@pytest.mark.slow
 def test_trees_do_not_compile_the_right_hand_side_of_bodies() -> None:
     description = copy.deepcopy(raw("spatial-slider-crank"))
     description["mechanism"]["name"] = "tree-whose-bodies-are-not-compiled"

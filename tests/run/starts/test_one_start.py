@@ -67,7 +67,7 @@ def all_at_once(compiled, rows, p, targets, held):
     return *now, asked.summary
 
 
-@pytest.mark.fast("planar-3-True", "planar-4-False", "spatial-2-True", "spatial-1-True")
+@pytest.mark.fast("planar-3-True", "planar-4-False", "spatial-1-True")
 @pytest.mark.parametrize("holds", [False, True])
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[1]}-{case[0]}")
 def test_every_bit_is_that_of_a_sweep(monkeypatch, case, holds):
@@ -169,6 +169,7 @@ def test_what_was_changed_is_data():
         assert change.unit == next(x.unit for x in quantities if x.name == change.name)
 
 
+@pytest.mark.slow_cases("looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_a_massless_body_that_nothing_holds_is_refused(shape):
     bead = {"type": "point", "mass": 0.0, "position": [0.3, 0.4]}
@@ -202,6 +203,7 @@ def test_a_massless_body_that_nothing_holds_is_a_failed_row():
 # -- what is evaluated before what -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("looped")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_nothing_is_read_that_was_not_evaluated_before(monkeypatch, shape):
     """With nan in all of the scratch array that ``geometry`` fills, starts are the same: it comes before the rest."""

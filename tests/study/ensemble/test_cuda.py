@@ -134,6 +134,7 @@ def test_folders_belong_to_a_target(tmp_path):
 BASE = ("sweep", "pendulum", "--vary", "bob_mass=values(1,2)", "--until", "0.01")
 
 
+@pytest.mark.slow
 def test_without_a_device_and_without_the_simulator():
     """Also where there is a device: it is hidden."""
     command = [sys.executable, "-c", "from symgen.cli import main; raise SystemExit(main())", *BASE, "--target", "cuda"]
@@ -207,6 +208,7 @@ def test_emitted_modules_hold_device_functions_only(tmp_path):
         assert not re.search(r"^ .*\bnp\.", path.read_text(encoding="utf-8"), re.MULTILINE), path
 
 
+@pytest.mark.slow
 def test_an_emitted_module_runs_without_symgen(tmp_path):
     """A kernel of one's own around the device functions, in a process that has only them."""
     assert main(["generate", "pendulum", "--target", "cuda", "--method", "lagrange", "-o", str(tmp_path / "one")]) == 0
@@ -236,6 +238,7 @@ def test_an_emitted_module_runs_without_symgen(tmp_path):
     assert done.stdout.split() == ["True"]
 
 
+@pytest.mark.slow
 def test_a_sweep_on_processors_loads_nothing_of_cuda():
     script = (
         "import sys, symgen\n"

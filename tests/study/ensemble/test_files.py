@@ -27,6 +27,7 @@ FEW = {
 }
 
 
+@pytest.mark.slow
 def test_a_netcdf_file_holds_everything(tmp_path):
     path = tmp_path / "few.nc"
     found = symgen.sweep("four-bar", **FEW, times=(0.0, 0.05), output=path)
@@ -48,6 +49,7 @@ def test_a_netcdf_file_holds_everything(tmp_path):
     assert set(json.loads(data.attrs["versions"])) == {"symgen", "python", "numpy", "numba", "llvmlite"}
 
 
+@pytest.mark.slow
 def test_a_finished_file_is_not_computed_again_by_mistake(tmp_path):
     path = tmp_path / "few.nc"
     symgen.sweep("four-bar", **FEW, output=path, resume=True)  # nothing was begun: it begins
@@ -103,6 +105,7 @@ def test_names_of_a_mechanism_give_way_to_those_that_every_data_set_has(tmp_path
         assert [line.split(",")[5] for line in lines[1:]] == ["0.3"] * 4
 
 
+@pytest.mark.slow
 def test_an_output_called_as_a_parameter_that_varies_has_a_label_of_its_own(tmp_path):
     """x = t + k t^2/2 is the coordinate, the output and what is asked for by the parameter's name; a body gives way."""
     built = symgen.MechanismBuilder("pushed").parameter("x", 3.0).output("x", "2*block.x").output("t0", "output.x")
@@ -154,6 +157,7 @@ def test_a_folder_can_be_continued_and_is_complete_then(tmp_path):
     assert (folder / DONE).read_bytes() == before
 
 
+@pytest.mark.slow
 def test_bits_that_changed_in_a_folder_are_computed_again_or_refused(tmp_path):
     whole = symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02)
     folder = tmp_path / "results"

@@ -30,6 +30,7 @@ def scale(values):
     return np.maximum(1.0, np.nanmax(np.abs(values)))
 
 
+@pytest.mark.slow_cases("lagrange-options0")
 @pytest.mark.parametrize(
     ("method", "options"),
     [
@@ -72,6 +73,7 @@ def test_every_tableau_takes_the_same_steps(integrator):
     np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [pytest.param("lagrange", marks=pytest.mark.slow), "direct-correction"])
 def test_spatial_rows_are_those_of_single_runs(method):
     """Euler parameters, and angles in space whose turns are counted."""
@@ -84,6 +86,7 @@ def test_spatial_rows_are_those_of_single_runs(method):
     np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-9 * scale(single.values))
 
 
+@pytest.mark.slow
 def test_a_slider_whose_factorisation_is_that_of_constants():
     """Nothing is left to be factorised for each run; x = 1 - cos(t/sqrt(m))."""
     body = {"mass": "m", "inertia": 0.1}
@@ -115,6 +118,7 @@ def test_runs_that_do_not_go_well_are_left_to_single_runs():
     assert_same_motion(lanes.summary, single.summary)
 
 
+@pytest.mark.slow
 def test_runs_that_choose_rows_anew_are_left_to_single_runs():
     """Two bodies with two pins: the row that repeats is that along the line through these, which turns."""
     spinning = {"mass": 1.0, "inertia": 0.1, "angular_velocity": "w"}

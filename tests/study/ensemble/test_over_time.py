@@ -18,6 +18,7 @@ BY_HAND = {
 }
 
 
+@pytest.mark.slow_cases("{'coordinates': 'joint'}", "{'integrator': 'rk4', 'target': 'lanes'}")
 @pytest.mark.parametrize("more", [{}, {"coordinates": "joint"}, {"integrator": "rk4", "target": "lanes"}], ids=str)
 def test_each_run_leaves_numbers_of_its_history(more):
     quantities = ("crank.omega", "A.F", "energy.kinetic")

@@ -9,6 +9,7 @@ from symgen import InputError
 SETTINGS = {"until": 0.6, "times": [0.3, 0.6], "method": "lagrange", "integrator": "rk4", "step": 2e-3}
 
 
+@pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_rows_against_differences_of_rows(coordinates):
     settings = {**SETTINGS, "coordinates": coordinates}

@@ -74,6 +74,7 @@ def test_without_output_times_only_the_end_is_kept():
     np.testing.assert_allclose(found["bob.x"][0], found["bob.x"][1], atol=1e-8)  # a pendulum does not feel its mass
 
 
+@pytest.mark.slow_cases("coordinate-partitioning")
 @pytest.mark.parametrize(
     "method", ["coordinate-partitioning", "baumgarte", "augmented-hamiltonian", "augmented-lagrangian"]
 )
@@ -96,6 +97,7 @@ def open_four_bar():
     return symgen.load(mechanism_of(description))
 
 
+@pytest.mark.slow
 def test_open_and_contradictory_starts_are_closed_and_projected_as_for_single_runs():
     model, settings = open_four_bar(), {"until": 0.02, "times": (0.0, 0.02)}
     found = symgen.sweep(model, {"lift": [-0.2, 0.0, 0.4, 1.0]}, quantities=("q", "v", "lam"), **settings)
@@ -132,6 +134,7 @@ def test_parameters_that_make_no_mechanism_are_failed_rows():
     assert found.reasons() and sum(count for _, count in found.reasons()) == 2
 
 
+@pytest.mark.slow
 def test_light_bodies_get_the_other_solver_where_they_are_light():
     """Where loops are not closed by determinants: a partition of coordinates inverts M."""
     model, settings = symgen.load("four-bar"), {"until": 0.05, "times": (0.05,), "method": "coordinate-partitioning"}
@@ -153,6 +156,7 @@ def test_singular_passages_are_judged_as_single_runs_are(method):
     assert_rows(found, model, **settings)
 
 
+@pytest.mark.slow
 def test_redundant_rows_in_space():
     """Bricard's six-bar with its first rod turning: rank 29 of 30 rows, and multipliers that are not unique."""
     names, turns = ("rod1.wx", "rod1.wy", "rod1.wz"), (0.0, 0.4, -1.0)
@@ -173,6 +177,7 @@ def test_redundant_rows_in_space():
 # -- initial coordinates and velocities --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_coordinate_that_varies_is_held_and_the_branch_is_kept():
     """The four-bar all round, against its closure by circles: crank 2 m, coupler 8 m, rocker 5 m, ground 10 m."""
     angles = np.linspace(-3.0, 3.2, 9)
@@ -250,6 +255,7 @@ def geared():
     )
 
 
+@pytest.mark.slow
 def test_starts_whole_turns_away_and_turns_between_outputs():
     """Angles in space whose turns are counted: drivers whose values vary by whole turns."""
     first = np.array([7.0, -40.0, 0.2, 3.3])
@@ -333,11 +339,7 @@ def pushed(formula: str) -> Mechanism:
     return mechanism_of(text)
 
 
-@pytest.mark.fast(
-    "5 if t < 0.0503 else -20-adaptive",
-    "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-constant",
-    "9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-adaptive",
-)
+@pytest.mark.fast("9*crank_mass if t < 0.02*crank_mass else 7 if t < 0.1 else crank_mass-adaptive")
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )
@@ -357,6 +359,7 @@ def test_rows_whose_inputs_jump_stay_in_the_loop_and_are_single_runs(push, steps
     assert abs(jumped["crank.ax"][0, -1] - found["crank.ax"][0, -1]) > 1e-3
 
 
+@pytest.mark.slow_cases("straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 def test_a_jump_to_where_a_formula_is_undefined_ends_a_run_with_its_reason(shape):
     model, push = symgen.load(pushed("sqrt(push)")), "1 if t < 0.05 else -1"
@@ -369,6 +372,7 @@ def test_a_jump_to_where_a_formula_is_undefined_ends_a_run_with_its_reason(shape
         assert found.reason.tolist() == [one.reason] * 2
 
 
+@pytest.mark.slow_cases("record_when-constant")
 @pytest.mark.parametrize(
     "steps", [{"step": 2e-3}, {"integrator": "dopri5", "rtol": 1e-9}], ids=["constant", "adaptive"]
 )

@@ -73,7 +73,7 @@ def test_rows_have_what_single_runs_say_of_singular_positions():
     assert "is unstable with" in everywhere.warnings[0][0] and everywhere.warnings[1] == ()
 
 
-@pytest.mark.fast("direct-correction-cpu", "velocity-projection-cpu", "velocity-projection-lanes")
+@pytest.mark.fast("direct-correction-cpu", "velocity-projection-cpu")
 @pytest.mark.parametrize("target", ["cpu", "lanes"])
 @pytest.mark.parametrize("method", ["direct-correction", "velocity-projection"])
 def test_rows_are_in_doubt_where_energy_jumps_as_single_runs_are(target, method):

@@ -58,6 +58,7 @@ def test_numbers_of_a_driven_linkage_are_those_of_its_run(driven: tuple[symgen.M
     assert numbers["transmission angle"].where.startswith(f"least, at {'BC'[int(np.argmin(least.min(axis=0)))]}, ")
 
 
+@pytest.mark.slow
 def test_the_first_screen_comes_first_and_versions_last(driven: tuple[symgen.Model, symgen.Result]) -> None:
     document = machine(*driven, "symgen report driven-four-bar")
     assert document.sections[0].title == "At a glance" and document.sections[0].beside

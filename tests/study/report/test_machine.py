@@ -21,6 +21,7 @@ def driven():
     return model, model.simulate(until=1.0, output_step=0.01)
 
 
+@pytest.mark.slow
 def test_the_largest_loads_are_those_of_the_run(driven):
     model, result = driven
     document = machine(model, result, "symgen report driven-four-bar", "crank.theta")
@@ -36,6 +37,7 @@ def test_the_largest_loads_are_those_of_the_run(driven):
     assert float(rows["motor.power"][1]) == pytest.approx(2 * np.pi * float(rows["motor.effort"][1]), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_report_has_pictures_and_what_repeats_it(driven):
     model, result = driven
     document = machine(model, result, "symgen report driven-four-bar")
@@ -92,6 +94,7 @@ def test_the_command_names_what_made_a_pdf(cli, tmp_path, monkeypatch):
     assert code == 0 and out.startswith("written: a.pdf, drawn by matplotlib, as there is no Chromium")
 
 
+@pytest.mark.slow
 def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
     silent = tmp_path / "browser"
     silent.write_text("#!/bin/sh\nexit 3\n")
@@ -102,6 +105,7 @@ def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
     assert not (tmp_path / "a.pdf").exists()
 
 
+@pytest.mark.slow
 def test_the_command_writes_its_file(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, err = cli("report", "driven-four-bar", "--until", "0.2", "--over", "crank.theta")

@@ -127,6 +127,7 @@ def test_every_picture_is_whole(page):
         assert b"<script" not in content and b"@import" not in content
 
 
+@pytest.mark.slow
 def test_links_lead_to_parts_of_the_page(page):
     places = [a["id"] for _, a in page.elements if "id" in a]
     assert len(places) == len(set(places))

@@ -48,7 +48,7 @@ except symgen.SymgenError as error:
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.fast("dotted1")
+@pytest.mark.slow
 @pytest.mark.parametrize("dotted", ["a" + ".a" * 20_000 + " = 1", "[" + "a." * 20_000 + "a]"])
 def test_dotted_names_cost_what_their_length_says(dotted: str, tmp_path: Path) -> None:
     """40 kB took 1.6 GB and 6 s; depth is told before anything is built."""

@@ -50,6 +50,7 @@ SPELLINGS = {
 }
 
 
+@pytest.mark.slow_cases("another sum")
 @pytest.mark.parametrize("spelling", SPELLINGS.values(), ids=SPELLINGS)
 def test_both_shapes_have_the_same_rows(spelling: list[str], tmp_path: Path) -> None:
     """Two pins at one place, the second in other words: as many rows, multipliers and dropped rows in either shape."""
@@ -90,6 +91,7 @@ def test_index3_holds_a_rolling_disc() -> None:
     assert result.ok and off(result, system, q) < 1e-6
 
 
+@pytest.mark.slow
 def test_stabilised_index_2_with_a_redundant_bar(tmp_path: Path) -> None:
     """A parallelogram with a second coupler, by `ggl`."""
     bars = {"A": (0.0, 0.0), "B": (2.0, 0.0)}
