@@ -40,6 +40,9 @@ FURTHER, LEAST_FURTHER = 100, 100_000
 QUICK_FURTHER, SLOW_PACE = 20_000, 10.0
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
 SMALL, SMALL_STAGE = 15, 30
+#: Power of the coordinates with which explicit budgets of a quick study fall: with the first power its time would go
+#: into runs of large mechanisms that come to no end. This part is left to all, a little more than its longest run needs.
+QUICK_FALL, QUICK_LEAST = 1.5, 0.12
 #: No budget of implicit stages is below this: some hundred steps.
 LEAST_IMPLICIT = 1_500
 #: Mechanisms of more coordinates get no implicit reference: SciPy's Newton matrices are dense.
@@ -48,9 +51,10 @@ LARGEST_IMPLICIT_REFERENCE = 40
 HOPELESS = 1.5
 
 
-def explicit_budget(mechanism: Mechanism, most: int = BUDGET) -> int:
+def explicit_budget(mechanism: Mechanism, most: int = BUDGET, quick: bool = False) -> int:
     """Return the evaluation limit of a sparse right-hand side, `most` for a small mechanism."""
-    return int(most * min(1.0, SMALL / mechanism.body_coordinates))
+    share = min(1.0, SMALL / mechanism.body_coordinates)
+    return int(most * (max(share**QUICK_FALL, QUICK_LEAST) if quick else share))
 
 
 def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
@@ -71,8 +75,8 @@ def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: b
         return implicit_budget(mechanism)
     most = explicit_limits(quick)[plan.spec.adaptive] // (SEARCHED if searched else 1)
     if not mechanism.bounded:
-        return explicit_budget(mechanism, most)
-    budget = explicit_budget(mechanism, most // (QUICK_BOUNDED if quick else BOUNDED))
+        return explicit_budget(mechanism, most, quick)
+    budget = explicit_budget(mechanism, most // (QUICK_BOUNDED if quick else BOUNDED), quick)
     if quick and not plan.spec.adaptive and "ode" in plan.integrator.forms:
         return min(budget, int(EVENTFUL * predicted(plan, 0.0)))
     return budget
