@@ -56,7 +56,7 @@ def test_explicit_runs_of_a_quick_study_have_less_and_implicit_ones_as_much():
         budgets = {effort.budget_of(plan, mechanism, searched, quick=True) for plan, mechanism in plans}
         assert budgets == {most // part for most in effort.explicit_limits(quick=True)} == {effort.QUICK_BUDGET // part}
     assert effort.budget_of(*plan_of("four-bar", "ggl", "radau5"), quick=True) == effort.IMPLICIT_BUDGET
-    chain, large = (plan_of(name, "lagrange", "rk4") for name in ("chain:10", "n-four-bar:40"))
+    chain, large = (plan_of(name, "lagrange", "rk4") for name in ("chain:4", "n-four-bar:40"))
     share = effort.SMALL / chain[1].body_coordinates
     assert effort.budget_of(*chain, quick=True) == int(effort.QUICK_BUDGET * share**effort.QUICK_FALL)
     assert effort.budget_of(*large, quick=True) == effort.QUICK_BUDGET * effort.QUICK_LEAST

@@ -41,7 +41,7 @@ QUICK_FURTHER, SLOW_PACE = 20_000, 10.0
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
 SMALL, SMALL_STAGE = 15, 30
 #: Power of the coordinates with which explicit budgets of a quick study fall: with the first power its time would go
-#: into runs of large mechanisms that come to no end. This part is left to all, a little more than its longest run needs.
+#: into runs of large mechanisms that come to no end. All keep this part, a little more than its longest run needs.
 QUICK_FALL, QUICK_LEAST = 1.5, 0.12
 #: No budget of implicit stages is below this: some hundred steps.
 LEAST_IMPLICIT = 1_500
