@@ -29,8 +29,9 @@ def test_a_seeded_violation_decays_exponentially_on_curved_constraints():
     assert remainders[0] / remainders[1] > 2.0**3.7  # nothing but the integrator's error of order 4
 
 
-def test_the_law_is_the_formula():
-    one = LawAt(described("four-bar"), "invariant-stabilization")
+@pytest.mark.parametrize("name", ["four-bar", "driven-four-bar"])
+def test_the_law_is_the_formula(name):
+    one = LawAt(described(name), "invariant-stabilization")
     rng = np.random.default_rng(5)
     q, v = one.q + 0.1 * rng.standard_normal(one.nq), rng.standard_normal(one.nv)
     e, (rates, accelerations, _) = one.equations(q, v), one.rates(q, v)

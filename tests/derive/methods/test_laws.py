@@ -139,3 +139,11 @@ def test_every_method_can_be_emitted_with_every_option():
             for value in option.values:
                 emitted = "identity" if value == "body" else value  # the same, in the coordinates of bodies
                 assert Emitted(mechanism_of(ROUGH), name, {option.name: value}).law_info.options[option.name] == emitted
+
+
+@given(st.floats(0.0, 100.0), st.floats(0.0, 100.0))
+def test_the_largest_step_keeps_both_roots_of_the_feedback_within_the_boundary(alpha, beta):
+    assume(max(alpha, beta) > 1e-3)
+    farthest = np.abs(np.roots([1.0, 2.0 * alpha, beta**2])).max()
+    step = KNOWN.get("baumgarte").largest_step({"alpha": alpha, "beta": beta}, 2.5)
+    assert step == pytest.approx(2.5 / farthest, rel=1e-6)

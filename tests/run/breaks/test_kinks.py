@@ -168,9 +168,9 @@ def test_times_of_kinks() -> None:
 
 
 def test_kinks_and_jumps_end_pieces_together() -> None:
-    jumps = (Seam(0.0, {"u": 1.0}), Seam(0.5, {"u": 2.0}))
+    jumps = (Seam(0.0, {"u": 1.0}), Seam(0.2, {"u": 3.0}), Seam(0.5, {"u": 2.0}))
     kinks = (Seam(0.0, {}), Seam(0.3, {}), Seam(0.5, {}), Seam(0.7, {}))
-    assert merged(jumps, kinks) == (jumps[0], kinks[1], jumps[1], kinks[3])
+    assert merged(jumps, kinks) == (*jumps[:2], kinks[1], jumps[2], kinks[3])
     assert merged((), kinks) == kinks and merged(jumps, ()) == jumps
 
 
