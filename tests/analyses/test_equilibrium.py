@@ -100,7 +100,7 @@ def test_the_catenary_has_the_least_energy():
     assert_allclose([found.q[f"l{i}.theta"] for i in range(10)], least, atol=1e-6)  # what SLSQP reaches
 
 
-@pytest.mark.fast("1.0-straight")
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("unit", [1.0, 1e-3])
 def test_redundant_joints_share_a_load_as_in_a_run(unit, shape):

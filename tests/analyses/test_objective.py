@@ -45,6 +45,7 @@ def test_lengths_masses_and_gravity_of_the_four_bar(four_bar):
     assert angle.x0.tolist() == [four_bar.parameters()[name] for name in angle.names]
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("rocker.C.x*coupler.omega")
 @pytest.mark.parametrize("quantity", ["rocker.C.x*coupler.omega", "integral(a*crank.omega**2 + rocker.C.vy**2)"])
 def test_formulas_and_integrals_against_differences(four_bar, tmp_path, quantity):

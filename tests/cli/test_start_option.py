@@ -3,11 +3,14 @@
 import json
 from pathlib import Path
 
+import pytest
+
 from symgen.cli import main
 
 WIPER = str(Path(__file__).resolve().parents[1] / "data" / "defects" / "wiper.toml")
 
 
+@pytest.mark.slow
 def test_starts_on_the_command_line(capsys):
     words = ("--start", "crank.theta=0.5", "--start", "motor.rate=2")
     assert main(["run", WIPER, *words, "--until", "0.01", "--step", "1e-4", "--json"]) == 0

@@ -1,6 +1,7 @@
 """Reactions in space: Newton's and Euler's equations of every body, forces and moments taken in ground axes."""
 
 import numpy as np
+import pytest
 from support.emitted import mechanism_of
 from support.space import Space
 
@@ -39,6 +40,7 @@ RAW = {
 }
 
 
+@pytest.mark.slow
 def test_reactions_balance_every_body():
     result = load(mechanism_of(RAW)).simulate(method="direct-correction", integrator="rk4", step=2e-3, until=0.4)
     assert result.status == "ok"

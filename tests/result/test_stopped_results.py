@@ -29,6 +29,7 @@ restitution = 0.5
 """
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_a_result_names_impacts_and_is_kept_whole(coordinates: str, tmp_path: Path) -> None:

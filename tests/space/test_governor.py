@@ -39,6 +39,7 @@ def test_the_general_route_leads_the_same_way():
     assert Points.of(model.mechanism, model.parameters()).distance(found.q, q) < 1e-11
 
 
+@pytest.mark.slow
 def test_explicit_steps_end_at_the_limit():
     model, result = run("flyball-governor", integrator="rk4", step=0.98 * LIMIT, until=1.0)
     assert result.status == "ok" and away(result, model) < 1e-6

@@ -44,6 +44,7 @@ def test_places_and_loads_of_the_benchmark():
         np.testing.assert_allclose(tie, [0.83, sign * 0.4833, 0.404], atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_flat_road_moves_both_sides_alike():
     _, result = run("front-suspension", integrator="rk4", step=1e-3, until=2.0, parameters={"road_height": 0.0})
     assert result.status == "ok" and (result.rank.rows, result.rank.rank) == (39, 39)

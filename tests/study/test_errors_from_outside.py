@@ -101,6 +101,7 @@ def linkage_poses(t):
     return poses | {f"coupler{i}": (i + 0.5 + x, y, 0.0) for i in range(2)}
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("index1-augmented-lagrangian-0.004-2.0-1.0")
 @pytest.mark.parametrize(
     ("method", "step", "until", "every"),

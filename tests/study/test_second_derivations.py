@@ -76,7 +76,7 @@ def test_states_of_a_file_have_a_second_derivation(tmp_path):
     assert row.status == "ok" and row.error < 1e-10
 
 
-@pytest.mark.fast("plane")
+@pytest.mark.slow
 @pytest.mark.parametrize("where", ["plane", "space"])
 def test_rotors_have_a_second_derivation(where):
     """A rotor adds the energy of its rate; a body with a gear, which has equations of its own, moves alike."""

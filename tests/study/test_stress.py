@@ -213,6 +213,7 @@ def test_families_say_why_they_do_not_apply():
     assert {family for _, family, _ in study.skipped} == {"mass-ratio", "redundancy", "spin-rate"}
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("cart-pole")
 @pytest.mark.parametrize("model", ["cart-pole", "inverted-pendulum"])
 def test_a_body_that_its_file_holds_is_displaced_all_the_same(model):

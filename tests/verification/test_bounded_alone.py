@@ -3,7 +3,10 @@
 import subprocess
 import sys
 
+import pytest
 
+
+@pytest.mark.slow
 def test_the_simulation_imports_nothing_of_symgen() -> None:
     program = (
         "import sys\n"

@@ -5,7 +5,7 @@ import pytest
 from benchmarks.bounded.machines import MACHINES, SETTINGS, examined
 
 
-@pytest.mark.fast("press-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", MACHINES)
 def test_rows_leave_at_one_smooth_time(name: str, coordinates: str) -> None:

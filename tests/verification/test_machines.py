@@ -305,6 +305,7 @@ def klann(p, theta):
 LEGS = {"jansen-leg": (jansen, 0.0), "klann-leg": (klann, math.pi)}
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("klann-leg")
 @pytest.mark.parametrize("name", LEGS)
 def test_a_leg_walks_where_circles_meet(name):

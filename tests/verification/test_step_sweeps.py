@@ -28,6 +28,7 @@ def test_an_event_that_passes_to_the_next_step_of_the_scheme_leaves_a_kink_alone
     assert sweep.apart < 1e-9 and 1e-7 < sweep.bend < 1e-4
 
 
+@pytest.mark.slow
 def test_a_step_without_its_event_is_said() -> None:
     machine = replace(MACHINES["press"], dt=1e-2)  # it ends on the stop
     sweep = examined(machine, 3)

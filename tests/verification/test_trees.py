@@ -134,6 +134,7 @@ def test_slides_and_welds_in_the_plane(forward, tmp_path):
     compare_with_plain(raw, mechanism)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("False")
 @pytest.mark.parametrize("forward", [True, False])
 def test_welds_in_space(forward, tmp_path):

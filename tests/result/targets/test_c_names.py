@@ -82,6 +82,7 @@ def test_code_of_every_name_compiles(fmi, model, tmp_path):
     assert len(texts) == 2 * len(NAMES) and done.returncode == 0, done.stderr[:2000]
 
 
+@pytest.mark.slow
 def test_names_of_the_catalogue_stay(model):
     for entry in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES)):
         assert prefix_of(entry.name, model.text) == entry.name.replace("-", "_")

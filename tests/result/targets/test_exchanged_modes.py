@@ -97,6 +97,7 @@ def assert_same_motion(model, rows, until, error, coordinates="absolute", parame
     return [word for _, word in transitions_of(own)]
 
 
+@pytest.mark.slow
 def test_margins_of_modes_are_event_indicators(tmp_path):
     text = "[mechanism]\nname = 'rail'\n[bodies.b]\ntype = 'point'\nmass = 1.0\n[joints.rail]\ntype = 'rows'\n"
     model = loaded(text + "rows = [{ position = 'b.y' }]\n[stops.wall]\ngap = '1.0 - b.x'\n", tmp_path)

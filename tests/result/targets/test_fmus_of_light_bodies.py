@@ -27,7 +27,7 @@ def made(request, kind, tmp_path_factory):
 
 
 @pytest.mark.by_turns(2)
-@pytest.mark.fast("(3, 'joint')-light body-co-simulation")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("simulated", "run"),
     [

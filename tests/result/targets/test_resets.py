@@ -52,7 +52,7 @@ def run_of(model, until, **keys):
     return result, np.column_stack([result["hit"], result.q.values, result.v.values])[1:]
 
 
-@pytest.mark.fast("ball-absolute")
+@pytest.mark.slow
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", STRUCK)
 def test_c_is_a_run(name, coordinates, tmp_path):

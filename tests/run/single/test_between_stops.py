@@ -99,7 +99,7 @@ def test_every_hit_of_a_pendulum_is_found() -> None:
     assert len(expected) == 7 and min(b - a for a, b in pairwise(expected)) > 0.5
 
 
-@pytest.mark.fast("1e-10")
+@pytest.mark.slow
 @pytest.mark.parametrize("rtol", [1e-6, 1e-8, 1e-10])
 def test_no_start_is_ok_and_wrong(rtol: float) -> None:
     found = verdicts(24, rtol, rtol=rtol)

@@ -329,6 +329,7 @@ def test_a_stopped_run_and_a_failed_one_are_gone_on_from(tmp_path: Path):
     assert third.ok and "that run failed" in third.notes[0]
 
 
+@pytest.mark.slow
 @pytest.mark.slow_cases("shapes0")
 @pytest.mark.parametrize("shapes", [("straight", "looped"), ("looped", "straight")])
 def test_turns_are_known_to_the_other_shape(shapes):

@@ -32,7 +32,7 @@ CASES = {
 }
 
 
-@pytest.mark.fast("four-bar-redundant")
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_the_same_motion(case):
     name, kinds, forces, rank, until = CASES[case]

@@ -191,7 +191,7 @@ def turn(axis: int, angle: float):
     return m
 
 
-@pytest.mark.fast("lagrange-looped")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "shape"), [("lagrange", "straight"), ("direct-correction", "straight"), ("lagrange", "looped")]
 )
