@@ -439,7 +439,6 @@ def test_doubled_pins_leave_reactions_that_are_not_unique():
     assert any("not unique" in note for note in found.notes)
 
 
-@pytest.mark.slow
 def test_files_and_json(driven, tmp_path, capsys):
     code = main(
         [

@@ -34,7 +34,6 @@ def model_of(description):
     return Model(validate(description, "test"))
 
 
-@pytest.mark.slow
 def test_a_prescribed_motion_integrates_the_state():
     """The effort is I theta'' - c, with theta'' = 2 and c = 2 exp(-t), before the start as well."""
     model, t = model_of(disc(joints=DRIVEN, outputs={"o": "c + 1"})), np.array([-0.5, 0.0, 0.5, 1.0])

@@ -130,7 +130,6 @@ def test_generate_refuses_what_is_wrong_and_writes_nothing(cli, tmp_path):
 # -- run ---------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 def test_sensitivities_of_a_run(cli):
     words = ("run", "four-bar", "--integrator", "rk4", "--step", "1e-2", "--until", "0.2")
     code, out, _ = cli(*words, "--sensitivity", "crank_mass,coupler_mass", "--quantity", "crank.theta")

@@ -18,8 +18,7 @@ def said(cli, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow_cases(
-    "compare rod.toml --methods lagrange --integrators dopri5 --steps 1e-3---steps counted for nothing",
-    "compare rod.toml --methods lagrange --integrators rk4 --rtols 1e-3---rtols counted for nothing",
+    "compare rod.toml --methods lagrange --integrators rk4 --rtols 1e-3---rtols counted for nothing"
 )
 @pytest.mark.parametrize(
     ("words", "sentence"),

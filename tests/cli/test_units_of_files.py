@@ -260,7 +260,6 @@ def test_pictures_of_sweeps_have_the_unit_of_the_file(typed, tmp_path):
     assert {"length [mm]", "turn [deg]", "200", "600", "lean = 0 deg", "lean = 45 deg"} <= {*labels(tmp_path / "s.svg")}
 
 
-@pytest.mark.slow
 def test_a_root_locus_is_over_the_unit_of_the_file(typed, tmp_path):
     text = ROD.replace('torque = "push"', 'torque = "(1 - 5*length)*rod.omega"')  # grows in short rods
     (tmp_path / "rod.toml").write_text(text, encoding="utf-8")

@@ -47,7 +47,6 @@ CELLS = (
 LONGEST = 200
 
 
-@pytest.mark.slow
 def test_every_object_shows_itself() -> None:
     names: dict[str, Any] = {}
     for text, method, contained in CELLS:

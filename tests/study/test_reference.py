@@ -111,7 +111,6 @@ def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(wind
     assert general.estimated_error < 1e-6
 
 
-@pytest.mark.slow
 def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypatch):
     """Steps so long that a passage is a matter of chance: no two runs agree, and the reference says from when on."""
     from symgen.study.references import reference as module

@@ -434,7 +434,6 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
     assert whole[-1] > 1e-9 and whole[-1] == pytest.approx(run.violations["position"][-1], rel=2e-3)
 
 
-@pytest.mark.slow
 def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
     (tmp_path / "x.nc").write_bytes(b"nothing")
     assert main(["view", str(tmp_path / "x.nc")]) == 2

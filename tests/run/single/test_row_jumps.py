@@ -228,7 +228,7 @@ def test_sweeps_count_turns_and_examine_rows():
         symgen.sweep(belt(CUT), vary, until=3.0, integrator="rk4", step=1e-2, target="lanes")
 
 
-@pytest.mark.slow_cases("adaptive", "joint")
+@pytest.mark.slow_cases("adaptive")
 @pytest.mark.parametrize(
     "settings",
     [{"integrator": "dop853"}, {"integrator": "rk4", "step": 1e-2}, {"integrator": "dop853", "coordinates": "joint"}],

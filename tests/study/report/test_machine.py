@@ -94,7 +94,6 @@ def test_the_command_names_what_made_a_pdf(cli, tmp_path, monkeypatch):
     assert code == 0 and out.startswith("written: a.pdf, drawn by matplotlib, as there is no Chromium")
 
 
-@pytest.mark.slow
 def test_a_browser_that_prints_nothing_is_named(driven, tmp_path, monkeypatch):
     silent = tmp_path / "browser"
     silent.write_text("#!/bin/sh\nexit 3\n")

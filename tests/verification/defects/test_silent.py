@@ -93,7 +93,6 @@ def test_a_homokinetic_joint_that_leans_through_180_degrees_is_no_quiet_success(
 # -- B7: names that collide in emitted code ----------------------------------------------------------------------------
 
 
-@pytest.mark.slow_cases("straight")
 @pytest.mark.parametrize("shape", SHAPES)
 def test_any_names_that_a_file_may_have_keep_apart(shape: str, tmp_path: Path) -> None:
     """Parameters, tables, bodies, joints and forces under names that emitted code uses for things of its own."""
