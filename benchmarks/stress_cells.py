@@ -269,7 +269,7 @@ def picture(path: Path) -> None:
                 cells[line["model"], name].update(line["cells"][name])
                 false[line["model"], name] += line["false"].get(name, 0)
     order = {name: i for i, name in enumerate((*METHODS.names, AUTO))}
-    pairs = sorted({name for _, name in cells}, key=lambda name: order[name.split()[0]])
+    pairs = sorted({name for _, name in cells}, key=lambda name: (order[name.split()[0]], name))
     share, wrong = np.full((len(pairs), len(whole())), np.nan), np.zeros((len(pairs), len(whole())), dtype=int)
     for i, j in np.ndindex(share.shape):
         key = whole()[j], pairs[i]
@@ -279,7 +279,19 @@ def picture(path: Path) -> None:
     drawn = overview_of(lines, whole(), share, wrong)
     # letters stand in hundredths of their height, of which whole ones are enough
     text = re.sub(r"translate\((\d+)[.\d]* 0\)", r"translate(\1)", slim(drawn.data.decode()))
-    path.write_text(text, encoding="utf-8")
+    text = re.sub(r"M (\S+) (\S+) (\S+) \2 ?(?=[M\"])", r"M\1 \2H\3", text)  # marks are horizontal
+    path.write_text(with_words_once(text), encoding="utf-8")
+
+
+def with_words_once(text: str) -> str:
+    """Return a picture in which a word that comes again refers to the first one: letters are most of the file."""
+    counts = Counter(words := re.findall(r"(?:<use [^>]*/>){2,}", text))
+    for i, word in enumerate(dict.fromkeys(words)):
+        if counts[word] > 1:
+            first, rest = text.split(word, 1)
+            again = rest.replace(f">{word}</g>", f'><use href="#w{i}"/></g>')
+            text = f'{first}<g id="w{i}">{word}</g>{again}'
+    return text
 
 
 RECORD = Record("stress_cells", jobs, examine, again, PATIENCE)

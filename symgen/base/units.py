@@ -83,13 +83,16 @@ def _rounded(value: Fraction) -> float:
         return math.inf if value > 0 else -math.inf
 
 
-@lru_cache(maxsize=4096)
 def read_unit(text: str) -> Unit | str:
     """Return the unit that a text means, or the part of the text that is no unit; an empty text is the unit of 1."""
+    return text if len(text) > LONGEST_UNIT or not text.isprintable() else _read(text)
+
+
+@lru_cache(maxsize=4096)
+def _read(text: str) -> Unit | str:
+    """Return the unit that a text of any length means, or the part of it that is no unit."""
     if not text:
         return Unit("", "", Fraction(1), ())
-    if len(text) > LONGEST_UNIT or not text.isprintable():
-        return text
     written = text
     for spelling, symbol in SPELLINGS.items():
         written = written.replace(spelling, symbol)
@@ -123,8 +126,8 @@ def unit_of(text: str, where: str, *, quantity: str = "") -> Unit:
 
 
 def known(text: str) -> Unit:
-    """Return the unit of a text that has been checked, or that the program wrote."""
-    unit = read_unit(text)
+    """Return the unit of a text that has been checked, or that the program wrote, which may be a longer one."""
+    unit = _read(text)
     assert isinstance(unit, Unit), text
     return unit
 

@@ -28,6 +28,8 @@ COLOURS = {
     "refused": "#ffffff",
     "unjudged": "#e4e4e4",
 }
+#: Both ends of a mark inside the cell of a picture of shares, from its middle, in cells.
+MARK = np.array([[-0.15, 0.0], [0.15, 0.0]])
 #: rk4 is stable up to here on the negative real axis.
 RK4 = 2.785
 
@@ -107,7 +109,7 @@ def overview(study: Stress) -> Picture:
 def overview_of(
     lines: Sequence[tuple[str, str]], models: Sequence[str], shares: np.ndarray[Any, Any], wrong: np.ndarray[Any, Any]
 ) -> Picture:
-    """Return the picture of shares of accurate cells [percent], framed where cells are false successes.
+    """Return the picture of shares of accurate cells [percent], marked where cells are false successes.
 
     Parameters
     ----------
@@ -123,7 +125,10 @@ def overview_of(
         ax = figure.subplots()
         image = ax.imshow(shares, cmap="cividis", vmin=0.0, vmax=100.0, aspect="auto", interpolation="none")
         places = np.argwhere(wrong > 0)
-        ax.plot(places[:, 1], places[:, 0], "s", markersize=5.5, markerfacecolor="none", markeredgecolor="#D55E00")
+        # one line: a marker of its own each would be most of the file
+        ends = places[:, None, ::-1] + MARK
+        marks = np.concatenate([ends, np.full((len(places), 1, 2), np.nan)], axis=1).reshape(-1, 2)
+        ax.plot(*marks.T, color="#D55E00", linewidth=4.0, solid_capstyle="butt", scalex=False, scaley=False)
         ax.grid(False)
         # a method's name stands once, where its integrators begin: letters are most of the file
         before = ("", *(method for method, _ in lines))
@@ -139,7 +144,7 @@ def overview_of(
 
     caption = (
         "Accurate cells of those judged, a row for each pair of method and integrator, a column for each model; a "
-        "frame marks where runs report success although their error exceeds 1e-3 of the length; white: not run."
+        "mark shows where runs report success although their error exceeds 1e-3 of the length; white: not run."
     )
     alternative = "Share of accurate cells by method and model; the tables below say the same for each family."
     return drawn("overview", caption, alternative, draw, height=2.0 + 0.17 * len(lines), wide=True)
