@@ -85,9 +85,7 @@ def test_large_mechanisms_name_the_same(force):
         assert not model.modes(count=1).notes
 
 
-@pytest.mark.fast(
-    "four-bar-absolute", "cart-pole-joint", "spatial-slider-crank-joint", "spherical-double-pendulum-absolute"
-)
+@pytest.mark.fast("four-bar-absolute", "cart-pole-joint", "spherical-double-pendulum-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", ["four-bar", "cart-pole", "spatial-slider-crank", "spherical-double-pendulum"])
 def test_smooth_mechanisms_name_nothing(name, coordinates):

@@ -34,7 +34,6 @@ STARTS = {
     "absolute-twice",
     "absolute-ball",
     "absolute-distances in space",
-    "joint-distance",
     "joint-massless",
     "joint-revolute in space",
 )
@@ -61,6 +60,7 @@ def test_a_rod_on_its_head_is_an_equilibrium_too():
     assert_allclose([found.multipliers["pin.x"], abs(found.multipliers["pin.y"])], [0.0, 19.62], atol=1e-12)
 
 
+@pytest.mark.slow_cases("joint-False", "joint-True")
 @pytest.mark.parametrize("doubled", [False, True])
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 def test_both_equilibria_of_a_four_bar(doubled, coordinates):

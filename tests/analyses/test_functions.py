@@ -66,7 +66,7 @@ def test_trees_are_those_of_own_recursions(robot):
         assert abs(f.kinetic_energy(q, v) - 0.5 * v @ mass @ v) < 1e-12 * (v @ mass @ v)
 
 
-@pytest.mark.slow_cases("fork")
+@pytest.mark.slow_cases("fork", "chain")
 def test_frames_are_those_of_own_recursions(robot):
     model, recursion = robot
     f = model.functions()

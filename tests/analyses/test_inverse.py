@@ -223,6 +223,7 @@ def test_inputs_with_kinks_are_what_they_are_at_each_time(pendulum, push):
         pendulum.inverse(run, actuators=["held"], inputs={"push": stepped})
 
 
+@pytest.mark.slow_cases("times0")
 @pytest.mark.parametrize("times", [[-0.5, -0.3], [0.1, 0.4], [0.7]])
 def test_inputs_that_jump_beside_a_motion_are_what_they_are_in_it(times):
     """A cart of 2 kg with 0.4 m/s^2 by a driver: held at what was given from 0 on, and refused for jumps elsewhere."""

@@ -205,6 +205,7 @@ def test_angles_in_space_count_turns():
 # -- singular positions ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("fine")
 @pytest.mark.parametrize(
     "times",
     [np.linspace(0.0, 2.0, 401), np.linspace(0.0, 2.0, 9), [0.0, (math.pi - 0.7) / (2.0 * math.pi)], [-1.0, 1.0]],
@@ -306,7 +307,7 @@ def test_random_linkages_go_as_far_as_circles_meet():
                 assert abs(found.passages[-1].t - end) < 1e-9
 
 
-@pytest.mark.fast("far", "more often than asked for", "resting long")
+@pytest.mark.fast("more often than asked for", "resting long")
 @pytest.mark.parametrize(
     ("start", "far", "turns", "power"),
     [(0.7, 2.4, 1.0, 4), (0.7, 2.4, 6.0, 2), (0.7, 2.4, 1.0, 60), (2.8, 0.1, 1.0, 2)],

@@ -95,7 +95,7 @@ RATES = (
 )
 
 
-@pytest.mark.fast("1", "2", "6", "7")
+@pytest.mark.fast("1", "6")
 @pytest.mark.parametrize("seed", range(8))
 def test_random_states_along_driven_chains(seed):
     """States by SciPy along the motion in closed form; efforts are those of a run, which integrates everything."""

@@ -34,7 +34,7 @@ def hinged():
     )
 
 
-@pytest.mark.fast("0.4-looped", "5.0-straight", "-7.5-straight")
+@pytest.mark.fast("0.4-looped", "-7.5-straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("turned", [0.4, 5.0, -7.5])
 def test_what_a_wound_spring_exerts(shape, turned):
@@ -66,6 +66,7 @@ def wound(torque=10.0, gravity=0.0):
     )
 
 
+@pytest.mark.slow_cases("0.0-absolute", "0.2-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("gravity", [0.0, 0.2])
 def test_an_equilibrium_more_than_half_a_turn_away(coordinates, gravity):

@@ -71,7 +71,7 @@ def test_what_is_free_has_frequency_zero_in_all_units(length, time):
         assert_allclose(other, usual, rtol=1e-9)
 
 
-@pytest.mark.fast("1.0-1.0-0.0", "1e-06-1.0-0.5", "1e-06-1000.0-0.0", "1000.0-10000.0-0.5")
+@pytest.mark.fast("1e-06-1.0-0.5", "1000.0-10000.0-0.5")
 @pytest.mark.parametrize("turned", [0.5, 0.0])
 @pytest.mark.parametrize(("length", "time"), [(1.0, 1.0), (1.0, 1e4), (1e-6, 1.0), (1e-6, 1e3), (1e3, 1e4)])
 def test_what_swings_is_at_rest_in_no_units(length, time, turned):

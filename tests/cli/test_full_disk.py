@@ -88,7 +88,7 @@ def test_one_sentence_and_nothing_lost(tmp_path, command, option, name, limit):
     assert left == expected
 
 
-@pytest.mark.fast("list --json", "schema", "list")
+@pytest.mark.fast("list --json", "schema")
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 @pytest.mark.parametrize("words", ["list --json", "schema", "check pendulum", "list"])
 def test_standard_output_that_is_full(words):

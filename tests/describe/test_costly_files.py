@@ -131,6 +131,7 @@ GROWING = {
 }
 
 
+@pytest.mark.slow_cases("bodies and torques")
 @pytest.mark.parametrize("build", GROWING.values(), ids=GROWING)
 def test_reading_takes_work_in_proportion_to_the_size(build):
     small, large = ({"mechanism": {"name": "x"}} | build(n) for n in (60, 240))

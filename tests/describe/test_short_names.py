@@ -103,7 +103,6 @@ def same_motion(names: dict[str, str], settings: dict[str, str]) -> None:
 
 
 @pytest.mark.fast(
-    "cart=s rod=rate-{'shape': 'looped'}",
     "cart=rate rail=s-{'shape': 'looped'}",
     "rail=rate spring=s point=rate-{'shape': 'looped'}",
     "pin=s drive=rate point=s-{'shape': 'looped'}",

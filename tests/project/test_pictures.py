@@ -15,6 +15,7 @@ def split(svg: str) -> tuple[str, np.ndarray]:
     return NUMBER.sub("0", svg), np.array([float(x) for x in NUMBER.findall(svg)])
 
 
+@pytest.mark.slow_cases("leg")
 @pytest.mark.parametrize("name", pictures.DRAWN)
 def test_a_picture_is_drawn_as_it_is_kept(name: str) -> None:
     """Numbers are tenths of a pixel: another machine's rounding moves some by one of these."""

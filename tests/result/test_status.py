@@ -154,6 +154,7 @@ def error_of(model, result):
     return Points.of(model.mechanism, model.parameters()).distance(q, known.q)
 
 
+@pytest.mark.slow_cases("changes3")
 @pytest.mark.parametrize(
     "changes",
     [

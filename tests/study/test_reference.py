@@ -37,7 +37,7 @@ def both(name, times, parameters=None):
     return reference(*arguments), reference(*arguments, solver="scipy-dop853"), Points.of(model.mechanism, values)
 
 
-@pytest.mark.slow_cases("n-four-bar:3-0.6-None", "pendulum-5.0-None")
+@pytest.mark.slow_cases("n-four-bar:3-0.6-None", "pendulum-5.0-None", "driven-four-bar-1.5-None")
 @pytest.mark.parametrize(
     ("name", "until", "parameters"),
     [

@@ -92,7 +92,7 @@ def test_forces_with_a_potential_are_its_gradient(spatial: bool) -> None:
     assert seen >= set(forces.KINDS) - ({"bushing"} if not spatial else set())
 
 
-@pytest.mark.slow_cases("3")
+@pytest.mark.slow_cases("3", "1")
 @pytest.mark.parametrize("index", range(8))
 def test_energy_less_work_stays(index: int) -> None:
     drawn = draw(SEED, index)

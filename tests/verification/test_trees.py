@@ -59,6 +59,7 @@ def compare_with_plain(raw: dict, mechanism: Mechanism) -> None:
     np.testing.assert_allclose(a, expected, rtol=0.0, atol=bound * size)
 
 
+@pytest.mark.slow_cases("0", "2", "5", "6")
 @pytest.mark.parametrize("index", PLANE)
 def test_random_trees_in_the_plane(index, tmp_path):
     compare(index, False, tmp_path)
@@ -170,6 +171,7 @@ def test_welds_in_space(forward, tmp_path):
     compare_with_plain(raw, mechanism)
 
 
+@pytest.mark.slow_cases("andrews")
 @pytest.mark.parametrize("name", ["four-bar", "andrews", "spatial-slider-crank"])
 def test_the_metric_of_bodies_is_their_identity_pulled_back(name):
     """The correction is the shortest change of the velocities of bodies: W = B^T B, B column by column."""

@@ -78,7 +78,7 @@ def change(path):
 
 
 @pytest.mark.by_turns(3)
-@pytest.mark.fast("templates", "describe/bounds", "run/starts")
+@pytest.mark.fast("templates", "run/starts")
 @pytest.mark.parametrize("place", [*PLACES, "templates"])
 def test_one_character_in_any_room_makes_other_results(place, package, unchanged):
     path = package / place if (package / place).exists() else package.parent / place

@@ -51,7 +51,7 @@ def is_condition(node: ast.expr) -> bool:
     return any(isinstance(n, ast.Compare) for n in ast.walk(node))
 
 
-@pytest.mark.fast("pendulum", "slider-crank", "driven-four-bar", "rough")
+@pytest.mark.fast("pendulum", "rough")
 @pytest.mark.parametrize("model", MODELS)
 def test_no_operation_with_a_literal_that_changes_nothing(model):
     for stem, tree in trees(model):
@@ -71,7 +71,7 @@ def test_no_operation_with_a_literal_that_changes_nothing(model):
                 assert not (isinstance(node.left, ast.Constant) and isinstance(node.right, ast.Constant)), where
 
 
-@pytest.mark.slow_cases("everything", "four-bar")
+@pytest.mark.slow_cases("everything", "four-bar", "n-four-bar:2")
 @pytest.mark.parametrize("model", MODELS)
 def test_every_name_is_used_and_every_line_is_needed(model):
     for stem, tree in trees(model):

@@ -100,6 +100,7 @@ COPIES = {
 }
 
 
+@pytest.mark.slow_cases("rolling-disc", "screw")
 @pytest.mark.parametrize("name", COPIES)
 def test_rows_copy_a_joint(name):
     ends, counts = [], []
@@ -184,6 +185,9 @@ def rod_by_lagrange():
     return lagrangian, (x, y, a), guide
 
 
+@pytest.mark.slow_cases(
+    "{'integrator': 'dop853', 'rtol': 1e-12, 'coordinates': 'joint'}", "{'integrator': 'dop853', 'rtol': 1e-12}"
+)
 @pytest.mark.parametrize("settings", PARABOLA_RUNS, ids=str)
 def test_a_tip_on_a_moving_parabola(settings, rod_by_lagrange):
     lagrangian, q, guide = rod_by_lagrange
@@ -238,6 +242,7 @@ def test_rows_that_depend_on_each_other_are_found():
     np.testing.assert_allclose(result.q.values[-1], one.q.values[-1], rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow_cases("coordinate-partitioning", "null-space")
 @pytest.mark.parametrize(
     "name",
     ["baumgarte", "coordinate-partitioning", "ggl", "index1-augmented-lagrangian", "null-space", "udwadia-kalaba"],
@@ -352,6 +357,7 @@ def swinging(row, space):
     return builder.joint("tie", "rows", rows=[row]).build()
 
 
+@pytest.mark.slow_cases("row2-spatial", "row3-spatial")
 @pytest.mark.parametrize(
     ("row", "space"),
     [

@@ -201,6 +201,7 @@ def closing(equations, free=()):
     return EliminationPlan(fixed, schur=False, normal=True, loops=closed_loops(equations, fixed, free))
 
 
+@pytest.mark.slow_cases("joint-jansen-leg-3")
 @pytest.mark.parametrize(
     ("name", "loops"), [("jansen-leg", 3), ("driven-four-bar", 1), ("four-bar", 0), ("bricard", 0)]
 )

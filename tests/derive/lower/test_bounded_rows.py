@@ -66,6 +66,7 @@ def rates(
     return rate[info.nq : info.nq + info.nv].copy(), multipliers[own].copy()
 
 
+@pytest.mark.slow_cases("one-by-reaction", "two-by-reaction")
 @pytest.mark.parametrize(
     ("friction", "pins", "more"),
     [({"sliding": 4.0}, "A", 8), ({"sliding": 4.0}, "ABCD", 28), (BY_REACTION, "A", 96), (BY_REACTION, "AB", 332)],

@@ -47,7 +47,7 @@ def compare(found):
     assert of_rows == pytest.approx(by_rows, rel=1e-10, abs=1e-12 * np.abs(by_rows).max())
 
 
-@pytest.mark.fast("four-bar-absolute-baumgarte", "four-bar-joint-lagrange", "spatial-slider-crank-absolute-lagrange")
+@pytest.mark.fast("four-bar-absolute-baumgarte", "four-bar-joint-lagrange")
 @pytest.mark.parametrize(
     ("name", "coordinates", "method"),
     [

@@ -92,6 +92,13 @@ def test_the_error_of_penalty_falls_with_the_penalty():
     "lagrange-sdirk",
     "null-space-abm4",
     "rattle-rattle",
+    "augmented-hamiltonian-rk4",
+    "controllable-velocity-projection-rk4",
+    "discrete-gradient-discrete-gradient",
+    "energy-projection-rk4",
+    "hamiltonian-baumgarte-rk4",
+    "invariant-stabilization-rk4",
+    "lagrange-abm",
 )
 @pytest.mark.parametrize(
     ("method", "integrator"),
@@ -145,6 +152,7 @@ def check_violations(name, method, until, step):
     assert velocities.size > 50 and velocities.max() <= 1e-12 * max(1.0, fastest)
 
 
+@pytest.mark.slow_cases("pendulum-coordinate-partitioning")
 @pytest.mark.parametrize("method", EXACT)
 @pytest.mark.parametrize("name", ["pendulum", "four-bar"])
 def test_constraints_hold_to_rounding_over_100_seconds(name, method):

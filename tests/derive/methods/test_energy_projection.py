@@ -59,6 +59,7 @@ def test_velocities_stay_where_no_factor_gives_the_energy():
         close(one.accepted(q, speed * free)[1], speed * free, "v", 1e-12)
 
 
+@pytest.mark.slow_cases("{'shape': 'looped'}")
 @pytest.mark.parametrize("keys", [{}, {"shape": "looped"}, {"coordinates": "joint"}], ids=str)
 def test_the_energy_of_a_run(keys):
     model = load("four-bar")

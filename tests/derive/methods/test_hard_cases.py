@@ -42,6 +42,7 @@ def test_redundant_constraints_by_every_method():
     check_redundant(tuple(m for m in METHODS.names if m not in (*FEW, *COARSE)))
 
 
+@pytest.mark.slow_cases("penalty-sdirk-1e-06")
 @pytest.mark.parametrize(
     ("method", "integrator", "tolerance"),
     [

@@ -32,6 +32,7 @@ def test_symplectic_euler_moves_positions_by_the_new_velocities():
     np.testing.assert_allclose(q1, q0 + 1e-2 * v1, rtol=0.0, atol=1e-15)
 
 
+@pytest.mark.slow_cases("four-bar-keys2")
 @pytest.mark.parametrize(
     ("name", "keys"),
     [

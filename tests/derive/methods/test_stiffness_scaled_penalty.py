@@ -34,6 +34,7 @@ def test_the_motion_does_not_depend_on_the_stiffness():
         np.testing.assert_allclose(tensions(stiffness, METHOD)[1], expected, rtol=0.0, atol=1e-12)
 
 
+@pytest.mark.slow_cases("1.0-1e-06", "1000000.0-1e-06")
 @pytest.mark.parametrize("unit", [1e-6, 1e6])
 @pytest.mark.parametrize("ratio", [1.0, 1e6])
 def test_shares_depend_on_ratios_alone(unit, ratio):

@@ -55,7 +55,7 @@ def textbook_states(name, h, steps, share):
     return np.array(states)
 
 
-@pytest.mark.fast("four-bar-1.0", "driven-four-bar-1.0", "driven-four-bar-0.0", "slider-crank-0.0")
+@pytest.mark.fast("driven-four-bar-1.0", "driven-four-bar-0.0", "slider-crank-0.0")
 @pytest.mark.parametrize("share", [1.0, 0.0])
 @pytest.mark.parametrize("name", ["four-bar", "driven-four-bar", "slider-crank"])
 def test_steps_are_those_of_the_formulas(name, share):
@@ -68,6 +68,7 @@ def test_steps_are_those_of_the_formulas(name, share):
     np.testing.assert_allclose(states, own, rtol=0.0, atol=1e-12 * np.abs(own).max())
 
 
+@pytest.mark.slow_cases("spatial-slider-crank-0.5-keys2")
 @pytest.mark.parametrize(("name", "until", "keys"), [*MOTIONS, ("four-bar", 2.0, {"options": {"method.share": 0.0}})])
 def test_order_four_with_both_constraints_to_rounding(name, until, keys):
     steps = (1.6e-2, 8e-3, 4e-3) if name == "rolling-disc" else (4e-3, 2e-3, 1e-3)

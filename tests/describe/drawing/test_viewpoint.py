@@ -53,6 +53,7 @@ def test_the_crank_of_a_slider_crank_in_space_is_no_part_of_its_rod() -> None:
     assert own > 15.0 and usual < 8.0
 
 
+@pytest.mark.slow_cases("chain")
 @pytest.mark.parametrize("name", ["chain", "heavy-top", "bicycle", "rolling-disc"])
 def test_the_usual_view_stays_where_it_hides_nothing(name: str) -> None:
     assert load(name).draw().view == USUAL

@@ -107,6 +107,7 @@ def test_numbers_of_the_whole_catalogue(name, coordinates):
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
+@pytest.mark.slow_cases("dry-four-bar-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", [name for name in catalogue.all_names() if load_mechanism(name).bounded])
 def test_numbers_of_mechanisms_with_dry_friction_and_stops(name, coordinates):
@@ -179,7 +180,7 @@ def vanishes(equations, expression, seed=5):
     assert np.abs(numbers).max(initial=0.0) < 1e-12 * 100  # sums of tens of numbers of order 1 to 10
 
 
-@pytest.mark.fast("four-bar", "driven-four-bar", "slider-crank", "pendulum", "heavy-top", "free-rigid-body")
+@pytest.mark.fast("driven-four-bar", "slider-crank", "pendulum", "heavy-top", "free-rigid-body")
 @pytest.mark.parametrize("name", SMALL)
 def test_sympy_itself_finds_the_same_jacobian_gamma_and_masses(name):
     e = symgen.load(name).equations

@@ -219,6 +219,7 @@ def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):
     assert "It does not close, and is drawn as described" in text
 
 
+@pytest.mark.slow_cases("chain:10")
 @pytest.mark.parametrize("name", ["four-bar", "andrews", "n-four-bar:3", "bricard", "chain:10"])
 def test_the_factor_that_is_drawn_is_the_one_that_is_compiled(name):
     equations = formulate(load_mechanism(name))

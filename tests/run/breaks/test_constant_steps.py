@@ -245,6 +245,7 @@ def test_schemes_keep_their_order(kind: str, scheme: str) -> None:
     assert errors[-1] < 3e-12 or min(slopes) > order - 0.3 or slopes[-1] > order - 0.3, (errors, slopes)
 
 
+@pytest.mark.slow_cases("driver-rk4", "friction-rk4", "stop-abm4", "stop-rk4")
 @pytest.mark.parametrize("scheme", ["rk4", "abm4"])
 @pytest.mark.parametrize("kind", ["force", "pulse", "stop", "driver", "friction"])
 def test_joint_coordinates_keep_the_order(kind: str, scheme: str) -> None:

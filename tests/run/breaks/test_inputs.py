@@ -228,6 +228,7 @@ def by_small_steps(push):
     return (4.0 * run(18000) - run(9000)) / 3.0
 
 
+@pytest.mark.slow_cases("cubic")
 @pytest.mark.parametrize("how", ["linear", "cubic", "pchip"])
 def test_data_are_interpolated(model, how):
     from support.curves import curve

@@ -104,6 +104,7 @@ def test_runs_miss_none(tmp_path: Path, name: str, integrator: str) -> None:
         assert result["a.vx"][-1] - 0.1 == pytest.approx(speeds(at, w)[name], abs=1e-6), (w, at)
 
 
+@pytest.mark.slow_cases("radau5")
 @pytest.mark.parametrize("integrator", ["dop853", "picard", "abm", "radau5"])
 def test_runs_step_by_step_miss_none(pushed: symgen.Model, integrator: str) -> None:
     run = pushed.start(method="lagrange", integrator=integrator, rtol=1e-8, until=0.7, max_step=2e-4)

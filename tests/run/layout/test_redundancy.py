@@ -32,7 +32,6 @@ SETTINGS = (
 
 
 @pytest.mark.fast(
-    "two_pins-lagrange dop853",
     "two_pins-direct-correction rk4 looped",
     "two_pins_tilted-lagrange rk4",
     "two_pins_tilted-direct-correction dop853 1e-10",

@@ -366,6 +366,7 @@ axis = [1, 0]
 SLIDING = '[forces.f]\ntype = "force"\nbody = "b"\nforce = ["LAW", "0"]\n'
 
 
+@pytest.mark.slow_cases("-2*sign(b.vx)-b.vx")
 @pytest.mark.parametrize(
     ("law", "read"),
     [

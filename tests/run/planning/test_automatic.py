@@ -51,6 +51,7 @@ def gathered(mechanism):
     return facts_of(mechanism, run.compiled, run.start, run.spec.until)
 
 
+@pytest.mark.slow_cases("wiper-dop853-words1")
 @pytest.mark.parametrize(
     ("name", "integrator", "words"),
     [

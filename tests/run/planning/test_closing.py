@@ -98,6 +98,7 @@ def test_a_start_with_another_choice_has_another_module_of_the_same_model(linkag
     assert keys[0] == keys[1] != keys[2]
 
 
+@pytest.mark.slow_cases("60.0-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("degrees", [60.0, 103.5])
 def test_runs_are_those_by_pivots(linkage, degrees, coordinates, monkeypatch):

@@ -59,7 +59,9 @@ def mirrored(tmp_path_factory):
     return model(tmp_path_factory.mktemp("mirrored"), ROD + event)
 
 
-@pytest.mark.slow_cases("direct-correction-joint")
+@pytest.mark.slow_cases(
+    "direct-correction-joint", "energy-projection-absolute", "energy-projection-joint", "lagrange-joint"
+)
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["lagrange", "direct-correction", "energy-projection"])
 def test_a_mirrored_motion_has_mirrored_sensitivities(mirrored, coordinates, method):

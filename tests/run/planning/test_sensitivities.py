@@ -179,6 +179,7 @@ def test_a_rolling_disc_whose_start_is_closed_again(name, coordinates):
         assert run.gradient(quantity).row()[name] == pytest.approx(expected, rel=1e-10, abs=1e-11)
 
 
+@pytest.mark.slow_cases("crank.theta")
 @pytest.mark.parametrize("name", ["crank.theta", "crank.omega", "rocker.omega", "D.angle"])
 def test_values_of_the_start(name):
     four_bar = symgen.load("four-bar")

@@ -297,6 +297,7 @@ def test_what_does_not_fit_is_refused(settings, words):
         Model(motor()).simulate(until=0.1, **settings)
 
 
+@pytest.mark.slow_cases("coordinate-partitioning")
 @pytest.mark.parametrize("method", ["baumgarte", "coordinate-partitioning", "ggl", "augmented-lagrangian"])
 def test_methods_take_states(method):
     wanted = Model(motor()).simulate(until=0.1, **TIGHT)
@@ -334,13 +335,11 @@ def test_orders_with_a_state(method, integrator, order):
 
 
 @pytest.mark.fast(
-    "lagrange-newmark-2-absolute",
     "rattle-rattle-2-joint",
     "discrete-gradient-discrete-gradient-2-joint",
     "symmetric-projection-gauss-4-joint",
     "half-explicit-half-explicit-3-absolute",
     "half-explicit-phem56-5-absolute",
-    "rattle-rattle-2-looped",
 )
 @pytest.mark.parametrize("coordinates", ["absolute", "joint", "looped"])
 @pytest.mark.parametrize(("method", "integrator", "order"), SCHEMES)
@@ -373,6 +372,7 @@ def test_generalized_alpha_controls_the_error_of_states():
     assert stiff.outputs["i"][-1] == pytest.approx((3.0 - 0.7 * stiff.v["wheel.omega"][-1]) / 1.2, rel=1e-5)
 
 
+@pytest.mark.slow_cases("augmented-hamiltonian-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("method", ["augmented-hamiltonian", "hamiltonian-baumgarte"])
 def test_methods_of_momenta_take_states(method, coordinates):

@@ -327,7 +327,9 @@ OTHERS: dict[str, tuple[str, dict[str, float], float]] = {
 }
 
 
-@pytest.mark.slow_cases("generalized-alpha", "implicit-constraint", "null-space", "coordinate-partitioning")
+@pytest.mark.slow_cases(
+    "generalized-alpha", "implicit-constraint", "null-space", "coordinate-partitioning", "symmetric-projection"
+)
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_finds_the_rest_angle_or_says_why_not(method: str) -> None:
     integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))
@@ -370,7 +372,7 @@ def rest_by_the_reaction() -> tuple[int, float]:
         angle, turns = swing.y[0, -1], turns + 1
 
 
-@pytest.mark.slow_cases("coordinate-partitioning")
+@pytest.mark.slow_cases("coordinate-partitioning", "adaptive-baumgarte", "generalized-alpha", "implicit-constraint")
 @pytest.mark.parametrize("method", METHODS.names)
 def test_every_method_rests_by_the_reaction_or_says_why_not(method: str) -> None:
     integrator, steps, most = OTHERS.get(method, ("dop853", {"rtol": 1e-12, "atol": 1e-12}, 1e-9))

@@ -100,6 +100,7 @@ def simulate(text: str, steps: dict[str, Any], **settings: Any) -> Any:
     return result
 
 
+@pytest.mark.slow_cases("1.0-default-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -127,6 +128,7 @@ def test_a_winch_takes_a_load_along(steps: dict[str, Any]) -> None:
     np.testing.assert_allclose(result["b.vy"], [0.0, 0.5], rtol=0, atol=1e-10)
 
 
+@pytest.mark.slow_cases("default-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 def test_a_floor_that_swings_throws_what_rests_on_it(steps: dict[str, Any], coordinates: str) -> None:
@@ -143,7 +145,7 @@ def test_a_floor_that_swings_throws_what_rests_on_it(steps: dict[str, Any], coor
     assert result.energy_drift_max < 1e-6
 
 
-@pytest.mark.slow_cases("1.0-default-joint")
+@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -158,6 +160,7 @@ def test_a_wall_pushes_a_block_that_friction_holds(part: float, steps: dict[str,
     assert result.energy_drift_max < 1e-10
 
 
+@pytest.mark.slow_cases("1.0-default-absolute", "1.0-default-joint")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -174,7 +177,7 @@ def test_a_wall_meets_a_block_that_slides(part: float, steps: dict[str, Any], co
     assert result.energy_drift_max < 1e-10
 
 
-@pytest.mark.slow_cases("1.0-default-joint")
+@pytest.mark.slow_cases("1.0-default-joint", "1.0-default-absolute")
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("part", [1.0, 0.5, 0.0])
@@ -273,7 +276,7 @@ def test_rows_have_floors_that_start_at_once() -> None:
 INPUT = FLOOR.replace('"b.y - 0.5*t"', '"b.y - height"') + '[inputs.height]\nunit = "m"\ndefault = 0.0\n'
 
 
-@pytest.mark.fast("0.5*t-default", "0.5*t-dop853", "0.5*t-radau5")
+@pytest.mark.fast("0.5*t-dop853", "0.5*t-radau5")
 @pytest.mark.parametrize("steps", STEPS, ids=NAMES)
 @pytest.mark.parametrize("given", ["0.5*t", ([0.0, 0.1, 1.0], [0.0, 0.05, 0.5])])
 def test_an_input_moves_a_floor(given: Any, steps: dict[str, Any]) -> None:

@@ -102,7 +102,9 @@ def recorded() -> dict[str, Any]:
     return json.loads(RECORDED.read_text())
 
 
-@pytest.mark.slow_cases("a stiff governor", "a sweep of events", "index1-augmented-lagrangian in space")
+@pytest.mark.slow_cases(
+    "a stiff governor", "a sweep of events", "index1-augmented-lagrangian in space", "auto through singular positions"
+)
 @pytest.mark.parametrize("name", RUNS)
 def test_runs_end_as_recorded(name, recorded):
     settings, expected, found = RUNS[name][1], recorded[name], outcome(name)

@@ -96,8 +96,6 @@ RELEASES = [
 
 @pytest.mark.fast(
     "baumgarte-dop853-1e-12-four-bar-0.8",
-    "udwadia-kalaba-dop853-1e-12-four-bar-0.8",
-    "augmented-lagrangian-dop853-1e-09-four-bar-0.8",
     "compliant-constraints-rk4-1e-12-four-bar-0.8",
     "penalty-rk4-1e-06-four-bar-0.8",
     "generalized-alpha-generalized-alpha-1e-09-four-bar-0.8",

@@ -139,6 +139,7 @@ def test_a_wrong_branch_never_ends_well(method):
         assert load("n-four-bar:1").simulate(method=method, integrator="rk4", step=step, until=10.0).status != "ok"
 
 
+@pytest.mark.slow_cases("baumgarte")
 @pytest.mark.parametrize("method", METHODS)
 def test_a_redundant_row_changes_nothing_in_the_motion(method):
     """The parallelogram moves as its one-coordinate equation says, rank 11 of 12 all the way."""

@@ -32,6 +32,7 @@ def cam_follower(value):
     )
 
 
+@pytest.mark.slow_cases("direct-correction-rk4-straight")
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize(("method", "integrator"), [("direct-correction", "rk4"), ("ggl", "radau5")])
 def test_a_cam_is_the_polynomial_that_its_points_lie_on(shape, method, integrator):

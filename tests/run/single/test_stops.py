@@ -420,7 +420,7 @@ def test_rows_with_stops_are_examined_where_constraints_may_jump(steps: dict[str
         assert_same_motion(rows["ball.y"][i][: len(run.t)], run["ball.y"], "ball.y")
 
 
-@pytest.mark.slow_cases("null-space")
+@pytest.mark.slow_cases("null-space", "coordinate-partitioning")
 @pytest.mark.parametrize(
     "method",
     [

@@ -38,7 +38,9 @@ PIECES = [
 ]
 
 
-@pytest.mark.slow_cases("bricard-direct-correction-rk4")
+@pytest.mark.slow_cases(
+    "bricard-direct-correction-rk4", "driven-four-bar-direct-correction-rk4", "four-bar-augmented-hamiltonian-rk4"
+)
 @pytest.mark.parametrize(("name", "method", "integrator"), PIECES)
 def test_two_runs_are_the_run_in_one_piece(name, method, integrator):
     """Every table and everything that is kept, with constant steps."""

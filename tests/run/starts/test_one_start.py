@@ -67,7 +67,7 @@ def all_at_once(compiled, rows, p, targets, held):
     return *now, asked.summary
 
 
-@pytest.mark.fast("planar-3-True", "planar-4-False", "spatial-1-True")
+@pytest.mark.fast("planar-3-True", "planar-4-False")
 @pytest.mark.parametrize("holds", [False, True])
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[1]}-{case[0]}")
 def test_every_bit_is_that_of_a_sweep(monkeypatch, case, holds):

@@ -48,7 +48,7 @@ def test_check_and_run_agree_on_a_start_in_space(tmp_path: Path) -> None:
 # -- B5: units ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.fast("dopri5-1 mm", "dopri5-1 cm", "dopri5-1 km")
+@pytest.mark.fast("dopri5-1 cm", "dopri5-1 km")
 @pytest.mark.parametrize("name", [name for name in SIZES if name != "1 m"])
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
 def test_a_four_bar_of_any_size_is_the_same_mechanism(name: str, integrator: str, tmp_path: Path) -> None:
