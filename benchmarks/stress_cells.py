@@ -285,13 +285,19 @@ def picture(path: Path) -> None:
 
 def with_words_once(text: str) -> str:
     """Return a picture in which a word that comes again refers to the first one: letters are most of the file."""
-    counts = Counter(words := re.findall(r"(?:<use [^>]*/>){2,}", text))
-    for i, word in enumerate(dict.fromkeys(words)):
-        if counts[word] > 1:
-            first, rest = text.split(word, 1)
-            again = rest.replace(f">{word}</g>", f'><use href="#w{i}"/></g>')
-            text = f'{first}<g id="w{i}">{word}</g>{again}'
-    return text
+    words = re.compile(r"(?:<use [^>]*/>){2,}")
+    counts, names = Counter(words.findall(text)), dict[str, str]()
+
+    def once(match: re.Match[str]) -> str:
+        word = match.group()
+        if word in names:
+            return f'<use href="#{names[word]}"/>'
+        if counts[word] == 1:
+            return word
+        names[word] = f"w{len(names)}"
+        return f'<g id="{names[word]}">{word}</g>'
+
+    return words.sub(once, text)
 
 
 RECORD = Record("stress_cells", jobs, examine, again, PATIENCE)

@@ -31,7 +31,7 @@ def test_ends_are_exact():
 
 
 def test_uniform_draws_the_same_values_for_the_same_seed():
-    first, again, other = (axis_values(f"uniform(-2, 3, 20000, {seed})", "x") for seed in (0, 0, 8))
+    first, again, other = (axis_values(f"uniform(-2, 3, 20000, {seed})", "x") for seed in (7, 7, 0))
     np.testing.assert_array_equal(first, again)
     assert not np.array_equal(first, other)
     assert first.min() >= -2.0 and first.max() < 3.0
