@@ -1,4 +1,4 @@
-"""Minimum-norm least squares of few equations, compiled: by Householder, or by Jacobi where rows are dependent.
+"""Minimum-norm least squares of few equations, compiled, by Householder reflections, also of dependent rows.
 
 Written out in scalars: Numba takes longer for NumPy's `qr` and `lstsq` than for the rest of a reference motion.
 References are compiled by Numba, not by the compiler of the runs that they judge.
@@ -18,12 +18,50 @@ from symgen.study.references.independent import CUTOFF
 compiled = numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
 #: Rows are dependent where the smallest diagonal entry of the factor is below this share of the largest.
 DEPENDENT = 1e-7
-#: Rows are orthogonal where their cosine is below this; after so many sweeps only rounding is left.
-RIGHT, ROUNDS = 1e-15, 40
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _by_reflections(a: Any, b: Any, x: Any) -> bool:
+def _reflect(a: Any, k: int, length: float, diagonal: Any, factors: Any) -> None:
+    """Reflect the rows of A from the k-th on, of which columns from k on are left, so that the k-th has one entry."""
+    m, n = a.shape
+    diagonal[k] = -length if a[k, k] > 0.0 else length
+    a[k, k] -= diagonal[k]
+    factors[k] = -1.0 / (diagonal[k] * a[k, k])
+    for i in range(k + 1, m):
+        along = 0.0
+        for j in range(k, n):
+            along += a[i, j] * a[k, j]
+        along *= factors[k]
+        for j in range(k, n):
+            a[i, j] -= along * a[k, j]
+
+
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
+def _turn_back(a: Any, factors: Any, rank: int, x: Any) -> None:
+    """Take x back through the reflections in the rows of A; entries from the rank on are set to 0 before."""
+    n = a.shape[1]
+    for j in range(rank, n):
+        x[j] = 0.0
+    for k in range(rank - 1, -1, -1):
+        along = 0.0
+        for j in range(k, n):
+            along += x[j] * a[k, j]
+        along *= factors[k]
+        for j in range(k, n):
+            x[j] -= along * a[k, j]
+
+
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
+def _square(a: Any, i: int, k: int) -> float:
+    """Return the sum of squares of a row from column k on."""
+    square = 0.0
+    for j in range(k, a.shape[1]):
+        square += a[i, j] * a[i, j]
+    return square
+
+
+@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
+def _independent(a: Any, b: Any, x: Any) -> bool:
     """Set x to the minimum-norm solution of A x = b by Householder reflections of the rows of A; overwrites A.
 
     Returns
@@ -31,27 +69,15 @@ def _by_reflections(a: Any, b: Any, x: Any) -> bool:
     bool
         False if rows are dependent; then x is meaningless.
     """
-    m, n = a.shape
+    m = a.shape[0]
     diagonal, factors = np.empty(m), np.empty(m)
     smallest, largest = math.inf, 0.0
     for k in range(m):
-        square = 0.0
-        for j in range(k, n):
-            square += a[k, j] * a[k, j]
-        length = math.sqrt(square)
-        diagonal[k] = -length if a[k, k] > 0.0 else length
+        length = math.sqrt(_square(a, k, k))
         smallest, largest = min(smallest, length), max(largest, length)
         if not length > 0.0:
             return False
-        a[k, k] -= diagonal[k]
-        factors[k] = -1.0 / (diagonal[k] * a[k, k])
-        for i in range(k + 1, m):
-            along = 0.0
-            for j in range(k, n):
-                along += a[i, j] * a[k, j]
-            along *= factors[k]
-            for j in range(k, n):
-                a[i, j] -= along * a[k, j]
+        _reflect(a, k, length, diagonal, factors)
     if not smallest > DEPENDENT * largest:
         return False
     for i in range(m):
@@ -59,58 +85,55 @@ def _by_reflections(a: Any, b: Any, x: Any) -> bool:
         for j in range(i):
             x[i] -= a[i, j] * x[j]
         x[i] /= diagonal[i]
-    for j in range(m, n):
-        x[j] = 0.0
-    for k in range(m - 1, -1, -1):
-        along = 0.0
-        for j in range(k, n):
-            along += x[j] * a[k, j]
-        along *= factors[k]
-        for j in range(k, n):
-            x[j] -= along * a[k, j]
+    _turn_back(a, factors, m, x)
     return True
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _by_rotations(a: Any, b: Any, x: Any) -> None:
-    """Set x to the minimum-norm least-squares solution of A x = b by Hestenes' rotations of rows; overwrites A and b.
+def _dependent(a: Any, b: Any, x: Any) -> None:
+    """Set x to the minimum-norm least-squares solution of A x = b, rows of any rank; overwrites A and b.
 
-    Orthogonal rows are the right singular vectors times the singular values; b is rotated along. Singular values below
-    `CUTOFF` times the largest are left out.
+    The longest row that is left is reflected next, until `CUTOFF` times the first one is longer than all: A = L Q with
+    as many columns in L as the rank. L y = b is solved by reflections of the columns of L, and x = Q^T y (G. H. Golub,
+    C. F. Van Loan, Matrix Computations, section on complete orthogonal decompositions).
     """
     m, n = a.shape
-    for _ in range(ROUNDS):
-        turned = 0
-        for i in range(m):
-            for k in range(i + 1, m):
-                first, second, across = 0.0, 0.0, 0.0
-                for j in range(n):
-                    first += a[i, j] * a[i, j]
-                    second += a[k, j] * a[k, j]
-                    across += a[i, j] * a[k, j]
-                if abs(across) > RIGHT * math.sqrt(first) * math.sqrt(second):
-                    turned += 1
-                    ratio = (second - first) / (2.0 * across)
-                    tangent = math.copysign(1.0, ratio) / (abs(ratio) + math.hypot(1.0, ratio))
-                    cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
-                    sine = cosine * tangent
-                    for j in range(n):
-                        a[i, j], a[k, j] = cosine * a[i, j] - sine * a[k, j], sine * a[i, j] + cosine * a[k, j]
-                    b[i], b[k] = cosine * b[i] - sine * b[k], sine * b[i] + cosine * b[k]
-        if turned == 0:
+    most = min(m, n)
+    diagonal, factors = np.empty(most), np.empty(most)
+    rank, least = 0, 0.0
+    for k in range(most):
+        chosen, square = k, _square(a, k, k)
+        for i in range(k + 1, m):
+            other = _square(a, i, k)
+            if other > square:
+                chosen, square = i, other
+        if k == 0:
+            least = CUTOFF * CUTOFF * square
+        if not square > least:
             break
-    squares, largest = np.empty(m), 0.0
-    for i in range(m):
-        squares[i] = 0.0
-        for j in range(n):
-            squares[i] += a[i, j] * a[i, j]
-        largest = max(largest, squares[i])
-    for j in range(n):
-        x[j] = 0.0
-    for i in range(m):
-        if squares[i] > CUTOFF * CUTOFF * largest:
+        if chosen != k:
             for j in range(n):
-                x[j] += b[i] / squares[i] * a[i, j]
+                a[k, j], a[chosen, j] = a[chosen, j], a[k, j]
+            b[k], b[chosen] = b[chosen], b[k]
+        _reflect(a, k, math.sqrt(square), diagonal, factors)
+        rank = k + 1
+    # columns of L as rows, b the last of them: their reflections bring it to the triangle of R^T and to Q^T b
+    lower = np.zeros((rank + 1, m))
+    for k in range(rank):
+        lower[k, k] = diagonal[k]
+        for i in range(k + 1, m):
+            lower[k, i] = a[i, k]
+    for i in range(m):
+        lower[rank, i] = b[i]
+    turned, unused = np.empty(rank), np.empty(rank)
+    for k in range(rank):
+        _reflect(lower, k, math.sqrt(_square(lower, k, k)), turned, unused)
+    for k in range(rank - 1, -1, -1):
+        x[k] = lower[rank, k]
+        for j in range(k + 1, rank):
+            x[k] -= lower[j, k] * x[j]
+        x[k] /= turned[k]
+    _turn_back(a, factors, rank, x)
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -125,5 +148,5 @@ def minimum_norm(a: Any, b: Any, x: Any) -> None:
         Overwritten.
     """
     m, n = a.shape
-    if m > n or not _by_reflections(a.copy(), b, x):
-        _by_rotations(a.copy(), b.copy(), x)
+    if m > n or not _independent(a.copy(), b, x):
+        _dependent(a.copy(), b.copy(), x)

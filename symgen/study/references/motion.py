@@ -37,12 +37,13 @@ Array = NDArray[np.float64]
 
 #: Tolerances of the two integrations by extrapolation, and of the two by Radau.
 FINE, COARSE = 3e-14, 3e-13
-#: Looser tolerances where rounding of very stiff forces makes those unattainable.
-ROUGH_FINE, ROUGH_COARSE = 1e-10, 1e-9
+#: Looser tolerances where rounding of very stiff forces makes those unattainable: an integration with a tolerance that
+#: can be attained takes less than so many times the evaluations of a coarser one.
+ROUGH_FINE, ROUGH_COARSE, UNATTAINED = 1e-10, 1e-9, 3.0
 STIFF_FINE, STIFF_COARSE = 1e-9, 1e-8
 #: Evaluation limit of a reference of few coordinates. The cost of an evaluation grows with their square; dependent rows
-#: need singular values, which cost about so many times as much.
-BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
+#: cost about so many times as much.
+BUDGET, FEW, DEPENDENT = 3_000_000, 9, 4
 #: Evaluation limit of an integration by Radau, Jacobians included.
 STIFF_BUDGET = 400_000
 
@@ -128,7 +129,9 @@ class CompiledEquations(IndependentEquations):
         places = self._row_index, self._column_index, *self._rotor_index
         return np.concatenate([[len(self._entries)], *places]).astype(np.int64)
 
-    def advance(self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: Any) -> Array:
+    def advance(
+        self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: Any, most: int
+    ) -> Array:
         """Integrate to `until` by extrapolation.
 
         Parameters
@@ -141,19 +144,21 @@ class CompiledEquations(IndependentEquations):
             First step [s], or 0 to choose one; set to the next step.
         used : integer array, shape (1,)
             Evaluations so far; those of this call are added.
+        most : int
+            Evaluation limit.
 
         Raises
         ------
         SimulationError
-            If the step collapses or the budget is used up.
+            If the step collapses or the limit is exceeded.
         """
         y = y.copy()
         code = _for_all(extrapolated, _EXTRAPOLATE)(
             *(self._address, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
-            *(self.budget, used),
+            *(most, used),
         )
         if code == 1:
-            raise OverBudgetError(f"the reference takes more than {self.budget:.3g} evaluations")
+            raise OverBudgetError(f"the reference takes more than {most:.3g} evaluations")
         if code == 2 or not np.all(np.isfinite(y)):
             raise SimulationError(f"the reference motion cannot be integrated beyond t = {t:.6g} s")
         return y
@@ -245,21 +250,12 @@ def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Re
     stiff = is_stiff(equations, y, float(times[-1]))
     scale = _scale(y, equations.n)
 
-    def integrate(rtol: float, every: int) -> Array:
-        if stiff:
-            scheme = Scheme("Radau", rtol, every, most=STIFF_BUDGET)
-            return by_steps(equations, y, times, scheme, scale=scale)
-        return _by_extrapolation(equations, y, times, rtol, every, scale)
-
-    attempts = [(STIFF_FINE, STIFF_COARSE)] if stiff else [(FINE, COARSE), (ROUGH_FINE, ROUGH_COARSE)]
-    for tolerances in attempts:
-        try:
-            fine = integrate(tolerances[0], 1)
-            coarse = integrate(tolerances[1], 2)
-            break
-        except SimulationError:
-            if tolerances == attempts[-1]:
-                raise
+    if stiff:
+        tolerances = STIFF_FINE, STIFF_COARSE
+        schemes = (Scheme("Radau", rtol, every, most=STIFF_BUDGET) for every, rtol in enumerate(tolerances, 1))
+        fine, coarse = (by_steps(equations, y, times, scheme, scale=scale) for scheme in schemes)
+    else:
+        tolerances, fine, coarse = _extrapolations(equations, y, times, scale)
     n = equations.n
     estimated = Points.of(equations.mechanism, equations.parameters).distance(fine[:, :n], coarse[:, :n])
     scheme = "SciPy's Radau" if stiff else "Gragg's extrapolation of order 16"
@@ -270,10 +266,24 @@ def motion(equations: CompiledEquations, q: Array, v: Array, times: Array) -> Re
     return Reference.of(equations, how, estimated, times, fine)
 
 
+def _extrapolations(
+    equations: CompiledEquations, y: Array, times: Array, scale: Array
+) -> tuple[tuple[float, float], Array, Array]:
+    """Return the tolerances of two integrations, and their states: the tightest ones that rounding allows."""
+    rough, used = _by_extrapolation(equations, y, times, ROUGH_COARSE, 2, scale, equations.budget)
+    try:
+        coarse, used = _by_extrapolation(equations, y, times, COARSE, 2, scale, int(UNATTAINED * used))
+        fine, _ = _by_extrapolation(equations, y, times, FINE, 1, scale, int(UNATTAINED * used))
+    except SimulationError:
+        fine, _ = _by_extrapolation(equations, y, times, ROUGH_FINE, 1, scale, equations.budget)
+        return (ROUGH_FINE, ROUGH_COARSE), fine, rough
+    return (FINE, COARSE), fine, coarse
+
+
 def _by_extrapolation(
-    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, scale: Array
-) -> Array:
-    """Return the states at `times`; every `every`-th output is projected."""
+    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, scale: Array, most: int
+) -> tuple[Array, int]:
+    """Return the states at `times` and the evaluations; every `every`-th output is projected."""
     used, longest = np.zeros(1, dtype=np.int64), longest_of(equations, times)
 
     def part(t: float, y: Array, times: Array) -> Array:
@@ -282,14 +292,14 @@ def _by_extrapolation(
             if following > t:
                 count = max(1, math.ceil((following - t) / longest))
                 for first, last in pairwise(np.linspace(t, following, count + 1).tolist()):
-                    y = equations.advance(first, y, last, rtol, scale, step, used)
+                    y = equations.advance(first, y, last, rtol, scale, step, used, most)
                 t = following
             if k % every == 0:
                 y = equations.project(t, y)
             states[k] = y
         return states
 
-    return in_parts(equations, y, times, part)
+    return in_parts(equations, y, times, part), int(used[0])
 
 
 def _scale(y: Array, n: int) -> Array:
