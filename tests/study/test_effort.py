@@ -10,7 +10,9 @@ from symgen.derive.methods import METHODS
 from symgen.run.planning.automatic import AUTO, constant_integrator
 from symgen.run.planning.prepare import make_plan
 from symgen.study.references import effort, routes
-from symgen.study.references.motion import CompiledEquations, motion
+from symgen.study.references.motion import COARSE, FINE, ROUGH_COARSE, ROUGH_FINE, CompiledEquations, motion
+from symgen.study.references.motion import _extrapolations as extrapolations
+from symgen.study.references.reference import Reference
 from symgen.study.references.solvers import STIFF_FOLDINGS, OverBudgetError, fastest_modes, is_stiff
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cells import CellReference, LimitTask, RunTask, compute_cell
@@ -50,12 +52,13 @@ def test_budgets_go_by_what_a_run_evaluates():
     assert effort.budget_of(dry, bounded) == effort.BUDGET // effort.BOUNDED
 
 
-def test_explicit_runs_of_a_quick_study_have_less_and_implicit_ones_as_much():
+def test_runs_of_a_quick_study_have_less():
     plans = [plan_of("four-bar", "lagrange", name) for name in ("rk4", "dop853")]
     for searched, part in ((False, 1), (True, effort.SEARCHED)):
         budgets = {effort.budget_of(plan, mechanism, searched, quick=True) for plan, mechanism in plans}
         assert budgets == {most // part for most in effort.explicit_limits(quick=True)} == {effort.QUICK_BUDGET // part}
-    assert effort.budget_of(*plan_of("four-bar", "ggl", "radau5"), quick=True) == effort.IMPLICIT_BUDGET
+    for name, most in (("four-bar", effort.QUICK_IMPLICIT_BUDGET), ("chain:20", effort.QUICK_LEAST_IMPLICIT)):
+        assert effort.budget_of(*plan_of(name, "ggl", "radau5"), quick=True) == most
     chain, large = (plan_of(name, "lagrange", "rk4") for name in ("chain:4", "n-four-bar:40"))
     share = effort.SMALL / chain[1].body_coordinates
     assert effort.budget_of(*chain, quick=True) == int(effort.QUICK_BUDGET * share**effort.QUICK_FALL)
@@ -207,6 +210,50 @@ def test_a_reference_over_its_budget_says_so(monkeypatch):
         motion(equations, q, v, np.linspace(0.0, 1.0, 5))
 
 
+@pytest.mark.parametrize("attained", [1e-13, 1e-11])
+def test_a_tolerance_that_rounding_does_not_allow_is_given_up_after_some_evaluations(monkeypatch, attained):
+    """Evaluations go with the power 1 / 15 of the tolerance, and are as many as are allowed below what is attained."""
+    spent = []
+
+    def integrated(equations, y, times, rtol, every, scale, most):
+        used = 1000 * (1e-9 / rtol) ** (1 / 15) if rtol > attained else np.inf
+        spent.append(min(used, most))
+        if used > most:
+            raise OverBudgetError("too many")
+        return np.array([rtol, every]), used
+
+    monkeypatch.setattr("symgen.study.references.motion._by_extrapolation", integrated)
+    budget = type("Equations", (), {"budget": 1_000_000})
+    tolerances, fine, coarse = extrapolations(budget, None, None, None)
+    assert [fine.tolist(), coarse.tolist()] == [[tolerances[0], 1], [tolerances[1], 2]]
+    assert tolerances == (ROUGH_FINE, ROUGH_COARSE)
+    assert sum(spent) < 12_000
+
+
+def test_the_tightest_tolerances_are_taken_where_rounding_allows_them(monkeypatch):
+    def integrated(equations, y, times, rtol, every, scale, most):
+        return rtol, 1000
+
+    monkeypatch.setattr("symgen.study.references.motion._by_extrapolation", integrated)
+    assert extrapolations(type("Equations", (), {"budget": 1}), None, None, None) == ((FINE, COARSE), FINE, COARSE)
+
+
+@pytest.mark.slow
+def test_a_stiff_spring_does_not_use_up_the_budget_of_a_reference(monkeypatch):
+    """Its motion, at the tightest tolerance, took 551,000 evaluations in vain."""
+    level = levels_of("stiffness", Base.of("jansen-leg"), True)[1]
+    counters, run = [], CompiledEquations.advance
+
+    def advance(self, *arguments):
+        counters.append(arguments[-2])
+        return run(self, *arguments)
+
+    monkeypatch.setattr(CompiledEquations, "advance", advance)
+    found = compute_cell(CellReference(level))
+    assert found["estimated_error"] < 1e-9
+    assert sum({id(used): int(used[0]) for used in counters}.values()) < 60_000
+
+
 @pytest.mark.slow
 def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     level = levels_of("gravity", Base.of("slider-crank"), False)[1]
@@ -238,6 +285,59 @@ def test_stiff_motions_in_space_have_a_reference():
     found = routes.two_routes(model.mechanism, {"c": 1e8}, times, decay=1e8 / 2.0)
     assert found.how.startswith("direct-correction with radau5") and found.estimated_error < 1e-9
     np.testing.assert_allclose(found.q[:, 2], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
+
+
+def tried(monkeypatch, done, **how):
+    """Return what two formulations of a pendulum in space try, those that come to their end being named."""
+    attempts, mechanism = [], sinking().mechanism
+    q = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, -2.0]])
+
+    def by_routes(mechanism, common, attempt):
+        attempts.append((attempt.routes[0].rtol, attempt.shape))
+        if attempts[-1] not in done:
+            raise SimulationError(f"not {attempts[-1]}")
+        return Reference("", done[attempts[-1]], np.zeros(2), q, q)
+
+    monkeypatch.setattr(routes, "_by_routes", by_routes)
+    try:
+        found = routes.two_routes(mechanism, {"c": 1.0}, np.array([0.0, 1.0]), **how).estimated_error
+    except SimulationError as error:
+        found = str(error)
+    return attempts, found
+
+
+TIGHT, ROUGH = (1e-12, "looped"), (1e-9, "looped")
+LONG_TIGHT, LONG_ROUGH = (1e-12, "straight"), (1e-9, "straight")
+
+
+def test_rough_tolerances_do_instead_of_a_long_integration(monkeypatch):
+    assert tried(monkeypatch, {TIGHT: 1e-14}, enough=1e-5) == ([TIGHT], 1e-14)
+    assert tried(monkeypatch, {ROUGH: 1e-9}, enough=1e-5) == ([TIGHT, ROUGH], 1e-9)
+    assert tried(monkeypatch, {ROUGH: 1.0, LONG_ROUGH: 1e-7}, enough=1e-5)[1] == 1e-7
+    everything = [TIGHT, ROUGH, LONG_ROUGH, LONG_TIGHT]
+    assert tried(monkeypatch, {ROUGH: 1.0, LONG_ROUGH: 1.0, LONG_TIGHT: 0.1}, enough=1e-5) == (everything, 0.1)
+    assert tried(monkeypatch, {ROUGH: 1.0}, enough=1e-5) == (everything, 1.0)
+    assert tried(monkeypatch, {}, enough=1e-5) == (everything, f"not {LONG_TIGHT}")
+
+
+def test_a_comparison_has_the_tightest_tolerances_that_can_be_attained(monkeypatch):
+    assert tried(monkeypatch, {ROUGH: 1e-9, LONG_TIGHT: 1e-13, LONG_ROUGH: 1e-9}) == ([TIGHT, LONG_TIGHT], 1e-13)
+    assert tried(monkeypatch, {LONG_ROUGH: 1e-9}) == ([TIGHT, LONG_TIGHT, LONG_ROUGH], 1e-9)
+
+
+def test_a_quick_study_begins_no_long_integration(monkeypatch):
+    assert tried(monkeypatch, {ROUGH: 0.1}, enough=1e-5, quick=True) == ([TIGHT, ROUGH], 0.1)
+    assert tried(monkeypatch, {}, enough=1e-5, quick=True) == ([TIGHT, ROUGH], f"not {ROUGH}")
+    stiff = {"decay": 2.0 * routes.LOOPED_BUDGET}
+    assert tried(monkeypatch, {}, enough=1e-5, quick=True, **stiff)[0] == [(1e-10, "straight")]
+    assert tried(monkeypatch, {}, enough=1e-5, **stiff)[0][0] == TIGHT
+
+
+def test_code_of_dense_matrices_is_left_out_of_a_quick_look_at_a_large_mechanism_in_space():
+    pair = [("null-space", "rk4")]
+    for name, seconds in (("stewart-platform", 7.0), ("spherical-double-pendulum", 0.8), ("n-four-bar:10", 1.1)):
+        out = effort.left_out([symgen.load(name).mechanism], pair, seconds)
+        assert bool(out) is (name == "stewart-platform")
 
 
 def test_implicit_references_end_with_the_size():

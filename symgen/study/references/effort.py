@@ -24,8 +24,9 @@ if TYPE_CHECKING:
 #: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
 #: residuals of implicit stages, which come with Newton's matrices.
 BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
-#: The same of explicit runs of a quick study, at constant and at adaptive steps: ten times what its longest needs.
-QUICK_BUDGET = 500_000
+#: The same of a quick study: of explicit runs at constant and at adaptive steps, ten times what its longest needs, and
+#: of implicit ones.
+QUICK_BUDGET, QUICK_IMPLICIT_BUDGET = 500_000, 30_000
 #: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many; a quick study counts
 #: fewer, as its budget is near what some runs need.
 BOUNDED, QUICK_BOUNDED = 20, 5
@@ -43,10 +44,12 @@ SMALL, SMALL_STAGE = 15, 30
 #: Power of the coordinates with which explicit budgets of a quick study fall: with the first power its time would go
 #: into runs of large mechanisms that come to no end. All keep this part, a little more than its longest run needs.
 QUICK_FALL, QUICK_LEAST = 1.5, 0.12
-#: No budget of implicit stages is below this: some hundred steps.
-LEAST_IMPLICIT = 1_500
+#: No budget of implicit stages is below this: some hundred steps, fewer in a quick study.
+LEAST_IMPLICIT, QUICK_LEAST_IMPLICIT = 1_500, 500
 #: Mechanisms of more coordinates get no implicit reference: SciPy's Newton matrices are dense.
 LARGEST_IMPLICIT_REFERENCE = 40
+#: In space, code of dense matrices takes the times of this many coordinates longer than sparse code to compile.
+DENSE = 25
 #: An explicit adaptive run is not begun where the decay at the start asks for so many times its budget.
 HOPELESS = 1.5
 
@@ -57,11 +60,11 @@ def explicit_budget(mechanism: Mechanism, most: int = BUDGET, quick: bool = Fals
     return int(most * (max(share**QUICK_FALL, QUICK_LEAST) if quick else share))
 
 
-def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
-    """Return the limit of residuals of implicit stages, `most` for a small mechanism."""
+def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET, least: int = LEAST_IMPLICIT) -> int:
+    """Return the limit of residuals of implicit stages, `most` for a small mechanism, `least` for a large one."""
     speeds = sum(len(body.speeds) for body in mechanism.bodies)
     unknowns = 2 * speeds + sum(len(joint.rows) for joint in mechanism.joints)
-    return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
+    return max(least, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
 
 
 def explicit_limits(quick: bool) -> tuple[int, int]:
@@ -72,7 +75,8 @@ def explicit_limits(quick: bool) -> tuple[int, int]:
 def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: bool = False) -> int:
     """Return the evaluation limit of a run, or of one of the many of a search; less in a quick study."""
     if is_implicit(plan):
-        return implicit_budget(mechanism)
+        limits = (QUICK_IMPLICIT_BUDGET, QUICK_LEAST_IMPLICIT) if quick else (IMPLICIT_BUDGET, LEAST_IMPLICIT)
+        return implicit_budget(mechanism, *limits)
     most = explicit_limits(quick)[plan.spec.adaptive] // (SEARCHED if searched else 1)
     if not mechanism.bounded:
         return explicit_budget(mechanism, most, quick)
@@ -159,7 +163,8 @@ def left_out(
     runs.sort(key=lambda pair: constant_integrator(pair[0]) != pair[1])
     pairs_out, compiled, spent = [], set[tuple[str, str, bool]](), 0.0
     for mechanism in mechanisms:
-        each = straight_seconds(mechanism)
+        dense = max(1.0, mechanism.body_coordinates / DENSE) if mechanism.space == "spatial" else 1.0
+        each = dense * straight_seconds(mechanism)
         for method, integrator in runs:
             # explicit integrators share the code of a method
             code = mechanism.name, method, bool(EXPLICIT_FORMS & set(INTEGRATORS.get(integrator).forms))

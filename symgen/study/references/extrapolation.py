@@ -103,32 +103,6 @@ def compute_rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def compute_slopes(
-    function: Any,
-    index: Any,
-    m: int,
-    n: int,
-    mass: Any,
-    p: Any,
-    t: float,
-    y: Any,
-    steps: Any,
-    slopes: Any,
-) -> None:
-    """Set ``slopes`` to the central differences of the rates, a column for each component of the state."""
-    size = y.shape[0]
-    moved, above, below = y.copy(), np.empty(size), np.empty(size)
-    for j in range(size):
-        moved[j] = y[j] + steps[j]
-        compute_rate(function, index, m, n, mass, p, t, moved, above)
-        moved[j] = y[j] - steps[j]
-        compute_rate(function, index, m, n, mass, p, t, moved, below)
-        moved[j] = y[j]
-        for i in range(size):
-            slopes[i, j] = (above[i] - below[i]) / (2.0 * steps[j])
-
-
-@compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def extrapolated(
     function: Any,
     index: Any,

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from symgen.base.errors import SimulationError
 from symgen.describe.mechanism import Mechanism
 from symgen.result.points import Points
-from symgen.study.references.differences import difference_steps
-from symgen.study.references.extrapolation import compute_rate, compute_slopes, extrapolated
+from symgen.study.references.extrapolation import compute_rate, extrapolated
 from symgen.study.references.independent import CUTOFF, IndependentEquations, curves
 from symgen.study.references.numba_code import machine_code
 from symgen.study.references.reference import Reference
@@ -51,7 +50,6 @@ _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[:
 #: equations(t, q, v, p, out).
 EQUATIONS = types.FunctionType(types.int64(_F8, _A, _A, _A, _A))
 _RATE = types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A)
-_SLOPES = types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A, types.float64[:, ::1])
 _EXTRAPOLATE = types.int64(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _F8, _F8, _A, _A, _I8, _I)
 
 
@@ -104,15 +102,6 @@ class CompiledEquations(IndependentEquations):
             rates,
         )
         return rates
-
-    def slopes(self, t: float, y: Array) -> Array:
-        """Return the Jacobian of the rates, as `IndependentEquations.slopes` does, in one compiled call."""
-        found = np.empty((len(y), len(y)))
-        _for_all(compute_slopes, _SLOPES)(
-            *(self._address, self._index, self.m, self.n, self.mass, self.values, float(t)),
-            *(np.ascontiguousarray(y), difference_steps(y), found),
-        )
-        return found
 
     @property
     def budget(self) -> int:

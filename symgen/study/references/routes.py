@@ -10,7 +10,7 @@ depend on reactions, which that system finds by iteration, `lagrange` in joint c
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -67,6 +67,8 @@ BUDGET, STIFF_BUDGET = 20_000_000, 300_000
 #: Evaluations of looped code after which a route begins again with straight code, where that compiles within some
 #: seconds: it is several times as fast, and its rounding is smaller.
 LOOPED_BUDGET, LONGEST_COMPILATION = 100_000, 10.0
+#: A tolerance that can be attained takes less than so many times the evaluations of a rough one.
+UNATTAINED = 6
 #: Evaluation limit of explicit steps due to decay, for small mechanisms; the stiff routes are used beyond.
 STIFF_FROM = 6_000_000
 
@@ -112,6 +114,8 @@ def two_routes(
     times: Array,
     decay: float = 0.0,
     start: Mapping[str, float] | None = None,
+    enough: float = 0.0,
+    quick: bool = False,
 ) -> Reference:
     """Return the motion by the first of `ROUTES`, or of `STIFF_ROUTES`, its error estimated by the second.
 
@@ -127,6 +131,10 @@ def two_routes(
         Fastest decay at the start [1/s].
     start : mapping, optional
         Prescribed coordinates and velocities of the start.
+    enough : float
+        Estimated error, over the mechanism's size, with which rough tolerances do instead of long integrations.
+    quick : bool
+        Whether a looped route ends after `LOOPED_BUDGET`, and implicit routes are used where decay asks for more.
 
     Raises
     ------
@@ -134,7 +142,9 @@ def two_routes(
         If a route does not reach its end.
     """
     # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
-    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(mechanism, STIFF_FROM)
+    quick = quick and not straight_alone(mechanism)
+    most = LOOPED_BUDGET if quick else explicit_budget(mechanism, STIFF_FROM)
+    stiff = decay * float(times[-1]) * 12.0 / 6.39 > most
     if stiff and mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
         raise SimulationError(
             f"its fastest decay, {decay:.2g} 1/s, needs implicit steps, whose dense matrices are too large for "
@@ -142,32 +152,61 @@ def two_routes(
         )
     moved = mechanism, Settings(parameters=parameters, start=start or {}, until=float(times[-1]), times=list(times))
     if stiff:
-        return _by_routes(*moved, STIFF_ROUTES, implicit_budget(mechanism, STIFF_BUDGET))
-    explicit = explicit_budget(mechanism, BUDGET)
-    try:
-        return _by_routes(*moved, ROUTES, explicit)
-    except SimulationError:
-        return _by_routes(*moved, ROUGH_ROUTES, explicit)
+        return _by_routes(*moved, Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, STIFF_BUDGET)))
+    size = Points.of(mechanism, parameter_values(mechanism, parameters)).size
+    found: Reference | SimulationError | None = None
+    for attempt in _explicit_attempts(mechanism, enough, quick):
+        try:
+            found = _by_routes(*moved, attempt)
+        except SimulationError as error:
+            found = found if isinstance(found, Reference) else error
+            continue
+        if attempt.routes is ROUTES or found.estimated_error <= enough * size(found.q):
+            break
+    if not isinstance(found, Reference):
+        assert found is not None, "there are attempts"
+        raise found
+    return found
 
 
-def _by_routes(mechanism: Mechanism, common: Settings, routes: tuple[Route, ...], budget: int) -> Reference:
-    motions, routes = [], _fitting(mechanism, routes)
-    straight = any(route.integrator == "radau5" for route in routes) or bool(straight_alone(mechanism))
-    looped_budget = min(budget, LOOPED_BUDGET) if straight_seconds(mechanism) < LONGEST_COMPILATION else budget
+class Attempt(NamedTuple):
+    """Two routes in a shape of code, each within so many evaluations."""
+
+    routes: tuple[Route, ...]
+    shape: str
+    budget: int
+
+
+def _explicit_attempts(mechanism: Mechanism, enough: float, quick: bool) -> Iterator[Attempt]:
+    """Yield what is tried in turn: where a short integration does not do, rounding may not allow its tolerances."""
+    most = explicit_budget(mechanism, BUDGET)
+    shape = "straight" if straight_alone(mechanism) or straight_seconds(mechanism) < LONGEST_COMPILATION else "looped"
+    looped = not straight_alone(mechanism)
+    if looped:
+        short = min(most, LOOPED_BUDGET)
+        yield Attempt(ROUTES, "looped", short)
+        if quick or enough > 0.0:
+            yield Attempt(ROUGH_ROUTES, "looped", short if quick else short // UNATTAINED)
+        if quick:
+            return
+    rough_first = looped and enough > 0.0
+    for routes in (ROUGH_ROUTES, ROUTES) if rough_first else (ROUTES, ROUGH_ROUTES):
+        yield Attempt(routes, shape, most)
+
+
+def _by_routes(mechanism: Mechanism, common: Settings, attempt: Attempt) -> Reference:
+    motions, routes = [], _fitting(mechanism, attempt.routes)
     for method, integrator, options, rtol, coordinates in routes:
         settings = replace(common, method=method, integrator=integrator, options=options)
         settings = replace(settings, rtol=rtol, atol=1e-2 * rtol, coordinates=coordinates)
-        shapes = {"straight": budget} if straight or coordinates == "joint" else {"looped": looped_budget}
-        for shape, most in (shapes | {"straight": budget}).items():
-            run = prepare(mechanism, replace(settings, shape=shape)).with_spec(max_evaluations=most)
-            outcome = run.integrate()
-            if outcome.interrupted:
-                raise KeyboardInterrupt
-            if outcome.code != abi.STOPPED or most == budget:
-                break
-            straight = True  # what is long by one route is long by the other
+        settings = replace(settings, shape="straight" if coordinates == "joint" else attempt.shape)
+        run = prepare(mechanism, settings).with_spec(max_evaluations=attempt.budget)
+        outcome = run.integrate()
+        if outcome.interrupted:
+            raise KeyboardInterrupt
         if outcome.code != abi.DONE:
-            reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
+            many = f"it takes more than {attempt.budget:.3g} evaluations"
+            reason = many if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
         motions.append(run.of_bodies(outcome))
     values, nq = parameter_values(mechanism, common.parameters), motions[0].compiled.info.nq

@@ -157,9 +157,12 @@ class Base:
     @cached_property
     def rate(self) -> float | None:
         """Rate rms(v') / rms(v) of the first second [1/s], None where nothing moves."""
+        from symgen.run.compiling.pipeline import straight_alone
         from symgen.run.planning.prepare import first_rate
 
-        return first_rate(self.without_events().mechanism, Settings(until=self.nominal))[0]
+        mechanism = self.without_events().mechanism
+        shape = "straight" if straight_alone(mechanism) else "looped"
+        return first_rate(mechanism, Settings(until=self.nominal, shape=shape))[0]
 
     @cached_property
     def closed(self) -> str | None:

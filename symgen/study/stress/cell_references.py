@@ -39,18 +39,20 @@ Fields = dict[str, Any]
 
 #: A start counts as consistent up to this |Phi| and |D v - nu| by the independent equations, times length and speed.
 CONSISTENT = 1e-8
+#: Estimated error, over the mechanism's size, with which long integrations do not begin: a fiftieth of a trusted one.
+ENOUGH = TRUSTED * ACCURATE / 50.0
 
 
-def reference_of(level: Level) -> Fields:
-    """Return the motion at the outputs, or the reason why there is none."""
+def reference_of(level: Level, quick: bool = False) -> Fields:
+    """Return the motion at the outputs, or the reason why there is none; a quick study looks for a shorter time."""
     try:
         refuse_jumps(level.mechanism, level.parameters, level.until)
-        return _moved(level)
+        return _moved(level, quick)
     except (AssemblyError, InputError, SimulationError) as error:
         return {"unusable": str(error)}
 
 
-def _moved(level: Level) -> Fields:
+def _moved(level: Level, quick: bool) -> Fields:
     mechanism, parameters = level.mechanism, parameter_values(level.mechanism, level.parameters)
     shape = "straight" if straight_alone(mechanism) else "looped"
     settings = Settings("lagrange", "rk4", level.step, until=level.until, shape=shape, parameters=parameters)
@@ -78,12 +80,12 @@ def _moved(level: Level) -> Fields:
 
                 reference = motion(equations, q, v, times)
             else:
-                reference = two_routes(mechanism, parameters, times, falling)
+                reference = two_routes(mechanism, parameters, times, falling, enough=ENOUGH, quick=quick)
         except SimulationError as error:  # over its budget, or at a singular position
             if not derived:
                 raise
             try:
-                reference = two_routes(mechanism, parameters, times, falling)
+                reference = two_routes(mechanism, parameters, times, falling, enough=ENOUGH, quick=quick)
             except SimulationError as other:
                 raise SimulationError(f"{error}; {other}") from None
         closed = reference.how, reference.estimated_error, reference.q, reference.v

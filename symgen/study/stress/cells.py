@@ -49,9 +49,10 @@ Fields = dict[str, Any]
 
 @dataclass(frozen=True)
 class CellReference:
-    """Compute the reference motion of a case."""
+    """Compute the reference motion of a case, with fewer evaluations in a quick study."""
 
     level: Level
+    quick: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ def compute_cell(task: CellReference | RunTask) -> Fields:
     level = replace(task.level, mechanism=kept.only_one(task.level.mechanism))
     with many_starts():
         if isinstance(task, CellReference):
-            return reference_of(level)
+            return reference_of(level, task.quick)
         task = replace(task, level=level)
         fields: Fields = json_value(_limit(task) if isinstance(task, LimitTask) else _run(task))
         return fields

@@ -214,7 +214,7 @@ class _Study:
 
     def run(self, skipped: tuple[tuple[str, str, str], ...]) -> Stress:
         """Compute references, then runs, then largest steps."""
-        references = [CellReference(level) for level in self.levels]
+        references = [CellReference(level, self.quick) for level in self.levels]
         unknown = [(task, dict[str, Any]()) for task in references]
         tasks: tuple[CellReference | RunTask, ...] = *references, *self._runs(unknown), *self._searches(unknown)
         whole = Whole.of((_cell(task) for task in tasks), self.progress)
@@ -286,13 +286,13 @@ def _cell(task: CellReference | RunTask) -> Cell:
         "spring_end": level.spring_end,
         "closed": level.closed,
         "length": level.length,
+        "quick": task.quick,
     }
     steps = min(level.until / level.step, float(BUDGET))
     if isinstance(task, CellReference):
         return Cell(cell_key(**parts), name, task, REFERENCE + steps, check_motion)
     parts |= {"step": level.step, "options": dict(level.options), "watched": level.watched}
     parts |= {"method": task.method, "integrator": task.integrator, "coordinates": task.common.coordinates}
-    parts["quick"] = task.quick
     limits = [task.common.max_violation, task.common.max_energy_error, task.common.max_attempts]
     # roughly how long a run takes, in steps
     cost = 50.0 + steps * (10.0 if task.integrator == "radau5" else 1.0)
