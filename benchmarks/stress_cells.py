@@ -159,7 +159,7 @@ def claims() -> Iterator[str]:
     by_auto = outcomes(lines, lambda method, _: method == AUTO)
     ends = ", ".join(f"{by_auto[name]} {name}" for name in OUTCOMES if by_auto[name])
     wrong = false_of(lines, auto=True)
-    yield f"`auto` reports success and is not accurate in {wrong or 'none'} of {by_auto.total()} cells: {ends}."
+    yield f"False successes of `auto`: {wrong or 'none'} in {by_auto.total()} cells; {ends}."
     watched = [line for line in lines if line["family"] not in PLANES]
     named, false = outcomes(watched, lambda method, _: method != AUTO).total(), false_of(lines, auto=False)
     share = 100.0 * false / max(named, 1)

@@ -109,7 +109,7 @@ class Locus:
         Parameters
         ----------
         path : path, optional
-            A ``.png``, ``.svg`` or ``.pdf`` file. Without one the figure comes back, which notebooks show.
+            A ``.png``, ``.svg``, ``.pdf`` or ``.pgf`` file. Without one the figure comes back, which notebooks show.
 
         Raises
         ------

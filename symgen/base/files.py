@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import io
 import os
+import shutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from importlib.util import find_spec
@@ -59,6 +60,10 @@ def need(where: str, *libraries: str, extra: str = "data") -> None:
             raise InputError(where, f"the library {library}", "none", f"pip install 'symgen[{extra}]' installs it")
 
 
+#: Endings -> programs, of which one has to be there.
+MEASURED: Mapping[str, tuple[str, ...]] = {".pgf": ("lualatex", "pdflatex", "xelatex")}
+
+
 def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], extra: str) -> Path:
     """Refuse a file that cannot be written, by its ending, its libraries or its folder, and return it otherwise.
 
@@ -84,6 +89,9 @@ def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], e
         expected = f"a file ending in {', '.join(endings)}"
         raise InputError(where, expected, f"'{path}'", "" if hint.startswith("known") else hint)
     need(where, *endings[ending], extra=extra)
+    if ending in MEASURED and not any(map(shutil.which, MEASURED[ending])):
+        programs = " or ".join(MEASURED[ending])
+        raise InputError(where, f"{programs} for a {ending} file, whose texts they measure", "none of them")
     check_writable(where, path)
     return path
 

@@ -176,7 +176,7 @@ def quantity_options(shown: str, drawn: str, over: str = "[default: t]") -> Call
             help=shown,
             callback=lambda context, parameter, value: column_names("--quantity", value),
         ),
-        click.option("--plot", metavar="FILE", help=f"Draw {drawn} into FILE: .png, .svg or .pdf."),
+        click.option("--plot", metavar="FILE", help=f"Draw {drawn} into FILE: .png, .svg, .pdf or .pgf."),
         click.option("--over", metavar="NAME", help=f"Draw over NAME, such as crank.theta.  {over}"),
     )
 

@@ -87,6 +87,7 @@ if TYPE_CHECKING:
     "error against run time, or other columns,",
     "[default: run_seconds]",
 )
+@click.option("--plot-width", type=float, metavar="MM", help="Fit --plot into a column of a printed page, so wide.")
 @study_files("row")
 @jobs_option("Processes for what is not timed.")
 @json_option
@@ -104,6 +105,7 @@ def command(
     quantities: tuple[str, ...],
     plot: str | None,
     over: str | None,
+    plot_width: float | None,
     files: StudyFiles,
     jobs: int | None,
     as_json: bool,
@@ -119,6 +121,12 @@ def command(
     errors = number_list("--at", error_at)
     method_list, integrator_list = comma_list("--methods", methods), comma_list("--integrators", integrators)
     plot_path = plot_file(plot, over)
+    if plot_width is not None:
+        if plot_path is None:
+            raise InputError("--plot-width", "--plot FILE, which has the width", "no --plot")
+        from symgen.result.plot import check_width
+
+        check_width("--plot-width", plot_width)
     if quantities and plot_path is None:
         raise InputError("--quantity", "--plot FILE, which draws it", "no --plot")
 
@@ -174,7 +182,7 @@ def command(
     report = files.report if any(study.rows for study in studies) else None
     written = {
         files.csv: lambda file: save_csv(studies, file, files.units),
-        plot_path: lambda file: plot_rows(studies, file, what, along),
+        plot_path: lambda file: plot_rows(studies, file, what, along, plot_width),
         report: write_report,
     }
     return write_files(_exit_code(studies, files.journal is not None), written)

@@ -32,7 +32,7 @@ SAVED: Mapping[str, tuple[str, ...]] = {
 }
 COLUMNS: Mapping[str, tuple[str, ...]] = {ending: SAVED[ending] for ending in (".csv", ".parquet")}
 #: Endings of plots -> the libraries needed.
-PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
+PLOTTED: Mapping[str, tuple[str, ...]] = dict.fromkeys((".png", ".svg", ".pdf", ".pgf"), ("matplotlib",))
 
 #: Attribute of a NetCDF file that describes the last state, and what its variables begin with.
 LAST_HEADER, LAST_PREFIX = "last_state", "last_"

@@ -18,6 +18,9 @@ DASHES = ("-", "--", ":", "-.")
 LONGEST_LEGEND = 14
 #: Smaller violations are drawn here: a logarithm has no zero.
 FLOOR = 1e-17
+#: Letters of a figure in print [pt]; height of a panel over its width, of a line of the legend and width of one of its
+#: columns [inch].
+LETTERS, PANEL, LINE, LEGEND = 8.0, 0.65, 0.16, 1.6
 #: Curves that are nowhere further apart than this part of the picture are one line.
 APART = 1e-6
 #: Unit -> what has it.
@@ -95,6 +98,26 @@ def paths(curves: Mapping[str, Any], title: str) -> Any:
         legend(ax)
     figure.suptitle("\n".join(textwrap.wrap(title, 80)), fontsize=10)
     return figure
+
+
+def fit_into(figure: Any, width: float) -> None:
+    """Fit a figure into a column of a printed page, `width` wide [mm]: small letters, one legend below, no title."""
+    named = dict[str, Any]()
+    for ax in figure.axes:
+        handles, labels = ax.get_legend_handles_labels()
+        if ax.get_legend() is not None:
+            named |= dict(zip(labels, handles, strict=True))
+            ax.get_legend().remove()
+        ax.tick_params(labelsize=LETTERS - 1)
+        for text in (ax.xaxis.label, ax.yaxis.label, ax.title):
+            text.set_fontsize(LETTERS)
+    inches = width / 25.4
+    columns = max(1, int(inches / LEGEND))
+    height = PANEL * inches * len(figure.axes) + LINE * -(-len(named) // columns)
+    figure.set_size_inches(inches, height)
+    figure.suptitle("")
+    if named:
+        figure.legend(named.values(), named, loc="outside lower center", ncols=columns, fontsize=LETTERS - 1)
 
 
 def style(index: int, count: int = 1) -> dict[str, Any]:

@@ -116,6 +116,48 @@ def test_a_plot_without_a_path_shows_itself(result, tmp_path):
         plot.save(tmp_path / "a.txt")
 
 
+def test_a_figure_fits_into_a_column_of_a_page(result, tmp_path):
+    """84 mm at 150 dots an inch are 496 pixels; each legend beside a panel would need 40 of the 84 mm."""
+    plot = result.plot(None, ["q", "energy"])
+    beside = [ax.get_legend() for ax in plot.figure.axes if ax.get_legend()]
+    named = sum(len(legend.get_texts()) for legend in beside)
+    data = plot.save(tmp_path / "column.png", width=84).read_bytes()
+    assert int.from_bytes(data[16:20], "big") == 496
+    (legend,) = plot.figure.legends
+    assert len(beside) > 1 and len(legend.get_texts()) == named
+    assert not any(ax.get_legend() for ax in plot.figure.axes) and plot.figure.get_suptitle() == ""
+    drawn = plot.figure.get_tightbbox()
+    assert drawn.width <= 84 / 25.4 and drawn.height <= plot.figure.get_size_inches()[1]
+    with pytest.raises(InputError, match="width: expected 30 to 1000 mm, got 12"):
+        plot.save(tmp_path / "narrow.png", width=12)
+
+
+def latex(folder, monkeypatch, script):
+    """Put a program named pdflatex in the only folder of programs."""
+    program = folder / "pdflatex"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(folder))
+
+
+def test_latex_reads_a_figure_or_says_why_it_cannot_be_measured(result, tmp_path, monkeypatch):
+    """With a LaTeX the file has PGF; with one that fails, and with none, one sentence, and no file."""
+    path = tmp_path / "column.pgf"
+    try:
+        text = result.plot(None, ["q"]).save(path, width=84).read_text()
+        assert r"\begin{pgfpicture}" in text and "t [s]" in text
+    except InputError as error:
+        assert "lualatex" in str(error) or "pdflatex" in str(error) or "xelatex" in str(error)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    other = tmp_path / "other.pgf"
+    with pytest.raises(InputError, match="lualatex or pdflatex or xelatex for a"):
+        result.plot(other)
+    latex(tmp_path, monkeypatch, "echo no format file; exit 1")
+    with pytest.raises(InputError, match="plot: expected a pdflatex that measures texts, with the packages of matplot"):
+        result.plot(other)
+    assert not other.exists()
+
+
 def test_violations_are_drawn_on_a_logarithmic_axis(result):
     from symgen.result.plots import drawing
 

@@ -45,7 +45,7 @@ def test_tables_count_outcomes_of_models_that_are_whole(four_bar):
 
 def test_sentences_count_what_the_tables_do(four_bar):
     assert list(models().claims()) == [
-        "`auto` reports success and is not accurate in none of 28 cells: 28 ok.",
+        "False successes of `auto`: none in 28 cells; 28 ok.",
         "Of 55 cells of named methods 14 (25 percent) are false successes.",
         "Not measured: `andrews`.",
     ]

@@ -94,7 +94,7 @@ def of_tables(shown: str, drawn: str) -> tuple[Option, ...]:
     return (
         Option("--quantity", shown, "columns", "NAME,NAME", "quantities"),
         Option("--save", "Write tables to FILE: .csv, with units, or .parquet.", "tables", "FILE"),
-        Option("--plot", f"Draw {drawn} into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+        Option("--plot", f"Draw {drawn} into FILE: .png, .svg, .pdf or .pgf.", "plot", "FILE"),
         Option("--over", "Draw over NAME, such as crank.theta.  [default: t]", metavar="NAME"),
     )
 

@@ -116,7 +116,7 @@ KIND = Analysis(
         ),
         *of_motion("Value of a coordinate: of several closed positions of MODEL the nearest is used."),
         *of_tables("What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities"),
-        Option("--curves", "Draw the paths of points into FILE: .png, .svg or .pdf.", "plot", "FILE"),
+        Option("--curves", "Draw the paths of points into FILE: .png, .svg, .pdf or .pgf.", "plot", "FILE"),
     ),
     examples=(
         'symgen kinematics driven-four-bar --times "lin(0,1,101)"',

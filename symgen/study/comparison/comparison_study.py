@@ -179,7 +179,7 @@ class Study:
     def plot(
         self, path: str | PathLike[str] | None = None, what: Sequence[str] = ("error",), over: str = "run_seconds"
     ) -> Plot | Path:
-        """Draw columns of the rows over another one: a figure, or a PNG, SVG or PDF file.
+        """Draw columns of the rows over another one: a figure, or a PNG, SVG, PDF or PGF file.
 
         Each method with each integrator has a line.
 
@@ -225,11 +225,15 @@ def check_columns_of_rows(what: Sequence[str], over: str) -> tuple[str, ...]:
 
 
 def plot_rows(
-    studies: Sequence[Study], path: str | PathLike[str] | None, what: Sequence[str], over: str
+    studies: Sequence[Study],
+    path: str | PathLike[str] | None,
+    what: Sequence[str],
+    over: str,
+    width: float | None = None,
 ) -> Plot | Path:
     """Draw columns of the rows of studies over another one, a panel for each study and column; see `Study.plot`."""
     names = check_columns_of_rows(what, over)
-    return plotted(path, lambda: _figure_of_rows(studies, names, over))
+    return plotted(path, lambda: _figure_of_rows(studies, names, over), width)
 
 
 def _figure_of_rows(studies: Sequence[Study], names: Sequence[str], over: str) -> Any:
