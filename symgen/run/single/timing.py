@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from statistics import median
@@ -40,7 +41,7 @@ class Timed:
         return median(self.seconds) if self.seconds else self.outcome.run_seconds
 
 
-def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0) -> Timed:
+def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0, at_most: float = math.inf) -> Timed:
     """Run once to warm up and `repeat` times for the clock.
 
     Parameters
@@ -51,12 +52,14 @@ def timed(run: Callable[[], Outcome], repeat: int, at_least: float = 0.0) -> Tim
         Number of timed runs; 1 runs once and has no warm-up.
     at_least : float, optional
         Least total of the timed runs [s], so that short ones are repeated more often, up to `MOST` times.
+    at_most : float, optional
+        Total of the timed runs from which on none is repeated [s]; a first run so long is the only one.
     """
     first = run()
-    if repeat <= 1 or first.interrupted:
+    if repeat <= 1 or first.interrupted or first.run_seconds >= at_most:
         return Timed(first, ())
     outcome, seconds = first, list[float]()
-    while len(seconds) < repeat or (sum(seconds) < at_least and len(seconds) < MOST):
+    while sum(seconds) < at_most and (len(seconds) < repeat or (sum(seconds) < at_least and len(seconds) < MOST)):
         last = run()
         if last.interrupted:  # an earlier run is whole: only repetitions are lost
             shortest = min([*seconds, first.run_seconds])

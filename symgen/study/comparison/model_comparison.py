@@ -35,8 +35,9 @@ from symgen.study.references.routes import fastest_decay, two_routes, underived
 from symgen.study.references.solvers import AUTO
 from symgen.study.runner import Cell, run_cells
 
-#: Default number of timed runs a row, and their least total time in seconds.
-REPEAT, AT_LEAST = 3, 0.05
+#: Default number of timed runs a row, their least total time, and the total from which on none is repeated [s]: noise
+#: is a small part of a long run.
+REPEAT, AT_LEAST, AT_MOST = 3, 0.05, 10.0
 #: What making the code of a method ready counts for in the progress, in rows; no process is started for what takes less
 #: than so many seconds.
 PREPARATION, PATIENCE = 10.0, 1.0
@@ -237,10 +238,10 @@ class ModelComparison:
                 compile_all(run)
                 compiled.add(pair)
             show(words, 1.0 + i + PREPARATION * len(compiled))
-            runs = timed(run.integrate, settings.repeat, AT_LEAST)
+            runs = timed(run.integrate, settings.repeat, AT_LEAST, AT_MOST)
             stopped = runs.outcome if runs.outcome.code in WATCHES else None
             if stopped is not None:  # a study measures what becomes of it
-                runs = timed(unlimited(run).integrate, settings.repeat, AT_LEAST)
+                runs = timed(unlimited(run).integrate, settings.repeat, AT_LEAST, AT_MOST)
             if runs.outcome.interrupted:
                 raise KeyboardInterrupt
             variant = words_of_variant(settings, self.common)
