@@ -57,8 +57,11 @@ def test_runs_of_a_quick_study_have_less():
     for searched, part in ((False, 1), (True, effort.SEARCHED)):
         budgets = {effort.budget_of(plan, mechanism, searched, quick=True) for plan, mechanism in plans}
         assert budgets == {most // part for most in effort.explicit_limits(quick=True)} == {effort.QUICK_BUDGET // part}
-    for name, most in (("four-bar", effort.QUICK_IMPLICIT_BUDGET), ("chain:20", effort.QUICK_LEAST_IMPLICIT)):
+    for name, most in (("four-bar", effort.IMPLICIT_BUDGET), ("chain:20", effort.QUICK_LEAST_IMPLICIT)):
         assert effort.budget_of(*plan_of(name, "ggl", "radau5"), quick=True) == most
+    plan, andrews = plan_of("andrews", "ggl", "radau5")
+    share = (effort.implicit_budget(andrews) / effort.IMPLICIT_BUDGET) ** (effort.QUICK_IMPLICIT_FALL / 3.0)
+    assert effort.budget_of(plan, andrews, quick=True) == pytest.approx(share * effort.IMPLICIT_BUDGET, rel=1e-3)
     chain, large = (plan_of(name, "lagrange", "rk4") for name in ("chain:4", "n-four-bar:40"))
     share = effort.SMALL / chain[1].body_coordinates
     assert effort.budget_of(*chain, quick=True) == int(effort.QUICK_BUDGET * share**effort.QUICK_FALL)
@@ -325,12 +328,13 @@ def test_a_comparison_has_the_tightest_tolerances_that_can_be_attained(monkeypat
     assert tried(monkeypatch, {LONG_ROUGH: 1e-9}) == ([TIGHT, LONG_TIGHT, LONG_ROUGH], 1e-9)
 
 
-def test_a_quick_study_begins_no_long_integration(monkeypatch):
+def test_long_references_of_a_quick_study_are_rough_or_implicit(monkeypatch):
     assert tried(monkeypatch, {ROUGH: 0.1}, enough=1e-5, quick=True) == ([TIGHT, ROUGH], 0.1)
-    assert tried(monkeypatch, {}, enough=1e-5, quick=True) == ([TIGHT, ROUGH], f"not {ROUGH}")
-    stiff = {"decay": 2.0 * routes.LOOPED_BUDGET}
-    assert tried(monkeypatch, {}, enough=1e-5, quick=True, **stiff)[0] == [(1e-10, "straight")]
-    assert tried(monkeypatch, {}, enough=1e-5, **stiff)[0][0] == TIGHT
+    assert tried(monkeypatch, {}, enough=1e-5, quick=True) == ([TIGHT, ROUGH, LONG_ROUGH], f"not {LONG_ROUGH}")
+    stiff, implicit = {"decay": 2.0 * routes.LOOPED_BUDGET}, (1e-10, "straight")
+    assert tried(monkeypatch, {implicit: 1e-9}, enough=1e-5, quick=True, **stiff) == ([implicit], 1e-9)
+    assert tried(monkeypatch, {TIGHT: 1e-14}, enough=1e-5, quick=True, **stiff) == ([implicit, TIGHT], 1e-14)
+    assert tried(monkeypatch, {TIGHT: 1e-14}, enough=1e-5, **stiff)[0] == [TIGHT]
 
 
 def test_code_of_dense_matrices_is_left_out_of_a_quick_look_at_a_large_mechanism_in_space():

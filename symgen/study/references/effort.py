@@ -24,9 +24,8 @@ if TYPE_CHECKING:
 #: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
 #: residuals of implicit stages, which come with Newton's matrices.
 BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
-#: The same of a quick study: of explicit runs at constant and at adaptive steps, ten times what its longest needs, and
-#: of implicit ones.
-QUICK_BUDGET, QUICK_IMPLICIT_BUDGET = 500_000, 30_000
+#: The same of explicit runs of a quick study, at constant and at adaptive steps: ten times what its longest needs.
+QUICK_BUDGET = 500_000
 #: Rows with bounds choose their modes and strike: an evaluation of theirs costs about so many; a quick study counts
 #: fewer, as its budget is near what some runs need.
 BOUNDED, QUICK_BOUNDED = 20, 5
@@ -41,9 +40,10 @@ FURTHER, LEAST_FURTHER = 100, 100_000
 QUICK_FURTHER, SLOW_PACE = 20_000, 10.0
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
 SMALL, SMALL_STAGE = 15, 30
-#: Power of the coordinates with which explicit budgets of a quick study fall: with the first power its time would go
-#: into runs of large mechanisms that come to no end. All keep this part, a little more than its longest run needs.
-QUICK_FALL, QUICK_LEAST = 1.5, 0.12
+#: Powers of the coordinates and of a stage's unknowns with which explicit and implicit budgets of a quick study fall:
+#: with those of a whole one its time would go into runs of large mechanisms that come to no end. Explicit budgets keep
+#: this part, a little more than the longest run needs.
+QUICK_FALL, QUICK_IMPLICIT_FALL, QUICK_LEAST = 1.5, 4.0, 0.12
 #: No budget of implicit stages is below this: some hundred steps, fewer in a quick study.
 LEAST_IMPLICIT, QUICK_LEAST_IMPLICIT = 1_500, 500
 #: Mechanisms of more coordinates get no implicit reference: SciPy's Newton matrices are dense.
@@ -60,11 +60,12 @@ def explicit_budget(mechanism: Mechanism, most: int = BUDGET, quick: bool = Fals
     return int(most * (max(share**QUICK_FALL, QUICK_LEAST) if quick else share))
 
 
-def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET, least: int = LEAST_IMPLICIT) -> int:
-    """Return the limit of residuals of implicit stages, `most` for a small mechanism, `least` for a large one."""
+def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET, quick: bool = False) -> int:
+    """Return the limit of residuals of implicit stages, `most` for a small mechanism."""
     speeds = sum(len(body.speeds) for body in mechanism.bodies)
     unknowns = 2 * speeds + sum(len(joint.rows) for joint in mechanism.joints)
-    return max(least, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
+    least, fall = (QUICK_LEAST_IMPLICIT, QUICK_IMPLICIT_FALL) if quick else (LEAST_IMPLICIT, 3.0)
+    return max(least, int(most * min(1.0, (SMALL_STAGE / unknowns) ** fall)))
 
 
 def explicit_limits(quick: bool) -> tuple[int, int]:
@@ -75,8 +76,7 @@ def explicit_limits(quick: bool) -> tuple[int, int]:
 def budget_of(plan: Plan, mechanism: Mechanism, searched: bool = False, quick: bool = False) -> int:
     """Return the evaluation limit of a run, or of one of the many of a search; less in a quick study."""
     if is_implicit(plan):
-        limits = (QUICK_IMPLICIT_BUDGET, QUICK_LEAST_IMPLICIT) if quick else (IMPLICIT_BUDGET, LEAST_IMPLICIT)
-        return implicit_budget(mechanism, *limits)
+        return implicit_budget(mechanism, quick=quick)
     most = explicit_limits(quick)[plan.spec.adaptive] // (SEARCHED if searched else 1)
     if not mechanism.bounded:
         return explicit_budget(mechanism, most, quick)

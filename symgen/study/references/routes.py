@@ -62,8 +62,9 @@ STIFF_ROUTES: tuple[Route, ...] = (
 )
 #: Explicit routes where rounding of very stiff forces makes their tolerances unattainable.
 ROUGH_ROUTES = tuple(route._replace(rtol=rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
-#: Evaluation limit of a route, for small mechanisms.
+#: Evaluation limit of a route, for small mechanisms, and in a quick study.
 BUDGET, STIFF_BUDGET = 20_000_000, 300_000
+QUICK_BUDGET, QUICK_STIFF_BUDGET = 10_000_000, 30_000
 #: Evaluations of looped code after which a route begins again with straight code, where that compiles within some
 #: seconds: it is several times as fast, and its rounding is smaller.
 LOOPED_BUDGET, LONGEST_COMPILATION = 100_000, 10.0
@@ -134,7 +135,7 @@ def two_routes(
     enough : float
         Estimated error, over the mechanism's size, with which rough tolerances do instead of long integrations.
     quick : bool
-        Whether a looped route ends after `LOOPED_BUDGET`, and implicit routes are used where decay asks for more.
+        Whether limits are lower, and implicit routes are tried where decay asks for more than `LOOPED_BUDGET`.
 
     Raises
     ------
@@ -142,26 +143,22 @@ def two_routes(
         If a route does not reach its end.
     """
     # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
-    quick = quick and not straight_alone(mechanism)
-    most = LOOPED_BUDGET if quick else explicit_budget(mechanism, STIFF_FROM)
-    stiff = decay * float(times[-1]) * 12.0 / 6.39 > most
-    if stiff and mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
+    evaluations = decay * float(times[-1]) * 12.0 / 6.39
+    if evaluations > explicit_budget(mechanism, STIFF_FROM) and not _has_implicit(mechanism):
         raise SimulationError(
             f"its fastest decay, {decay:.2g} 1/s, needs implicit steps, whose dense matrices are too large for "
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
         )
-    moved = mechanism, Settings(parameters=parameters, start=start or {}, until=float(times[-1]), times=list(times))
-    if stiff:
-        return _by_routes(*moved, Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, STIFF_BUDGET)))
+    common = Settings(parameters=parameters, start=start or {}, until=float(times[-1]), times=list(times))
     size = Points.of(mechanism, parameter_values(mechanism, parameters)).size
     found: Reference | SimulationError | None = None
-    for attempt in _explicit_attempts(mechanism, enough, quick):
+    for attempt in _attempts(mechanism, evaluations, enough, quick):
         try:
-            found = _by_routes(*moved, attempt)
+            found = _by_routes(mechanism, common, attempt)
         except SimulationError as error:
             found = found if isinstance(found, Reference) else error
             continue
-        if attempt.routes is ROUTES or found.estimated_error <= enough * size(found.q):
+        if quick or attempt.routes is not ROUGH_ROUTES or found.estimated_error <= enough * size(found.q):
             break
     if not isinstance(found, Reference):
         assert found is not None, "there are attempts"
@@ -177,21 +174,31 @@ class Attempt(NamedTuple):
     budget: int
 
 
-def _explicit_attempts(mechanism: Mechanism, enough: float, quick: bool) -> Iterator[Attempt]:
-    """Yield what is tried in turn: where a short integration does not do, rounding may not allow its tolerances."""
-    most = explicit_budget(mechanism, BUDGET)
+def _has_implicit(mechanism: Mechanism) -> bool:
+    return mechanism.body_coordinates <= LARGEST_IMPLICIT_REFERENCE
+
+
+def _attempts(mechanism: Mechanism, evaluations: float, enough: float, quick: bool) -> Iterator[Attempt]:
+    """Yield what is tried in turn, where explicit steps need so many `evaluations` for the decay.
+
+    Where a short integration does not do, rounding may not allow its tolerances.
+    """
+    if evaluations > explicit_budget(mechanism, STIFF_FROM):
+        yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, STIFF_BUDGET))
+        return
+    if quick and evaluations > LOOPED_BUDGET and _has_implicit(mechanism):
+        yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, QUICK_STIFF_BUDGET))
+    most = explicit_budget(mechanism, QUICK_BUDGET if quick else BUDGET)
     shape = "straight" if straight_alone(mechanism) or straight_seconds(mechanism) < LONGEST_COMPILATION else "looped"
-    looped = not straight_alone(mechanism)
+    looped, rough = not straight_alone(mechanism), quick or enough > 0.0
     if looped:
         short = min(most, LOOPED_BUDGET)
         yield Attempt(ROUTES, "looped", short)
-        if quick or enough > 0.0:
+        if rough:
             yield Attempt(ROUGH_ROUTES, "looped", short if quick else short // UNATTAINED)
-        if quick:
-            return
-    rough_first = looped and enough > 0.0
-    for routes in (ROUGH_ROUTES, ROUTES) if rough_first else (ROUTES, ROUGH_ROUTES):
-        yield Attempt(routes, shape, most)
+    for routes in (ROUGH_ROUTES, ROUTES) if looped and rough else (ROUTES, ROUGH_ROUTES):
+        if not (quick and looped and routes is ROUTES):
+            yield Attempt(routes, shape, most)
 
 
 def _by_routes(mechanism: Mechanism, common: Settings, attempt: Attempt) -> Reference:
