@@ -62,9 +62,8 @@ STIFF_ROUTES: tuple[Route, ...] = (
 )
 #: Explicit routes where rounding of very stiff forces makes their tolerances unattainable.
 ROUGH_ROUTES = tuple(route._replace(rtol=rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
-#: Evaluation limit of a route, for small mechanisms, and in a quick study.
-BUDGET, STIFF_BUDGET = 20_000_000, 300_000
-QUICK_BUDGET, QUICK_STIFF_BUDGET = 10_000_000, 30_000
+#: Evaluation limit of a route, for small mechanisms; the last one where implicit routes are tried first.
+BUDGET, STIFF_BUDGET, TRIED_STIFF_BUDGET = 20_000_000, 300_000, 30_000
 #: Evaluations of looped code after which a route begins again with straight code, where that compiles within some
 #: seconds: it is several times as fast, and its rounding is smaller.
 LOOPED_BUDGET, LONGEST_COMPILATION = 100_000, 10.0
@@ -135,7 +134,7 @@ def two_routes(
     enough : float
         Estimated error, over the mechanism's size, with which rough tolerances do instead of long integrations.
     quick : bool
-        Whether limits are lower, and implicit routes are tried where decay asks for more than `LOOPED_BUDGET`.
+        Whether long routes are rough, and implicit ones are tried where decay asks for more than `LOOPED_BUDGET`.
 
     Raises
     ------
@@ -187,8 +186,8 @@ def _attempts(mechanism: Mechanism, evaluations: float, enough: float, quick: bo
         yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, STIFF_BUDGET))
         return
     if quick and evaluations > LOOPED_BUDGET and _has_implicit(mechanism):
-        yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, QUICK_STIFF_BUDGET))
-    most = explicit_budget(mechanism, QUICK_BUDGET if quick else BUDGET)
+        yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, TRIED_STIFF_BUDGET))
+    most = explicit_budget(mechanism, BUDGET)
     shape = "straight" if straight_alone(mechanism) or straight_seconds(mechanism) < LONGEST_COMPILATION else "looped"
     looped, rough = not straight_alone(mechanism), quick or enough > 0.0
     if looped:
