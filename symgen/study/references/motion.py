@@ -259,12 +259,13 @@ def _extrapolations(
     equations: CompiledEquations, y: Array, times: Array, scale: Array
 ) -> tuple[tuple[float, float], Array, Array]:
     """Return the tolerances of two integrations, and their states: the tightest ones that rounding allows."""
-    rough, used = _by_extrapolation(equations, y, times, ROUGH_COARSE, 2, scale, equations.budget)
+    most = equations.budget
+    rough, used = _by_extrapolation(equations, y, times, ROUGH_COARSE, 2, scale, most)
     try:
-        coarse, used = _by_extrapolation(equations, y, times, COARSE, 2, scale, int(UNATTAINED * used))
-        fine, _ = _by_extrapolation(equations, y, times, FINE, 1, scale, int(UNATTAINED * used))
+        coarse, used = _by_extrapolation(equations, y, times, COARSE, 2, scale, min(most, int(UNATTAINED * used)))
+        fine, _ = _by_extrapolation(equations, y, times, FINE, 1, scale, min(most, int(UNATTAINED * used)))
     except SimulationError:
-        fine, _ = _by_extrapolation(equations, y, times, ROUGH_FINE, 1, scale, equations.budget)
+        fine, _ = _by_extrapolation(equations, y, times, ROUGH_FINE, 1, scale, most)
         return (ROUGH_FINE, ROUGH_COARSE), fine, rough
     return (FINE, COARSE), fine, coarse
 

@@ -180,7 +180,8 @@ def _has_implicit(mechanism: Mechanism) -> bool:
 def _attempts(mechanism: Mechanism, evaluations: float, enough: float, quick: bool) -> Iterator[Attempt]:
     """Yield what is tried in turn, where explicit steps need so many `evaluations` for the decay.
 
-    Where a short integration does not do, rounding may not allow its tolerances.
+    A tight integration that comes to no end may have tolerances that rounding does not allow: rough ones come before a
+    long one.
     """
     if evaluations > explicit_budget(mechanism, STIFF_FROM):
         yield Attempt(STIFF_ROUTES, "straight", implicit_budget(mechanism, STIFF_BUDGET))
