@@ -280,6 +280,7 @@ def picture(path: Path) -> None:
     # letters stand in hundredths of their height, of which whole ones are enough
     text = re.sub(r"translate\((\d+)[.\d]* 0\)", r"translate(\1)", slim(drawn.data.decode()))
     text = re.sub(r"M (\S+) (\S+) (\S+) \2 ?(?=[M\"])", r"M\1 \2H\3", text)  # marks are horizontal
+    text = text.replace("<g/>", "").replace('style="fill:#222222"', 'fill="#222"')  # of each label
     path.write_text(with_words_once(text), encoding="utf-8")
 
 
