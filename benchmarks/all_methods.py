@@ -1,7 +1,7 @@
 """All methods on the source's four mechanisms and a singular one: how runs end, and what an error costs.
 
     python -m benchmarks.all_methods [ends] [times]              tables of the page, from the record
-    python -m benchmarks.records all_methods --anew --workers 5  measures it: 40 minutes on two busy cores
+    python -m benchmarks.records all_methods --anew --workers N  measures it: about half an hour of one core
 
 Each method runs with `rk4`, `dop853` and `picard`, or with its own integrator, at the default steps and tolerances of
 `symgen compare`. `ends` counts how runs ended. `times` has, for each method, the run time of its fastest run that is
