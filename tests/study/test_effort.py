@@ -291,7 +291,7 @@ def test_stiff_motions_in_space_have_a_reference():
 
 
 def tried(monkeypatch, done, **how):
-    """Return what two formulations of a pendulum in space try, those that come to their end being named."""
+    """Return the attempts of two formulations, and the error or the failure; `done` has the errors of some attempts."""
     attempts, mechanism = [], sinking().mechanism
     q = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, -2.0]])
 
@@ -303,10 +303,10 @@ def tried(monkeypatch, done, **how):
 
     monkeypatch.setattr(routes, "_by_routes", by_routes)
     try:
-        found = routes.two_routes(mechanism, {"c": 1.0}, np.array([0.0, 1.0]), **how).estimated_error
-    except SimulationError as error:
-        found = str(error)
-    return attempts, found
+        reference = routes.two_routes(mechanism, {"c": 1.0}, np.array([0.0, 1.0]), **how)
+    except SimulationError as failure:
+        return attempts, str(failure)
+    return attempts, reference.estimated_error
 
 
 TIGHT, ROUGH = (1e-12, "looped"), (1e-9, "looped")

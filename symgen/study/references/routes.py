@@ -150,19 +150,18 @@ def two_routes(
         )
     common = Settings(parameters=parameters, start=start or {}, until=float(times[-1]), times=list(times))
     size = Points.of(mechanism, parameter_values(mechanism, parameters)).size
-    found: Reference | SimulationError | None = None
+    reference, failures = None, list[SimulationError]()
     for attempt in _attempts(mechanism, evaluations, enough, quick):
         try:
-            found = _by_routes(mechanism, common, attempt)
+            reference = _by_routes(mechanism, common, attempt)
         except SimulationError as error:
-            found = found if isinstance(found, Reference) else error
+            failures.append(error)
             continue
-        if quick or attempt.routes is not ROUGH_ROUTES or found.estimated_error <= enough * size(found.q):
+        if quick or attempt.routes is not ROUGH_ROUTES or reference.estimated_error <= enough * size(reference.q):
             break
-    if not isinstance(found, Reference):
-        assert found is not None, "there are attempts"
-        raise found
-    return found
+    if reference is None:
+        raise failures[-1]
+    return reference
 
 
 class Attempt(NamedTuple):
