@@ -35,11 +35,11 @@ from symgen.base.settings import Settings
 from symgen.describe.facts.lifted import lifted
 from symgen.describe.files.origins import origin_of
 from symgen.result.sensitivities import prepared
+from symgen.run.directions.adjoint import run_for_adjoint
+from symgen.run.directions.directions import run_with_directions
 from symgen.run.layout import abi
 from symgen.run.planning.directions import named_directions
 from symgen.run.planning.start_directions import StartDirections
-from symgen.run.single.adjoint import run_for_adjoint
-from symgen.run.single.directions import run_with_directions
 
 ROOT = Path(__file__).resolve().parents[1]
 #: Errors at which times are compared.

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from benchmarks.gallery import DOCS, PICTURES, put
-from symgen.analyses.animation import mode_recording
+from symgen.analyses.linear.animation import mode_recording
 from symgen.api import Model, load
 from symgen.describe.drawing import Drawing
 from symgen.describe.files.load import parse_toml

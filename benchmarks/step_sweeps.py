@@ -24,7 +24,7 @@ from rich.table import Table
 from benchmarks.bounded.machines import FOLDER
 from benchmarks.closed_leg import leg
 from benchmarks.show import show
-from symgen.analyses.functions import Functions
+from symgen.analyses.functions.functions import Functions
 from symgen.api import Model
 from symgen.describe.facts.lifted import lifted
 from symgen.describe.files.validate import validate

@@ -33,8 +33,8 @@ from symgen.run.single.run import Array
 if TYPE_CHECKING:
     from symgen import compare as _compare
     from symgen import sweep as _sweep
-    from symgen.analyses.frame import Frame
-    from symgen.analyses.functions import Functions
+    from symgen.analyses.functions.frame import Frame
+    from symgen.analyses.functions.functions import Functions
     from symgen.result.result import Result
     from symgen.result.stepping.run import SteppedRun
     from symgen.run.compiling.method_choice import MethodChoice
@@ -148,7 +148,7 @@ class Model(Analysed, Shown):
 
     @in_sentences
     def functions(self, coordinates: str = "auto", parameters: Mapping[str, float] | None = None) -> Functions:
-        """Return the dynamics as compiled functions of the state; see `symgen.analyses.functions.Functions`.
+        """Return the dynamics as compiled functions of the state; see `symgen.analyses.functions.functions.Functions`.
 
         Parameters
         ----------
@@ -157,7 +157,7 @@ class Model(Analysed, Shown):
         parameters : mapping, optional
             Numbers that differ from the described ones: of parameters, inputs, own states and the time ``t``.
         """
-        from symgen.analyses.functions import Functions
+        from symgen.analyses.functions.functions import Functions
 
         return Functions(self.mechanism, coordinates, parameters)
 

@@ -100,7 +100,7 @@ def command(
     result: Result | None = None
     shown: Page | Recording
     if mode is not None:
-        from symgen.analyses.animation import mode_page, mode_recording
+        from symgen.analyses.linear.animation import mode_page, mode_recording
 
         shape = (model.mechanism, model.modes(settings, at=at), mode, settings.parameters)
         shown = mode_recording(*shape) if film else mode_page(*shape)

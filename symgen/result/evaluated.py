@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.describe.parts.events import STOP
 from symgen.result.step_errors import least_sizes
+from symgen.run.directions.directed_model import DirectedModel
+from symgen.run.directions.directed_observer import Observer
+from symgen.run.directions.directions import Course, DirectedPart
 from symgen.run.layout import abi
+from symgen.run.modes.bounded_rows import CONSTANT, HELD, SIGN
 from symgen.run.planning.prepare import Prepared
-from symgen.run.single.bounded_rows import CONSTANT, HELD, SIGN
-from symgen.run.single.directed_model import DirectedModel
-from symgen.run.single.directed_observer import Observer
-from symgen.run.single.directions import Course, DirectedPart
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel

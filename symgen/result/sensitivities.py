@@ -20,12 +20,12 @@ from symgen.result.evaluated import Evaluated
 from symgen.result.labelled import Labelled
 from symgen.result.step_errors import DOUBTFUL, errors_of_steps
 from symgen.run.compiling.side import compile_side
+from symgen.run.directions.directions import Course, run_with_directions
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.planning.directions import named_directions
 from symgen.run.planning.moving_breaks import with_moving_kinks
 from symgen.run.planning.prepare import Preparation, Prepared, preparation
 from symgen.run.planning.start_directions import StartDirections
-from symgen.run.single.directions import Course, run_with_directions
 
 if TYPE_CHECKING:
     from symgen.base.settings import Settings

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.analyses.dead_centre_room import room_to_dead_centre
 from symgen.analyses.limits import ReachedLimit, reached_limits
+from symgen.analyses.prescribed.dead_centre_room import room_to_dead_centre
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.expressions import Number
 from symgen.describe.facts.digest import identity

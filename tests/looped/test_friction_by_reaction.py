@@ -12,7 +12,7 @@ from symgen.base.settings import Settings
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.run.planning.prepare import prepare
-from tests.run.single.test_friction_by_reaction import ARM, four_bar, slider_crank
+from tests.run.modes.test_friction_by_reaction import ARM, four_bar, slider_crank
 
 TIGHT = {"rtol": 1e-12, "atol": 1e-12}
 LOOPS = {"coordinates": "absolute", "shape": "looped"}

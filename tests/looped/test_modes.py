@@ -12,9 +12,9 @@ from symgen.describe import MechanismBuilder
 from symgen.describe.files.load import read_raw
 from symgen.describe.files.validate import validate
 from symgen.run.planning.prepare import prepare
-from tests.run.single.test_dry_friction import PIN, TURNS, described
-from tests.run.single.test_stops import BALL, G, times
-from tests.run.single.test_stops import described as with_stops
+from tests.run.modes.test_dry_friction import PIN, TURNS, described
+from tests.run.modes.test_stops import BALL, G, times
+from tests.run.modes.test_stops import described as with_stops
 
 TIGHT = {"rtol": 1e-12, "atol": 1e-12}
 METHODS = [

@@ -24,7 +24,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 
 SOURCES = sorted(PACKAGE.rglob("*.py"))
 #: Streets without rooms: their folders are parts of one thing.
-WHOLE = ("analyses", "cli")
+WHOLE = ("cli",)
 
 
 def owner(path: Path) -> str:
@@ -88,7 +88,8 @@ def test_the_page_of_the_architecture_is_the_sum_of_the_rooms() -> None:
     page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
     lines = dict(re.findall(r"^\| `([\w/]+)` \| (.*) \|$", page.partition("## One walk")[0], re.MULTILINE))
     assert lines == {room: text[0].replace("``", "`") for room, text in ROOMS.items()}
-    assert len(page.split()) <= 1500
+    text = [line for line in page.splitlines() if not line.startswith("| `")]
+    assert len(" ".join(text).split()) <= 800
     assert max(len(line) for line in page.splitlines() if not line.startswith("|")) < 120
 
 

@@ -1,7 +1,11 @@
-"""Analyses with their commands, one file each: methods of models, options of the command, and its output.
+"""Kinds of analyses with their commands, one file each: methods of models, options, and what the command prints.
 
 The first line of a file's docstring is the line of its command in ``symgen --help``. Files import nothing heavy before
 an analysis is made, as ``symgen modes --help`` imports them; methods of every file are those of `symgen.api.Model`.
+
+In: a model, and the options of a command.
+Out: a result with its tables.
+Imports: NumPy; rooms beside and streets below.
 """
 
 from __future__ import annotations

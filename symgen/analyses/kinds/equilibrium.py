@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from symgen.analyses.equilibrium import Equilibrium
     from symgen.analyses.model_methods import Analysed
+    from symgen.analyses.rest.equilibrium import Equilibrium
 
     Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ def equilibrium(model: Analysed, settings: Settings | None = None, **changes: Un
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.places import rest_from
+    from symgen.analyses.linear.places import rest_from
 
     return rest_from(model.mechanism, settings_of("equilibrium", settings, changes))
 
@@ -67,7 +67,7 @@ def equilibria(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.places import scanned
+    from symgen.analyses.linear.places import scanned
 
     return scanned(model.mechanism, settings_of("equilibria", settings, changes), scan)
 
@@ -92,7 +92,7 @@ def steady(
     AnalysisError
         If no steady motion is found.
     """
-    from symgen.analyses.places import steady_from
+    from symgen.analyses.linear.places import steady_from
 
     return steady_from(model.mechanism, settings_of("steady", settings, changes), cyclic)
 

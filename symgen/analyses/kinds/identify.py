@@ -12,10 +12,10 @@ from symgen.base.settings import Settings
 from symgen.base.units import known
 
 if TYPE_CHECKING:
-    from symgen.analyses.free_numbers import Bounds
-    from symgen.analyses.identification import Fit
+    from symgen.analyses.fit.free_numbers import Bounds
+    from symgen.analyses.fit.identification import Fit
+    from symgen.analyses.fit.objective import Gradient, Objective
     from symgen.analyses.model_methods import Analysed
-    from symgen.analyses.objective import Gradient, Objective
 
 #: Settings that count: not those of outputs and checks, which the data and the fit decide.
 COUNTING = tuple(
@@ -67,7 +67,7 @@ def identify(
     AnalysisError
         If the model has no motion with the values it begins with.
     """
-    from symgen.analyses.identification import fit_to_data
+    from symgen.analyses.fit.identification import fit_to_data
 
     own = settings_of("identify", settings, changes, COUNTING)
     return fit_to_data(model.mechanism, own, data, free, quantities, bias, weights)
@@ -115,7 +115,7 @@ def objective(
     AnalysisError
         If the run fails.
     """
-    from symgen.analyses.objective import Objective
+    from symgen.analyses.fit.objective import Objective
 
     own = settings_of("objective", settings, changes, OF_ENDS)
     return Objective("objective", model.mechanism, own, quantity, by, way)
@@ -157,7 +157,7 @@ def gradient(
     InputError, AssemblyError, AnalysisError
         As for `objective`, and where the adjoint is wanted and does not cover the run.
     """
-    from symgen.analyses.objective import Objective
+    from symgen.analyses.fit.objective import Objective
 
     own = settings_of("gradient", settings, changes, OF_ENDS)
     return Objective("gradient", model.mechanism, own, quantity, by, way).first

@@ -26,9 +26,9 @@ from symgen.base.settings import Settings, flag, is_set
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from symgen.analyses.inverse import Inverse
-    from symgen.analyses.kinematics import Kinematics
+    from symgen.analyses.efforts.inverse import Inverse
     from symgen.analyses.model_methods import Analysed
+    from symgen.analyses.prescribed.kinematics import Kinematics
     from symgen.result.result import Result
 
 
@@ -66,7 +66,7 @@ def inverse(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    from symgen.analyses.inverse import inverse_dynamics as efforts_of
+    from symgen.analyses.efforts.inverse import inverse_dynamics as efforts_of
 
     counting = OF_MOTIONS if motion is None else [name for name in OF_MOTIONS if name not in OF_DRIVEN]
     whole = settings_of("inverse", settings, changes, counting)

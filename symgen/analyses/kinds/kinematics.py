@@ -23,8 +23,8 @@ from symgen.base.settings import Settings
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from symgen.analyses.kinematics import Kinematics
     from symgen.analyses.model_methods import Analysed
+    from symgen.analyses.prescribed.kinematics import Kinematics
 
 
 def kinematics(
@@ -55,7 +55,7 @@ def kinematics(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    from symgen.analyses.kinematics import driven_motion as motion_of
+    from symgen.analyses.prescribed.kinematics import driven_motion as motion_of
 
     return motion_of(model.mechanism, settings_of("kinematics", settings, changes, OF_MOTIONS), times, transmission)
 

@@ -11,7 +11,7 @@ from symgen.base.keywords import PlaceKeywords
 from symgen.base.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.analyses.linearise import LinearSystem
+    from symgen.analyses.linear.linearise import LinearSystem
     from symgen.analyses.model_methods import Analysed
 
 
@@ -51,7 +51,7 @@ def linearise(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.places import NamedPlace, system_at
+    from symgen.analyses.linear.places import NamedPlace, system_at
 
     place = NamedPlace(model.mechanism, settings_at("linearise", settings, changes, at), at, model.simulate, cyclic)
     return system_at(place, states, instantaneous, by)

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from symgen.analyses.locus import Locus
+    from symgen.analyses.linear.locus import Locus
+    from symgen.analyses.linear.modes import Modes
     from symgen.analyses.model_methods import Analysed
-    from symgen.analyses.modes import Modes
     from symgen.result.player.motion_page import Page
 
     Array = NDArray[np.float64]
@@ -64,7 +64,7 @@ def modes(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.places import NamedPlace, modes_at
+    from symgen.analyses.linear.places import NamedPlace, modes_at
 
     place = NamedPlace(model.mechanism, settings_at("modes", settings, changes, at), at, model.simulate, cyclic)
     return modes_at(place, states, count)
@@ -98,7 +98,7 @@ def view_mode(
     AnalysisError
         If no equilibrium is found.
     """
-    from symgen.analyses.animation import mode_page
+    from symgen.analyses.linear.animation import mode_page
 
     whole = settings_at("view_mode", settings, changes, at)
     number = arguments.whole("number", number, 1, 10**6)
@@ -126,8 +126,8 @@ def locus(
     **changes
         Other settings are refused; settings of a run count where `at` is a time.
     """
-    from symgen.analyses.locus import eigenvalue_locus as locus_of
-    from symgen.analyses.places import NamedPlace
+    from symgen.analyses.linear.locus import eigenvalue_locus as locus_of
+    from symgen.analyses.linear.places import NamedPlace
 
     place = NamedPlace(model.mechanism, settings_at("locus", settings, changes, at), at, model.simulate, cyclic)
     return locus_of(place, over, states)

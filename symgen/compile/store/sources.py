@@ -24,7 +24,7 @@ from symgen.compile.store.upkeep import TABLES
 
 #: Makers of what the cache keeps: of emitted code, of loops, and of machine code. What they import counts as well.
 CODE = ("derive", "run/compiling", "templates")
-LOOPS = ("run/integrators", "run/loops", "run/rows", "run/single")
+LOOPS = ("run/directions", "run/integrators", "run/loops", "run/modes", "run/printed", "run/rows", "run/single")
 COMPILER = ("compile/native", "compile/store/jit.py", "compile/store/emitted.py")
 
 #: Digest of each source, and the sources that it imports.

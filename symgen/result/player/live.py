@@ -28,7 +28,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.rows import kept_modes
+from symgen.run.printed import kept_modes
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

@@ -1,7 +1,7 @@
 """Derivatives of the step that a run has just made: the same step once more, with directions beside the state.
 
 Scheme, constraints, corrections and events are in them. What makes the step again depends on the run: explicit schemes
-have directions behind the state, implicit ones the equations of their stages (`symgen.run.single.step_directions`).
+have directions behind the state, implicit ones the equations of their stages (`symgen.run.directions.step_directions`).
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from symgen.describe.facts.kinks import discontinuities_of
 from symgen.result.sensitivities import SCHEMES
 from symgen.result.stepping.horizon import Horizon
 from symgen.run.compiling.side import compile_side
+from symgen.run.directions.directed_model import DirectedModel, Seeds, few_passes
+from symgen.run.directions.step_directions import StepsAgain
+from symgen.run.directions.steps_ahead import DirectedRun, StepsAhead
 from symgen.run.layout import abi
 from symgen.run.layout.scheme_records import Stages
 from symgen.run.planning.starts import compiled_for
-from symgen.run.single.directed_model import DirectedModel, Seeds, few_passes
-from symgen.run.single.step_directions import StepsAgain
-from symgen.run.single.steps_ahead import DirectedRun, StepsAhead
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel

@@ -12,7 +12,7 @@ from symgen.describe.bounds.modes import MODE
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.planning.dead_centre import ENDS
-from symgen.run.rows.kept_run import END_CODE, END_TIME
+from symgen.run.printed.kept_run import END_CODE, END_TIME
 from symgen.run.single.run import STIFF
 
 if TYPE_CHECKING:

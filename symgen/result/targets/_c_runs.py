@@ -14,7 +14,7 @@ from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
 from symgen.run.layout import abi
 from symgen.run.planning.outputs import DEFAULT_OUTPUTS
-from symgen.run.rows import kept_modes, kept_run
+from symgen.run.printed import kept_modes, kept_run
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native.c99_words import broken_line
-from symgen.run.rows import exchanged_run
+from symgen.run.printed import exchanged_run
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:

@@ -19,8 +19,8 @@ from symgen.run.breaks.seams import BESIDE as BESIDE_A_SIDE
 from symgen.run.breaks.seams import NEXT_TO, SAME, Foreseen
 from symgen.run.compiling.side import Side, compile_side
 from symgen.run.loops.seams import Seams
-from symgen.run.rows.foreseen_run import BESIDE, KINK, SKIP, STRIKE, Foresight
-from symgen.run.rows.kept_run import END_TIME
+from symgen.run.printed.foreseen_run import BESIDE, KINK, SKIP, STRIKE, Foresight
+from symgen.run.printed.kept_run import END_TIME
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
@@ -41,7 +41,7 @@ class Passages:
     lines : Side
         Values of their formulas.
     jumps : sequence of (Jump, int)
-        Each with what its passages are, see `symgen.run.rows.foreseen_run`.
+        Each with what its passages are, see `symgen.run.printed.foreseen_run`.
     step : float
         Distance of the grid of constant steps [s], 0 without.
     shortest : float

@@ -263,11 +263,11 @@ class Printed:
         self.entries.update(run.exchange_entries(self.emitted))
 
     def add_reset(self, run: PrintedRun) -> None:
-        """Add ``reset_run(event, t, y)``, the effects of one event in a run, see `symgen.run.rows.kept_reset`."""
+        """Add ``reset_run(event, t, y)``, the effects of one event in a run, see `symgen.run.printed.kept_reset`."""
         self.entries.update(run.reset_entries(self.emitted))
 
     def add_foresight(self, run: PrintedRun) -> None:
-        """Add ``foresee_run(is_start, t)``, which finds the jumps of a run, see `symgen.run.rows.foreseen_run`."""
+        """Add ``foresee_run(is_start, t)``, which finds the jumps of a run, see `symgen.run.printed.foreseen_run`."""
         self.entries.update(run.foresight_entries(self.emitted))
 
     def add_lock(self, compiled: CompiledModel, drivers: Collection[str], dependent: float = DEPENDENT) -> None:

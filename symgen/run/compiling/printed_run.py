@@ -34,11 +34,11 @@ from symgen.run.loops.schemes import readable
 from symgen.run.loops.seams import preparing, seams_of
 from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
-from symgen.run.rows.exchanged_run import RESTS, Exchange, exchanged_run
-from symgen.run.rows.foreseen_run import foreseen_run
-from symgen.run.rows.kept_modes import KeptModes
-from symgen.run.rows.kept_reset import kept_reset
-from symgen.run.rows.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
+from symgen.run.printed.exchanged_run import RESTS, Exchange, exchanged_run
+from symgen.run.printed.foreseen_run import foreseen_run
+from symgen.run.printed.kept_modes import KeptModes
+from symgen.run.printed.kept_reset import kept_reset
+from symgen.run.printed.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
 from symgen.run.rows.rows import observe_no_coordinate
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_state, span_of
@@ -62,7 +62,7 @@ SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED, PASSAGES = (
 _NOTES = 8
 #: Name of the search for events inside a step, the same for all models.
 FINDER = "find_events"
-#: Words of transitions, by the numbers of `symgen.run.rows.kept_modes`.
+#: Words of transitions, by the numbers of `symgen.run.printed.kept_modes`.
 WORDS = (modes.SLIP, modes.STICK, modes.REVERSE, modes.HIT, modes.REST, modes.LEAVE)
 #: Arrays that never change: of records with these names, and fields of others, by the name of the record.
 _TABLES = frozenset(("layout", "changes", "scheme"))
@@ -177,7 +177,7 @@ class PrintedRun:
     def exchange_entries(
         self, named: Mapping[str, lang.Function]
     ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
-        """Return ``indicate_run(t, y, values)`` and ``exchange_run(doing, t)``; see `symgen.run.rows.exchanged_run`."""
+        """Return ``indicate_run(t, y, values)``, ``exchange_run(doing, t)``; see `symgen.run.printed.exchanged_run`."""
         emitted, (model, _, span, chunk, state, _, visible, exchange) = self.emitted(named), self._arguments
         indicate, serve = exchanged_run(*self._recipe)
         y, values = visible.y.copy(), np.zeros(int(state.hunt[COUNT]))
@@ -189,7 +189,7 @@ class PrintedRun:
         return self._read(functions, emitted)
 
     def reset_entries(self, named: Mapping[str, lang.Function]) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
-        """Return ``reset_run(event, t, y)``; see `symgen.run.rows.kept_reset`."""
+        """Return ``reset_run(event, t, y)``; see `symgen.run.printed.kept_reset`."""
         model, _, _, _, state, _, visible, _ = self._arguments
         functions = {"reset_run": (kept_reset(*self._recipe), (None, None, visible.y.copy(), model, state))}
         return self._read(functions, self.emitted(named))
@@ -197,7 +197,7 @@ class PrintedRun:
     def foresight_entries(
         self, named: Mapping[str, lang.Function]
     ) -> dict[str, tuple[lang.Function, dict[str, Meaning]]]:
-        """Return ``foresee_run(is_start, t)``; see `symgen.run.rows.foreseen_run`."""
+        """Return ``foresee_run(is_start, t)``; see `symgen.run.printed.foreseen_run`."""
         state, function = self._arguments[4], foreseen_run(self.watched is not None)
         functions = {"foresee_run": (function, (None, None, self._foresight, self._seams, state))}
         return self._read(functions, self.emitted(named))

@@ -11,10 +11,10 @@ from symgen.describe.parts.events import RESET
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
 from symgen.run.layout.probe import rate_functions
-from symgen.run.rows.kept_modes import OF_LOG, Transitions
+from symgen.run.modes.bounded_rows import first_step, new_choice
+from symgen.run.printed.kept_modes import OF_LOG, Transitions
 from symgen.run.rows.row_events import OfEffects
 from symgen.run.rows.row_modes import OfModes
-from symgen.run.single.bounded_rows import first_step, new_choice
 from symgen.run.single.impacts import strikes_of
 from symgen.run.starts.starting import observe_nothing
 

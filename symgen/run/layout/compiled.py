@@ -45,7 +45,7 @@ class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     and `bounded` those of them with forces within bounds, which are off at a start; `pairs` are the rows of joints that
     may close loops, with their velocities behind those that are `fixed`, by columns and rows;
     `shadows` is the number of elements behind the state without error control, directions
-    (`symgen.run.single.directed_model`).
+    (`symgen.run.directions.directed_model`).
     """
 
     name: str

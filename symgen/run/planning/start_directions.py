@@ -19,11 +19,11 @@ from symgen.base.vocabulary.rotations import composed_rotation
 from symgen.describe.formulas.duals import Dual, Duals, dual, dual_slopes, parameter_duals
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
+from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
 from symgen.run.planning.shortest_changes import NONE, shortest, shortest_slope
 from symgen.run.planning.starts import held_of
-from symgen.run.single.directed_model import DirectedModel, Seeds, lanes_of
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo

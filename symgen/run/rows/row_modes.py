@@ -1,6 +1,6 @@
 """Bounded rows in runs of a sweep: modes are chosen at starts and at their events, without Python.
 
-These are the choice (`symgen.run.single.choice`) and the impacts of single runs, so that rows have their bits.
+These are the choice (`symgen.run.modes.choice`) and the impacts of single runs, so that rows have their bits.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import notes_at
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.watch import remember_rank
+from symgen.run.modes.bounded_rows import CHOICE, DEEP, OTHERS, OUT_OF_RANGE, SAME, TOUCHING, put_off
+from symgen.run.modes.choice import begin_afresh, choose_modes, follow_modes, measure_margins, read_rows
+from symgen.run.modes.strikes import STRIKES, find_struck, forget_passed, gather, strike
 from symgen.run.rows.row_events import OF_EFFECTS, forget_past, take_effects, take_notes_of_events
-from symgen.run.single.bounded_rows import CHOICE, DEEP, OTHERS, OUT_OF_RANGE, SAME, TOUCHING, put_off
-from symgen.run.single.choice import begin_afresh, choose_modes, follow_modes, measure_margins, read_rows
-from symgen.run.single.strikes import STRIKES, find_struck, forget_passed, gather, strike
 
 #: Rows with bounds of all runs, and working memory.
-#: - choice: See `symgen.run.single.bounded_rows`.
+#: - choice: See `symgen.run.modes.bounded_rows`.
 #: - strikes, effects: Impacts at gaps, and what other events change; they share working memory and past.
 #: - choosing (shape (functions,)): 1 for functions at which modes are chosen.
 #: - breaks, reverses, jams, leaves (shapes (functions,)): Row that breaks loose, whose rate becomes zero, whose effort

@@ -16,6 +16,7 @@ from symgen.run.layout import abi
 from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import parameters_at, select_row, with_seams
+from symgen.run.modes.agreement import choose_pressed
 from symgen.run.rows.row_events import (
     OF_EFFECTS,
     forget_functions,
@@ -38,7 +39,6 @@ from symgen.run.rows.row_modes import (
     take_resets,
 )
 from symgen.run.rows.row_results import end_run, follow_rows
-from symgen.run.single.agreement import choose_pressed
 
 _F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 

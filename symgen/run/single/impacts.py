@@ -1,7 +1,7 @@
 """Impacts at gaps: Newton's law through all rows of joints, in the metric of M.
 
 At an impact the rate u of each gap that is 0 satisfies ``u+ + e min(u-, 0) >= 0`` with a restitution e, its impulse
-only pushes, and one of both is zero: the box problem (`symgen.run.single.box`) on rates instead of accelerations. A row
+only pushes, and one of both is zero: the box problem (`symgen.run.modes.box`) on rates instead of accelerations. A row
 with two bounds has no impulse. Where impacts follow each other ever faster, so that the time until they accumulate
 counts as zero, the gap is at rest.
 """
@@ -20,8 +20,8 @@ from symgen.compile.loopcode.entry import direct
 from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.modes import HIT
 from symgen.run.layout import abi
-from symgen.run.single.bounded_rows import NOT_APPLIED, OTHERS, SAME, SIGN
-from symgen.run.single.strikes import GATHER, STRIKE, gather, new_strikes, strike
+from symgen.run.modes.bounded_rows import NOT_APPLIED, OTHERS, SAME, SIGN
+from symgen.run.modes.strikes import GATHER, STRIKE, gather, new_strikes, strike
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -76,7 +76,7 @@ class Impacts:
         return strikes_of(watched, self.rows, watched.effects, work, self._events.past)
 
     def strike(self, choice: Any) -> None:
-        """Change the velocities of the run by the impact that `symgen.run.single.strikes.find_struck` has found.
+        """Change the velocities of the run by the impact that `symgen.run.modes.strikes.find_struck` has found.
 
         Parameters
         ----------

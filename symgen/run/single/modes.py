@@ -15,7 +15,7 @@ from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest, room_of_choice
 from symgen.run.loops.watch import remember_rank
-from symgen.run.single.choice import begin_afresh
+from symgen.run.modes.choice import begin_afresh
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def begin_in_modes(simulation: Simulation, follow: Callable[[float], int] | None
     simulation : Simulation
         A run between two entries of its loop.
     follow : callable, optional
-        ``follow_modes`` of `symgen.run.single.choice` at a time.
+        ``follow_modes`` of `symgen.run.modes.choice` at a time.
     """
     compiled, state = simulation.compiled, simulation.state
     now = float(state.clock[abi.TIME])

@@ -1,4 +1,4 @@
-"""Transitions where bounds depend on reactions of joints (`symgen.run.single.agreement`).
+"""Transitions where bounds depend on reactions of joints (`symgen.run.modes.agreement`).
 
 An effort that alone brings about all of its reaction is jammed, and ends the run by name.
 """
@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 from symgen.base.errors import InputError
 from symgen.describe.bounds.modes import JAM
-from symgen.run.single import agreement
-from symgen.run.single.bounded_rows import DISAGREED, JAMMED, OTHERS, REDUNDANT, SHARED
+from symgen.run.modes import agreement
+from symgen.run.modes.bounded_rows import DISAGREED, JAMMED, OTHERS, REDUNDANT, SHARED
 from symgen.run.single.events import Happening
 from symgen.run.single.transitions import Transitions
 

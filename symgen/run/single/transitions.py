@@ -1,7 +1,7 @@
 """Transitions of rows with bounds: modes at a start, at their events, where inputs, velocities or parameters jump.
 
 A coordinate at rest stays so as long as a force within its bounds keeps it; all of these forces follow from the box
-problem (`symgen.run.single.box`) on accelerations, which are linear in them. Static bounds hold for coordinates that
+problem (`symgen.run.modes.box`) on accelerations, which are linear in them. Static bounds hold for coordinates that
 come to rest, those in motion for coordinates that have just broken loose; a coordinate that its static bound does not
 hold breaks loose too. Rows at rest that other ones determine stay off: the rows in force carry their part.
 
@@ -26,8 +26,8 @@ from symgen.describe.bounds.modes import HIT, LEAVE, MODE, REST, REVERSE, SLIP, 
 from symgen.describe.parts.events import RESET
 from symgen.run.layout import abi
 from symgen.run.layout.probe import rate_functions
-from symgen.run.single import choice, strikes
-from symgen.run.single.bounded_rows import (
+from symgen.run.modes import choice, strikes
+from symgen.run.modes.bounded_rows import (
     DEEP,
     HELD,
     LIMIT,
@@ -244,7 +244,7 @@ class Transitions:
 
     @cached_property
     def _choice(self) -> Any:
-        """The rows and working memory of `symgen.run.single.choice`."""
+        """The rows and working memory of `symgen.run.modes.choice`."""
         simulation, state, span = self.simulation, self.simulation.state, self.simulation.span
         rates = rate_functions(simulation.compiled.law_module)
         c = new_choice(simulation.compiled, self.rows, rates, len(state.y), len(state.w))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.adjoint_gradient import adjoint_gradient
+from symgen.analyses.fit.adjoint_gradient import adjoint_gradient
 from symgen.base.errors import InputError, SymgenError, nearest, quoted
 from symgen.describe.formulas.evaluate import parameter_values
 from symgen.result.sensitivities import SCHEMES, Differentiated

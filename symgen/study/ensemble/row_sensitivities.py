@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.free_numbers import with_numbers
+from symgen.analyses.fit.free_numbers import with_numbers
 from symgen.base import arguments
 from symgen.base.errors import InputError, SymgenError, counted, nearest, quoted
 from symgen.base.files import check_path, need, write_whole

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.dead_centre_room import room_to_dead_centre
-from symgen.analyses.transmission import PIN, transmission_angles
+from symgen.analyses.prescribed.dead_centre_room import room_to_dead_centre
+from symgen.analyses.prescribed.transmission import PIN, transmission_angles
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.measures import GROUND
 from symgen.study.report.words import engineering

@@ -100,7 +100,7 @@ def test_what_is_put_back_makes_the_same_results(package, unchanged):
     ("file", "remade"),
     [
         ("run/effects/stepping.py", {"code"}),
-        ("run/single/choice.py", {"stepping"}),
+        ("run/modes/choice.py", {"stepping"}),
         ("run/starts/starting.py", {"code", "stepping"}),
         ("base/ir/program.py", {"code", "stepping"}),
         ("base/vocabulary/functions.py", {"code", "stepping", "compiler"}),

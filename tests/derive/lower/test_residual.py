@@ -10,9 +10,9 @@ from symgen.compile.native import types
 from symgen.compile.store.emitted import AdjointFunction
 from symgen.derive.lower.residual import slopes
 from symgen.result.sensitivities import prepared
+from symgen.run.directions.directed_model import DirectedModel
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import prepare
-from symgen.run.single.directed_model import DirectedModel
 
 LANES = 2
 

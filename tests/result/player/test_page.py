@@ -16,7 +16,7 @@ import pytest
 from PIL import Image
 from support import processes
 
-from symgen.analyses.animation import mode_recording
+from symgen.analyses.linear.animation import mode_recording
 from symgen.api import load
 from symgen.base.errors import InputError
 from symgen.cli import main

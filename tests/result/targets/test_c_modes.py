@@ -9,8 +9,8 @@ import pytest
 import symgen
 from tests.result.targets.compilers import compiled, written
 from tests.result.targets.test_fmu import fmu_of, simulated
-from tests.run.single.test_clutches import CLUTCH
-from tests.run.single.test_stops import BALL, ROPE
+from tests.run.modes.test_clutches import CLUTCH
+from tests.run.modes.test_stops import BALL, ROPE
 
 WORDS = ("slip", "stick", "reverse", "hit", "rest", "leave")
 #: A loop around the functions of a model, which prints outputs and transitions.

@@ -13,7 +13,7 @@ from symgen.base.errors import InputError
 from tests.result.targets.compilers import compiled, written
 from tests.result.targets.test_c_modes import DOOR, HEAD, PROGRAM, loaded, rows_of, transitions_of
 from tests.result.targets.test_fmu import fmu_of, simulated
-from tests.run.single.test_stops import BALL
+from tests.run.modes.test_stops import BALL
 
 BUCKET = (Path(__file__).parents[3] / "benchmarks" / "bounded" / "files" / "bucket.toml").read_text(encoding="utf-8")
 #: A ball that bounces by a reset, and one whose rebounds end.

@@ -16,8 +16,8 @@ from symgen.result.targets._c_model import CModel
 from symgen.result.targets.fmu import fmu_files
 from tests.result.targets.test_c_modes import DOOR, loaded, transitions_of
 from tests.result.targets.test_fmu import fmu_of, importer_of
-from tests.run.single.test_clutches import CLUTCH
-from tests.run.single.test_stops import BALL, ROPE
+from tests.run.modes.test_clutches import CLUTCH
+from tests.run.modes.test_stops import BALL, ROPE
 
 #: A pendulum whose rate a blow turns round.
 KICKED = """

@@ -10,7 +10,7 @@ from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
 from symgen.run.breaks.seams import foreseen_in_run
 from symgen.run.layout import abi
-from symgen.run.rows.foreseen_run import foresee_run
+from symgen.run.printed.foreseen_run import foresee_run
 from tests.result.targets.test_c_modes import DOOR, loaded, program_of, rows_of, transitions_of
 from tests.result.targets.test_fmu import fmu_of, importer_of
 

@@ -1,0 +1,6 @@
+"""Efforts: inverse dynamics, what drivers and actuators need for a motion.
+
+In: a mechanism and its motion.
+Out: forces and torques over time.
+Imports: msgspec, NumPy; `prescribed` and rooms below.
+"""

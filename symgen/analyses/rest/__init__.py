@@ -1,0 +1,6 @@
+"""Rest: equilibria, and steady motions.
+
+In: a mechanism, and a start.
+Out: positions at rest, and whether they are stable.
+Imports: NumPy, SciPy; `state` and streets below.
+"""

@@ -1,0 +1,398 @@
+"""The search for an equilibrium: f(q, 0) = D^T lambda, Phi(q) = 0, with dense or with sparse matrices.
+
+The mechanism is closed first. A search then solves, step by step,
+
+    [ K + s G   D^T ]
+    [ D         0   ]
+
+which is Newton's method where s = 0. Far from rest s is so large that a step stays short and goes downhill.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.analyses.state.algebra import Solver, largest_magnitude, level, solver
+from symgen.analyses.state.subject import Subject
+from symgen.base.errors import AnalysisError
+from symgen.run.compiling.linearised import LinearisedState
+
+if TYPE_CHECKING:
+    from symgen.analyses.state.sparse import Sparse
+    from symgen.describe.mechanism import Mechanism
+
+Array = NDArray[np.float64]
+
+#: Most steps of a search, and most trials of a step.
+MOST_STEPS, MOST_TRIALS = 300, 60
+#: Forces and violations below this fraction of what they are compared with count as zero; below this one they are
+#: rounding, and no step makes them less.
+TOLERANCE, EXACT = 1e-9, 1e-16
+#: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to; steps
+#: downhill are this long at most.
+NEAR, REACH = 0.15, 1.0
+#: Lengths of the mechanism by which a step downhill may open it.
+OPENED = 0.05
+#: A closing step as long as this has no way; what everything is moved by then, in lengths of the mechanism and radians.
+SINGULAR, ASTRAY = 1e6, 0.01
+#: Factor of s where a step is too long, and the least part of its root that is left behind a short one.
+FASTER, SLOWER = 4.0, 0.3
+#: Most iterations of Newton's method for states of the file at rest.
+MOST_ITERATIONS = 50
+#: A change of states beyond this, over their values or 1, comes from slopes that are nearly singular.
+ASTRAY_STATE = 1e4
+#: Parts of what is not balanced at first that the first load step takes away, and the last one that is tried; Newton's
+#: steps in one.
+FIRST_LOAD, LEAST_LOAD, CORRECTIONS = 0.25, 1e-3, 20
+#: Newton's step that ends a load step, and the last one; below the third, steps that grow no shorter are rounding
+#: [lengths of the mechanism, rad].
+FOLLOWED, RESTING, ROUNDED = 1e-3, 1e-13, 1e-7
+
+
+#: A static problem over changes in lengths of the mechanism and radians: forces are work. So it is the same one in
+#: micrometres, where moments are nothing beside forces as numbers.
+S = TypeVar("S", "DenseStatics", "Sparse")
+
+
+@dataclass(frozen=True)
+class DenseStatics:
+    """The static problem of a mechanism in dense matrices; velocities of its states are kept.
+
+    Attributes
+    ----------
+    subject : Subject
+        The mechanism.
+    held : sequence of (str, float)
+        Coordinates held at a value by a force of their own, whose multiplier comes last.
+    """
+
+    subject: Subject
+    held: Sequence[tuple[str, float]] = ()
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+        return self.subject.mechanism
+
+    @property
+    def lengths(self) -> Array:
+        """Scales of changes of coordinates, shape (nq,)."""
+        return self.subject.lengths
+
+    @property
+    def _active(self) -> NDArray[np.bool_]:
+        return np.append(~self.subject.redundant, np.ones(len(self.held), dtype=np.bool_))
+
+    def _parts(self, y: Array, lam: Array) -> tuple[Array, Array, Array, Array, Array]:
+        subject = self.subject
+        e, by_position = at_balance(subject, y, lam[: subject.m])
+        motion, active = e.by("motion", "v"), ~subject.redundant
+        rows, gaps = [e.by("velocities", "v")[active]], [e.value("positions")[active]]
+        force = e.value("balance")
+        for (name, value), multiplier in zip(self.held, lam[subject.m :], strict=True):
+            space, at = subject.position(name)
+            if space == "q":
+                row, now = motion[at], float(y[at])
+            else:
+                row, now = e.by("functions", "q")[at] @ motion, float(e.value("functions")[at])
+            force = force + row * multiplier
+            rows.append(row[np.newaxis])
+            gaps.append(np.array([now - value]))
+        spans, units = subject.spans, self._units()[self._active]
+        stiffness = spans[:, np.newaxis] * (by_position @ motion) * spans
+        return (
+            spans * force,
+            np.concatenate(gaps) / units,
+            motion * spans,
+            np.vstack(rows) * spans / units[:, np.newaxis],
+            stiffness,
+        )
+
+    def _units(self) -> Array:
+        """Return the units of rows and held coordinates: a length of the mechanism or 1 rad."""
+        units = [self.subject.unit(name) for name, _ in self.held]
+        return np.append(self.subject.gaps, [self.subject.length if unit == "m" else 1.0 for unit in units])
+
+    def forces(self, y: Array, lam: Array) -> tuple[Array, Array]:
+        """Return the residuals of the force balance D^T lambda - f (with M v' at constant velocities) and of rows."""
+        return self._parts(y, lam)[:2]
+
+    def derivatives(self, y: Array, lam: Array) -> tuple[Array, Array, Array]:
+        """Return N, D of rows that do not depend on others and of what is held, and the stiffness K."""
+        return self._parts(y, lam)[2:]
+
+    def whole(self, work: Array | None) -> Array:
+        """Return the multipliers of all rows, held quantities last; 0 if nothing is held."""
+        multipliers = np.zeros(len(self._active))
+        multipliers[self._active] = 0.0 if work is None else work
+        return np.asarray(multipliers / self._units())
+
+    def moved(self, y: Array, change: Array) -> Array:
+        """Return a state whose coordinates are moved by a change."""
+        return self.subject.moved(y, change)
+
+    def wound(self, y: Array) -> DenseStatics:
+        """Return the same with the angles that count turns as they are at a state less than half a turn away."""
+        return replace(self, subject=self.subject.wound(y))
+
+
+def at_balance(subject: Subject, y: Array, lam: Array | None = None) -> tuple[LinearisedState, Array]:
+    """Evaluate where the states of the file have come to rest, which are set in `y`; their stiffness is included.
+
+    Returns
+    -------
+    e : LinearisedState
+        The descriptor form there.
+    stiffness : Array, shape (nv, nq)
+        Derivatives of the balance by q, states of the file following.
+
+    Raises
+    ------
+    AnalysisError
+        If their rates do not determine them.
+    """
+    e = subject.evaluated(y, lam=lam)
+    if not subject.states:
+        return e, e.by("balance", "q")
+    own = subject.compiled.info.own_states
+    for _ in range(MOST_ITERATIONS):
+        slopes, rates, extents = e.by("states", "z"), e.value("states"), subject.extents(y)
+        change = _solved(slopes, rates)
+        if change is None or not np.abs(change / extents).max() < ASTRAY_STATE:
+            # singular here, and perhaps not further along the rates
+            change = _solved(slopes - np.abs(rates / extents).max() * np.eye(len(rates)), rates)
+        if change is None:
+            break
+        size = float(np.abs(change / subject.extents(y)).max())
+        y[own] -= change
+        e = subject.evaluated(y, lam=lam)
+        if not size > 1e-14:
+            break
+    following = _solved(e.by("states", "z"), e.by("states", "q"))
+    if following is None:
+        names = ", ".join(x.name for x in subject.compiled.info.states)
+        raise AnalysisError(f"no equilibrium: the rates of the states {names} do not determine them")
+    return e, e.by("balance", "q") - e.by("balance", "z") @ following
+
+
+def _solved(matrix: Array, right: Array) -> Array | None:
+    """Return the solution of a system, None where its matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return None
+
+
+@dataclass(frozen=True)
+class Settled:
+    """A position where all forces balance.
+
+    Attributes
+    ----------
+    subject : Subject
+        The mechanism, with angles that count turns as they were followed there.
+    y : Array
+        The state.
+    lam : Array
+        Multipliers of all rows, then of what is held.
+    steps : int
+        Steps taken.
+    """
+
+    subject: Subject
+    y: Array
+    lam: Array
+    steps: int
+
+
+def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> Settled:
+    """Return a position where all forces balance.
+
+    Parameters
+    ----------
+    subject : Subject
+        The mechanism.
+    y : Array
+        A state; its velocities are kept.
+    held : sequence of (str, float)
+        Coordinates held at a value by a force of their own, whose multiplier comes last.
+
+    Raises
+    ------
+    AnalysisError
+        If no equilibrium is found.
+    """
+    statics, y, lam, steps = search(DenseStatics(subject, held), y)
+    return Settled(statics.subject, y, lam, steps)
+
+
+def search(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+    """Return a static problem at an equilibrium, the state there, its multipliers, and the steps taken.
+
+    Where forces have no potential, such as a controller's, downhill may lead nowhere: Newton's method alone follows.
+    Beams come to rest by load steps, if these lead somewhere: their stiffness along them is so large beside that of
+    bending that steps downhill are short.
+
+    Raises
+    ------
+    AnalysisError
+        If no equilibrium is found.
+    """
+    if any(force.flexures for force in statics.mechanism.forces):
+        with suppress(AnalysisError):
+            return _loaded(statics, y)
+    try:
+        return _search(statics, y, NEAR)
+    except AnalysisError as error:
+        try:
+            return _search(statics, y, np.inf)
+        except AnalysisError:
+            raise error from None
+
+
+def _search(statics: S, y: Array, near: float) -> tuple[S, Array, Array, int]:
+    """Return the same; steps of Newton's method up to `near` are taken, else those downhill."""
+    statics, y, steps = _closed(statics, y)
+    nothing = statics.whole(None)
+    force, gaps = statics.forces(y, nothing)
+    _, rows, stiffness = statics.derivatives(y, nothing)
+    even = level(stiffness)
+    solve = solver(even, rows)
+    if solve is None:
+        raise AnalysisError("the rows cannot be distinguished: some depend on others near the start")
+    work = solve(-force, np.zeros(len(gaps)))[1]
+    before = y, work
+    error, best, shift, first, size = np.inf, np.inf, 0.0, 0.0, np.zeros(len(force))
+    for step in range(steps, MOST_STEPS):
+        lam = statics.whole(work)
+        force, gaps = statics.forces(y, lam)
+        motion, rows, stiffness = statics.derivatives(y, lam)
+        first = first or largest_magnitude(stiffness) or 1.0
+        # where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
+        stiff = 1e-3 * np.asarray(abs(stiffness).sum(axis=1)).ravel()
+        size = np.maximum(size, np.maximum(np.abs(force - rows.T @ work).max(initial=1e-300), stiff))
+        error = float((np.abs(force) / size).max(initial=0.0) + np.abs(gaps).max(initial=0.0))
+        good = min(error, best) < TOLERANCE
+        if good and (error >= 0.5 * best or error <= EXACT):
+            # a step that balances no more may lead anywhere
+            y, work = before if error > best else (y, work)
+            return statics, y, statics.whole(work), step
+        if error < best:
+            before, best = (y, work), error
+        way = _newton(statics, motion, solver(stiffness, rows), (force, gaps), near)
+        if way is None and good:
+            return statics, y, lam, step
+        if way is None:
+            way, shift = _down(statics, (y, work), (motion, even, rows, stiffness), (force, gaps), shift or first)
+        y, work = statics.moved(y, motion @ way[0]), work + way[1]
+        statics = statics.wound(y)
+    raise AnalysisError(
+        f"no equilibrium was found from this start: after {MOST_STEPS} steps {error:.3g} of the forces is not "
+        "balanced; another start may lead to one"
+    )
+
+
+def _loaded(statics: S, y: Array) -> tuple[S, Array, Array, int]:
+    """Return the same by load steps: what is not balanced at first is taken away part by part, by Newton's method."""
+    statics, y, steps = _closed(statics, y)
+    force, gaps = statics.forces(y, statics.whole(None))
+    _, rows, stiffness = statics.derivatives(y, statics.whole(None))
+    solve = solver(level(stiffness), rows)
+    if solve is None:
+        raise AnalysisError("the rows cannot be told apart: some depend on others near the start")
+    work = solve(-force, np.zeros(len(gaps)))[1]
+    first, reached, part = force + rows.T @ work, 0.0, FIRST_LOAD
+    while part > LEAST_LOAD and steps < MOST_STEPS:
+        share = min(1.0, reached + part)
+        now, state, before, within = statics, (y, work), np.inf, False
+        for _ in range(CORRECTIONS):
+            steps += 1
+            force, gaps = now.forces(state[0], now.whole(state[1]))
+            motion, rows, stiffness = now.derivatives(state[0], now.whole(state[1]))
+            solve = solver(stiffness, rows)
+            change, more = (np.full(1, np.inf), work) if solve is None else solve((1.0 - share) * first - force, -gaps)
+            long = _length(now, motion, change) if np.all(np.isfinite(change)) else np.inf
+            if not long <= REACH:
+                break
+            state = now.moved(state[0], motion @ change), state[1] + more
+            now = now.wound(state[0])
+            within = long < (FOLLOWED if share < 1.0 else RESTING) or 0.5 * before <= long < ROUNDED
+            if within:
+                break
+            before = long
+        if not within:
+            part *= 0.25
+            continue
+        reached, part, statics, (y, work) = share, 2.0 * part, now, state
+        if reached == 1.0:
+            return statics, y, statics.whole(work), steps
+    raise AnalysisError("no equilibrium was found from this start by load steps")
+
+
+def _closed(statics: S, y: Array) -> tuple[S, Array, int]:
+    """Return a position that is nearly closed, and the steps taken: each the shortest one.
+
+    Where rows depend on each other, as those of links in one line, everything is moved a little.
+    """
+    lam, rng = statics.whole(None), np.random.default_rng(0)
+    for step in range(MOST_STEPS):
+        force, gaps = statics.forces(y, lam)
+        motion, rows, stiffness = statics.derivatives(y, lam)
+        solve = solver(level(stiffness), rows)
+        if solve is not None and np.linalg.norm(gaps) <= OPENED:
+            return statics, y, step
+        change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
+        long = _length(statics, motion, change)
+        if not long < SINGULAR:
+            change, long = ASTRAY * rng.standard_normal(len(force)), 1.0
+        y = statics.moved(y, motion @ (min(1.0, REACH / max(long, 1e-300)) * change))
+        statics = statics.wound(y)
+    raise AnalysisError("no equilibrium was found from this start: it cannot be closed; another start may do")
+
+
+def _length(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float:
+    if not np.all(np.isfinite(change)):
+        return np.inf
+    return float((np.abs(motion @ change) / statics.lengths).max(initial=0.0))
+
+
+def _newton(
+    statics: DenseStatics | Sparse, motion: Any, solve: Solver | None, right: tuple[Array, Array], near: float
+) -> tuple[Array, Array] | None:
+    """Return the step of Newton's method, or as much of it as a step may be long, where it is shorter than `near`."""
+    if solve is None:
+        return None
+    change, more = solve(-right[0], -right[1])
+    long = _length(statics, motion, change)
+    part = min(1.0, REACH / max(long, 1e-300))
+    return (part * change, part * more) if long < near else None
+
+
+def _down(
+    statics: DenseStatics | Sparse,
+    at: tuple[Array, Array],
+    matrices: tuple[Any, ...],
+    right: tuple[Array, Array],
+    shift: float,
+) -> tuple[tuple[Array, Array], float]:
+    """Return a step downhill that is short enough, and the s that the next one is to be tried with."""
+    (y, work), (motion, even, rows, stiffness), (force, gaps) = at, matrices, right
+    for _ in range(MOST_TRIALS):
+        solve = solver(stiffness + shift * even, rows)
+        if solve is not None:
+            change, more = solve(-force, -gaps)
+            long = _length(statics, motion, change)
+            steep = float(change @ ((stiffness + shift * even) @ change)) if long <= REACH else 0.0
+            if steep > 0.0:
+                then, opened = statics.forces(statics.moved(y, motion @ change), statics.whole(work + more))
+                ahead = float(change @ then) <= 0.5 * steep
+                if ahead and np.linalg.norm(opened) <= max(OPENED, float(np.linalg.norm(gaps))):
+                    return (change, more), shift * min(1.0, max(SLOWER, 0.7 * long / REACH) ** 2)
+        shift *= FASTER
+    raise AnalysisError("no equilibrium was found from this start: no step leads downhill; another start may do")

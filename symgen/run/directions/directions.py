@@ -1,0 +1,208 @@
+"""Runs with directions: derivatives of the state by numbers beside it, through the same steps.
+
+The state is longer: behind y lie L directions of each element; directions of parameters and scratch lie behind p and
+w. Emitted functions have a form with directions (`symgen.compile.native.tangents`); loops and explicit schemes, which
+are linear in the state, stay as they are. Error control leaves directions out, so a run without them takes the same
+steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.run.directions.directed_model import DirectedModel, Seeds, lanes_of
+from symgen.run.directions.direction_errors import StepErrors, begin_estimates, estimating, step_errors
+from symgen.run.directions.moments import Moments
+from symgen.run.directions.passages import PassingSimulation, RunPassage
+from symgen.run.directions.reset_directions import events_at_start
+from symgen.run.directions.transfer import Transfer
+from symgen.run.layout import abi
+from symgen.run.single.run import Progress, completed
+from symgen.run.single.simulation import Simulation
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.loops.integrator import Integrator
+    from symgen.run.loops.run_spec import RunSpec
+    from symgen.run.single.outcome import Outcome
+    from symgen.run.starts.assembly import Start
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class DirectedPart:
+    """A run with as many directions as its code takes.
+
+    Attributes
+    ----------
+    model : DirectedModel
+        Its code.
+    outcome : Outcome
+        Outcome of the longer state.
+    doubts : sequence of str
+        Why directions behind events are in doubt.
+    modes : sequence of (float, Array)
+        Directions of the numbers of modes, each with the last time at which they hold.
+    """
+
+    model: DirectedModel
+    outcome: Outcome
+    doubts: Sequence[str] = ()
+    modes: Sequence[tuple[float, Array]] = ()
+
+    @property
+    def states(self) -> Array:
+        """Directions of the state at the outputs, shape (k, ny, L)."""
+        return self.model.shadow(self.outcome.states, "y")
+
+    @property
+    def end(self) -> Array:
+        """Directions of the last accepted state, shape (ny, L)."""
+        return self.model.shadow(self.outcome.simulation.state.y, "y")
+
+
+@dataclass(frozen=True)
+class Course:
+    """A run with directions at its outputs.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        As of a run without directions.
+    parts : tuple of DirectedPart
+        The loops, each with some of the directions.
+    count : int
+        Number of directions.
+    """
+
+    outcome: Outcome
+    parts: tuple[DirectedPart, ...]
+    count: int
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why directions behind events are in doubt."""
+        return tuple(doubt for part in self.parts for doubt in part.doubts)
+
+    def gathered(self, of: Callable[[DirectedPart], Array]) -> Array:
+        """Return the directions of all parts beside each other, along the last axis."""
+        return np.concatenate([of(part) for part in self.parts], axis=-1)[..., : self.count]
+
+    @cached_property
+    def states(self) -> Array:
+        """Directions of the state at the outputs, shape (k, ny, n)."""
+        return self.gathered(lambda part: part.states)
+
+    @cached_property
+    def errors(self) -> StepErrors | None:
+        """Errors of directions in steps; None for constant steps, which have no estimate."""
+        return step_errors([part.outcome.simulation for part in self.parts], self.count)
+
+
+class DirectedSimulation(PassingSimulation):
+    """A run with directions, which go through its passages.
+
+    Parameters
+    ----------
+    model : DirectedModel
+        The code.
+    integrator, start, spec
+        As for `Simulation`, of the longer state.
+    seeds : Array, shape (np, L)
+        Directions of the parameters.
+
+    Attributes
+    ----------
+    transfer : Transfer
+        Takes directions through passages.
+    modes : list of (float, Array)
+        Directions of the numbers of modes before each passage, with its time.
+    """
+
+    def __init__(self, model: DirectedModel, integrator: Any, start: Start, spec: RunSpec, seeds: Array) -> None:
+        super().__init__(model.whole, integrator, start, spec)
+        self.directed = model
+        columns = np.hstack([seeds, np.zeros((len(seeds), 1))])
+        self.transfer = Transfer(Moments(model.plain, columns), spec)
+        self.modes = list[tuple[float, Array]]()
+
+    @property
+    def place(self) -> slice:
+        """Place of the numbers of modes in the scratch array."""
+        return self.transfer.moments.place_of_modes()
+
+    def passed(self, passage: RunPassage) -> None:
+        """Take the directions through a passage."""
+        model, state = self.directed, self.state
+        y, w = (model.shadow(x, name) for x, name in ((passage.before.y, "y"), (passage.before.w, "w")))
+        place = self.place
+        after, modes = self.transfer.through(passage, y, w[place])
+        model.shadow(state.y, "y")[:] = after
+        model.shadow(state.w, "w")[place] = modes
+        self.modes.append((passage.before.t, w[place].copy()))
+
+
+def run_with_directions(
+    compiled: CompiledModel,
+    integrator: Integrator,
+    start: Start,
+    spec: RunSpec,
+    seeds: Seeds,
+    progress: Progress | None = None,
+) -> Course:
+    """Integrate with directions; those that one loop does not take are further runs of the same steps.
+
+    Parameters
+    ----------
+    compiled, integrator, start, spec, progress
+        As for `symgen.run.single.run.integrate`.
+    seeds : Seeds
+        Directions at the start.
+    """
+    model, parts = DirectedModel(compiled, lanes_of(seeds.count)), list[DirectedPart]()
+    for first in range(0, seeds.count, model.lanes):
+        own = seeds.part(first, model.lanes)
+        p = model.parameters(start.p, own.p)
+        initial = replace(start, y=model.longer(start.y, "y", own.y), p=p, w=model.scratch(p, start.w))
+        doubts = events_at_start(spec, model, initial)
+        scheme = estimating(integrator, spec, model.lanes)
+        simulation = DirectedSimulation(model, scheme, initial, spec, own.p)
+        begin_estimates(simulation, model.sizes["y"])
+        outcome = completed(simulation, progress)
+        modes = *simulation.modes, (np.inf, model.shadow(simulation.state.w, "w")[simulation.place].copy())
+        parts.append(DirectedPart(model, outcome, (*doubts, *simulation.transfer.doubts), modes))
+        progress = None
+        if outcome.interrupted:
+            break
+    return Course(_plain(parts[0], integrator, start, spec), tuple(parts), seeds.count)
+
+
+def _plain(part: DirectedPart, integrator: Integrator, start: Start, spec: RunSpec) -> Outcome:
+    """Return the outcome of a run with directions as one of a run without them."""
+    outcome, sizes, compiled = part.outcome, part.model.sizes, part.model.plain
+    simulation, longer = Simulation(compiled, integrator, start, spec), outcome.simulation
+    state = longer.state._asdict()
+    for name, array in simulation.state._asdict().items():
+        if name in ("y", "p", "w"):
+            array[: sizes[name]] = state[name][: sizes[name]]
+        elif name in ("iw", "clock", "gauges", "control", "passages"):
+            array[:] = state[name]
+    # what a scheme keeps of past steps has another layout
+    simulation.state.control[abi.BEGUN] = abi.AFRESH
+    return replace(
+        outcome,
+        compiled=compiled,
+        start=start,
+        states=np.ascontiguousarray(outcome.states[:, : sizes["y"]]),
+        p=simulation.state.p,
+        w=simulation.state.w,
+        held=tuple((t, p[: sizes["p"]]) for t, p in outcome.held),
+        simulation=simulation,
+    )

@@ -1,0 +1,336 @@
+"""Directions through passages: how the state behind an event depends on all numbers, the time of the event among them.
+
+At an event g = 0 its time changes by ``dt = -dg / g'``, and the state there by ``dy + y' dt``. What the event changes
+is differentiated there: velocities by the equations of the smallest impulse
+(`symgen.run.directions.reset_directions`), the value at which a row is held, and the bounds of its force. From this
+``y' dt`` with the rates after the event is taken back, so that a transition alone changes a direction by the jump of
+the rates times dt.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.bounds.modes import HIT
+from symgen.run.directions.free_directions import TOGETHER, Free, constraint_directions
+from symgen.run.directions.moments import Directions, Moment, Moments, modes_of
+from symgen.run.directions.reset_directions import ResetDirections
+from symgen.run.layout import abi
+from symgen.run.modes.bounded_rows import CONSTANT, EFFORT, HELD, LIMIT, SIGN, STILL
+
+if TYPE_CHECKING:
+    from symgen.run.directions.passages import RunPassage
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.loops.run_spec import RunSpec, Watched
+
+Array = NDArray[np.float64]
+
+#: Part of a time up to which two times are the same, beside the tolerance of steps; least derivative of a time that is
+#: no rounding, over the largest.
+_NEAR, _LEAST = 1e-11, 1e-12
+#: Derivatives of a rate at rest below this part of the largest of a velocity are rounding.
+_STAYS = 1e-6
+#: Part of a time to which events are located.
+_CROSSES = 1e-9
+#: Roundings of a switching function over its change in the whole run from which on it is met without speed.
+_GRAZES = 1e-6
+
+
+@dataclass
+class Transfer:
+    """Takes directions through passages.
+
+    Parameters
+    ----------
+    moments : Moments
+        The code; its last direction is that of the motion.
+    spec : RunSpec
+        Of the run.
+    consistent : bool
+        Whether directions satisfy the constraints; else they are all directions there are.
+
+    Attributes
+    ----------
+    doubts : list of str
+        What is in doubt of the directions.
+    """
+
+    moments: Moments
+    spec: RunSpec
+    consistent: bool = True
+    doubts: list[str] = field(default_factory=list)
+    _last: tuple[RunPassage, Array] | None = None
+
+    def begin_anew(self) -> None:
+        """Forget the last passage and all doubts."""
+        self._last = None
+        self.doubts.clear()
+
+    @property
+    def watched(self) -> Watched | None:
+        """Switching functions of the run."""
+        return self.spec.events
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """The model."""
+        return self.moments.compiled
+
+    def through(self, passage: RunPassage, y: Array, modes: Array) -> tuple[Array, Array]:
+        """Return the directions of state and modes behind a passage from those before it.
+
+        Parameters
+        ----------
+        passage : Passage
+            The passage.
+        y, modes : Array, shapes (ny, k), (numbers of modes, k)
+            Directions at the same time, without that of the motion.
+        """
+        rate = self.moments.rates(self._plain(passage.before)) if passage.numbers else np.zeros(len(y))
+        y, modes, later = self.at_event(passage, y, modes, rate)
+        if passage.numbers:
+            y = y - np.outer(self.moments.rates(self._plain(passage.after)), later)
+        return y, modes
+
+    def at_event(self, passage: RunPassage, y: Array, modes: Array, rate: Array) -> tuple[Array, Array, Array]:
+        """Return the directions of state, modes and time of a passage behind it, at its own time.
+
+        Parameters
+        ----------
+        passage, y, modes
+            As for `through`: directions before at a time that has none.
+        rate : Array, shape (ny,)
+            How the state before changes with the time of its events.
+        """
+        before, after = (self._plain(x) for x in (passage.before, passage.after))
+        free = Free(self.moments, before, Directions(*(self._with(x) for x in (y, np.zeros(y.shape[1]), modes))))
+        later = np.zeros(y.shape[1])
+        if passage.numbers:
+            later = self._later(passage, before, y, modes, rate, free)
+            y = y + np.outer(rate, later)
+        self._compare(passage, later, free)
+        for struck in passage.effects:
+            y = self._through_effects(struck.numbers, self._plain(struck.at), y, later)
+        here = Directions(self._with(y), self._with(later), self._with(modes))
+        return y, self._modes(passage, before, after, here, free), later
+
+    def _plain(self, x: Moment) -> Moment:
+        """Return a state without the directions behind its arrays."""
+        sizes = self.moments.model.sizes
+        return Moment(x.t, x.y[: sizes["y"]], x.p[: sizes["p"]], x.w[: sizes["w"]])
+
+    @staticmethod
+    def _with(columns: Array, last: Array | None = None) -> Array:
+        """Return directions with the motion as the last one, zero where it plays no part."""
+        own = np.zeros(columns.shape[:-1]) if last is None else last
+        return np.concatenate([columns, own[..., np.newaxis]], axis=-1)
+
+    # -- the time of events --------------------------------------------------------------------------------------------
+
+    def _later(self, passage: RunPassage, now: Moment, y: Array, modes: Array, rate: Array, free: Free) -> Array:
+        """Return the directions of the time of events, shape (k,)."""
+        watched, numbers = self.watched, list(passage.numbers)
+        assert watched is not None, "the run has events"
+        count = len(watched.names) + len(watched.switches)
+        times = np.append(np.zeros(y.shape[1]), 1.0)
+        by = Directions(self._with(y, rate), times, self._with(modes))
+        values, slopes = self.moments.observed(watched.function, 3 * count, now, by)
+        own, speeds, rounding = slopes[numbers, :-1], slopes[numbers, -1], values[2 * count :][numbers]
+        resolved = np.abs(speeds) * _CROSSES * max(1.0, abs(now.t)) + rounding / _GRAZES
+        if np.any(np.abs(values[numbers]) > resolved):  # a jump has carried it beyond zero
+            if not self._seams_near(now.t):
+                self.doubts.append(f"the event {self._named(passage)} at t = {now.t:.6g} s happens by a jump")
+            return np.zeros(y.shape[1])
+        if not np.all(np.abs(speeds) * self.spec.until * _GRAZES > rounding):
+            where = f"the event {self._named(passage)} at t = {now.t:.6g} s"
+            self.doubts.append(f"{where} is met without speed: its time has no derivative")
+        with np.errstate(divide="ignore", invalid="ignore"):
+            later = -own / speeds[:, np.newaxis]
+        if len(numbers) > 1 and self._differ(later[1:] - later[0], later, now.t, free):
+            self.doubts.append(
+                f"the events {self._named(passage)} at t = {now.t:.6g} s are together for these numbers only"
+            )
+        return np.asarray(later[int(np.argmax(np.abs(speeds) / np.where(rounding > 0.0, rounding, 1.0)))])
+
+    def _seams_near(self, t: float) -> bool:
+        """Whether inputs or formulas jump at a time."""
+        near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(t))
+        return any(abs(seam.t - t) <= near and seam.t > 0.0 for seam in self.spec.seams)
+
+    def _named(self, passage: RunPassage) -> str:
+        assert self.watched is not None, "the run has events"
+        return " and ".join(f"'{self.watched.names[k]}'" for k in passage.numbers)
+
+    def _differ(self, rows: Array, of: Array, t: float, free: Free) -> bool:
+        """Whether differences of times do not vanish in directions that satisfy the constraints."""
+        if not np.all(np.isfinite(rows)):
+            return False
+        if not self.consistent:
+            return free.moves(rows, of)
+        size = np.abs(of).max(axis=0)
+        return bool(
+            np.any(np.abs(rows) > np.maximum(TOGETHER * size, _LEAST * max(1.0, t, float(size.max(initial=0.0)))))
+        )
+
+    def _compare(self, passage: RunPassage, later: Array, free: Free) -> None:
+        """Doubt directions where the passage before is at the same time for these numbers only."""
+        near = (_NEAR + self.spec.rtol * self.spec.adaptive) * max(1.0, abs(passage.before.t))
+        last, self._last = self._last, (passage, later)
+        t = passage.before.t
+        if passage.numbers and self._seams_near(t):
+            if self._differ(later[np.newaxis], later[np.newaxis], t, free):
+                what = f"the event {self._named(passage)}"
+                self.doubts.append(f"{what} and a jump at t = {t:.6g} s are together for these numbers only")
+            return
+        if last is None or not (passage.numbers and last[0].numbers):
+            return
+        if abs(t - last[0].before.t) <= near and passage.numbers != last[0].numbers:
+            both = np.stack([last[1], later])
+            if not self.consistent or self._differ(both[1:] - both[:1], both, t, free):
+                names = f"{self._named(last[0])} and {self._named(passage)}"
+                self.doubts.append(f"the events {names} at t = {t:.6g} s are together for these numbers only")
+
+    # -- what events change --------------------------------------------------------------------------------------------
+
+    def _through_effects(self, numbers: tuple[int, ...], now: Moment, y: Array, later: Array) -> Array:
+        """Return the directions of the state behind the effects of events."""
+        watched = self.watched
+        assert watched is not None, "the run has events"
+        effects = watched.effects
+        work = effects.memory(len(now.y), len(now.w))
+        state, scratch = now.y.copy(), now.w.copy()
+        impact = effects.applied(numbers, now.t, state, now.p.copy(), scratch, work)
+        by = Directions(self._with(y), self._with(later), self._with(np.zeros((self._count, y.shape[1]))))
+        chosen, columns = effects.chosen(numbers), list[Array]()
+        for _, own, p, w in self.moments.chunks(now, by):
+            reset = ResetDirections(effects, self.moments.model, chosen, now.t, own, p, w, work, impact, self._losses)
+            columns.append(reset.directions())
+        return np.concatenate(columns, axis=1)[:, : y.shape[1]]
+
+    @property
+    def _losses(self) -> dict[int, int]:
+        """By number of the event, the place in the state of the energy that its impacts take."""
+        watched = self.watched
+        if watched is None or watched.bounded is None:
+            return {}
+        rows = watched.bounded
+        places = zip(rows.names[rows.dry :], rows.losses, strict=True)
+        return {watched.names.index(f"{name}.{HIT}"): place for name, place in places if place is not None}
+
+    @property
+    def _count(self) -> int:
+        """Number of numbers of modes."""
+        place = self.moments.place_of_modes()
+        return int(place.stop - place.start)
+
+    # -- modes ---------------------------------------------------------------------------------------------------------
+
+    def _modes(self, passage: RunPassage, before: Moment, after: Moment, by: Directions, free: Free) -> Array:
+        """Return the directions of the numbers of modes behind a passage."""
+        rows = None if self.watched is None else self.watched.bounded
+        kept = by.modes[:, :-1]
+        if rows is None:
+            return kept
+        info, place, k = self.compiled.info, self.moments.place_of_modes(), len(rows.names)
+        own = [info.switchable.index(row) for row in info.bounded]
+        old, new = (modes_of(self.compiled, x.w[place])[own] for x in (before, after))
+        slopes = modes_of(self.compiled, kept.copy())
+        held = new[:, HELD] != 0.0
+        was = (old[:, HELD] != 0.0) & (new[:, CONSTANT] == old[:, CONSTANT])
+        if passage.starts:
+            was[:] = False
+        if not np.any(held):
+            slopes[own] = 0.0
+            return slopes.reshape(kept.shape)
+        length = 2 * k + 2 * rows.dry + (k - rows.dry)
+        values, directions = self.moments.evaluated(rows.state.function, length, after, by)
+        directions = directions[:, :-1]
+        for i in range(k):
+            line = slopes[own[i]]
+            constant = line[CONSTANT].copy() if held[i] and was[i] else directions[i] * held[i]
+            line[:] = 0.0
+            line[CONSTANT] = constant
+            if held[i] and i < rows.dry and i not in rows.pressed and i not in rows.varying:
+                line[LIMIT] = directions[2 * k + i]
+        self._share(rows, own, new, slopes, values, directions, after, by)
+        rests = (held & ~was) | ((new[:, CONSTANT] != 0.0) & (new[:, SIGN] == 0.0) & (old[:, CONSTANT] == 0.0))
+        self._check_rest(passage, rows.names, rests, directions, after, by, free)
+        return slopes.reshape(kept.shape)
+
+    def _check_rest(
+        self,
+        passage: RunPassage,
+        names: tuple[str, ...],
+        rests: NDArray[np.bool_],
+        directions: Array,
+        after: Moment,
+        by: Directions,
+        free: Free,
+    ) -> None:
+        """Doubt directions in which a row moves that has come to rest here, or a gap that is closed at the start."""
+        k, w, info = len(names), after.w, self.compiled.info
+        if len(passage.numbers) == 1:  # the row of the event rests by what the event is
+            own = self._named(passage)[1:-1].rpartition(".")[0]
+            rests = rests & np.array([name != own for name in names])
+        rows, which = directions[k : 2 * k][rests], np.array(names)[rests]
+        if passage.starts and self.watched is not None and self.watched.bounded is not None:
+            pushes = rests & (np.arange(k) >= self.watched.bounded.dry)
+            rows = np.concatenate([rows, directions[:k][pushes]])
+            which = np.concatenate([which, np.array(names)[pushes]])
+        if not len(rows):
+            return
+        if self.consistent:
+            sizes = np.abs(by.y[: info.work, :-1]).max(axis=0, initial=0.0)
+            sizes = np.maximum(sizes, np.abs(by.t[:-1]) * w[abi.SPEED] * max(1.0, w[abi.SPEED] / w[abi.LENGTH]))
+            moving = (np.abs(rows) > _STAYS * np.maximum(sizes, STILL) * max(1.0, 1.0 / w[abi.LENGTH])).any(axis=1)
+        else:
+            moving = np.array([free.moves(x[np.newaxis], x[np.newaxis]) for x in rows])
+        if np.any(moving):
+            found = " and ".join(dict.fromkeys(which[moving].tolist()))
+            rest = "rests at the start" if passage.starts else f"comes to rest at t = {after.t:.6g} s"
+            self.doubts.append(f"{found} {rest} for these numbers only: derivatives on both sides differ")
+
+    def _share(
+        self,
+        rows: Any,
+        own: list[int],
+        new: Array,
+        slopes: Array,
+        values: Array,
+        directions: Array,
+        after: Moment,
+        by: Directions,
+    ) -> None:
+        """Add the directions of bounds that a row in force carries for others, which rest with it."""
+        k, info = len(rows.names), self.compiled.info
+        carried = [
+            (i, int(new[i, CONSTANT]) - 1)
+            for i in range(rows.dry)
+            if new[i, HELD] == 0.0 and new[i, SIGN] == 0.0 and new[i, CONSTANT] > 0.0
+        ]
+        if np.any(new[:, EFFORT] != 0.0):
+            shared = " and ".join(name for name, x in zip(rows.names, new[:, EFFORT], strict=True) if x != 0.0)
+            self.doubts.append(
+                f"from t = {after.t:.6g} s on {shared} share forces at rest, whose derivatives are not followed"
+            )
+        if not carried:
+            return
+        d, by_d, *_ = constraint_directions(self.moments, after, by)
+        force = [i for i in range(info.m) if i not in info.bounded]
+        force += [info.bounded[j] for j in range(k) if new[j, HELD] != 0.0]
+        base, by_base = d[force], by_d[force]
+        for i, owner in carried:
+            row = info.bounded[i]
+            parts = np.linalg.lstsq(base.T, d[row], rcond=1e-11)[0]
+            rest = by_d[row] - np.einsum("rjk,r->jk", by_base, parts)
+            change = np.linalg.lstsq(base.T, rest, rcond=1e-11)[0]
+            at = force.index(info.bounded[owner])
+            factor, slope = abs(parts[at]), np.sign(parts[at]) * change[at]
+            if i in rows.varying:  # margins read the bound itself, times this factor
+                slopes[own[i], LIMIT] = slope
+            else:
+                slopes[own[owner], LIMIT] += factor * directions[2 * k + i] + slope * values[2 * k + i]

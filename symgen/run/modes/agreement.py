@@ -1,0 +1,279 @@
+"""Modes where bounds depend on reactions, compiled: both are found in turns, until they agree.
+
+Reactions at rest depend on the forces at rest, and their bounds on the reactions. One function of the loop language for
+single runs and rows of sweeps, beside that of `symgen.run.modes.choice`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.base.ir.numerics import SKIP
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.layout.redundancy import farthest
+from symgen.run.modes.bounded_rows import (
+    AT_BOUND,
+    CHOICE,
+    CONSTANT,
+    DISAGREED,
+    HELD,
+    JAMMED,
+    LIMIT,
+    NO_FORCES,
+    NOT_DETERMINED,
+    NOT_FINITE,
+    REDUNDANT,
+    SAME,
+    SHARED,
+    sign_of,
+)
+from symgen.run.modes.box import solve_box
+from symgen.run.modes.choice import (
+    accelerate,
+    add_forces,
+    find_mobility,
+    find_rest,
+    moves_at,
+    size_forces,
+    symmetrise,
+    write_modes,
+)
+from symgen.run.modes.holding import hold_rows
+
+_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
+
+#: Bounds by reactions agree within this part of them, after so many solutions at most.
+_AGREED, _AGREEMENTS = 1e-14, 2000
+
+
+@exact(_N(CHOICE, _A))
+def find_redundant(c: Any, w: Any) -> int:
+    """Return the first row left out that has no bounds, -1 for none: it leaves reactions undetermined."""
+    for i in range(c.layout.m):
+        if w[c.layout.mask + i] != 0.0 and c.place_of[i] < 0:
+            return int(i)
+    return -1
+
+
+@exact()
+def store_probe(t: float, c: Any, p: Any, number: int, force: float) -> None:
+    """Store the accelerations and reactions of the last probe: without forces, or by a unit of force `number`."""
+    k = c.count
+    if number < 0:
+        for i in range(k):
+            c.offset[i] = c.out[i]
+    else:
+        for i in range(k):
+            c.matrix[i * k + number] = (c.offset[i] - c.out[i]) / force
+    c.reactions(t, c.y, p, c.w, c.rate, c.out)
+    place = 0
+    for i in range(k):
+        if c.pressed[i] != 0:
+            for part in range(2):
+                if number < 0:
+                    c.apart[2 * i + part] = c.out[place + part]
+                else:
+                    change = c.apart[2 * i + part] - c.out[place + part]
+                    c.parts[(2 * i + part) * k + number] = change / force
+            place += 2
+
+
+@exact()
+def probe_row(t: float, c: Any, j: int, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Set the column of a row in G, and what its force adds to the reactions."""
+    if c.sliding[j] > 0.0 or c.varying[j] != 0:
+        for i in range(c.count):
+            c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
+        force = 1.0
+        if c.pressed[j] != 0 or c.sliding[j] == 0.0:
+            c.trial[j], c.pushed[0] = 0.0, j
+        else:
+            c.trial[j], force = 1.0, c.sliding[j]
+        code = accelerate(t, c, y, p, w, iw, control)
+        c.pushed[0] = -1
+        if code != SAME:
+            return NOT_FINITE
+        store_probe(t, c, p, j, force)
+    return SAME
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
+def probe_reactions(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Set G among all rows, and the reactions without efforts by reactions and by their forces.
+
+    Returns `SAME`, `NOT_FINITE`, or `JAMMED` where an effort alone would bring about all of its reaction.
+    """
+    k, n = c.count, c.at_rest[0]
+    for i in range(k * k):
+        c.matrix[i] = 0.0
+    for i in range(2 * k * k):
+        c.parts[i] = 0.0
+    for i in range(k):
+        c.forces[i] = 0.0
+        c.trial[i] = 0.0 if c.pressed[i] != 0 else c.signs[i]
+    if accelerate(t, c, y, p, w, iw, control) != SAME:
+        return NOT_FINITE
+    store_probe(t, c, p, -1, 1.0)
+    find_mobility(c)
+    for r in range(n):
+        if probe_row(t, c, c.rest[r], y, p, w, iw, control) != SAME:
+            return NOT_FINITE
+    for j in range(k):
+        if c.pressed[j] != 0 and c.signs[j] != 0.0 and probe_row(t, c, j, y, p, w, iw, control) != SAME:
+            return NOT_FINITE
+    for i in range(k):
+        if c.pressed[i] != 0:
+            bound = c.sliding[i] if c.signs[i] != 0.0 else c.static[i]
+            x, y_part = c.parts[2 * i * k + i], c.parts[(2 * i + 1) * k + i]
+            c.jam[0] = bound * math.sqrt(x * x + y_part * y_part)
+            if not c.jam[0] < 1.0:
+                c.named[0] = i
+                return JAMMED
+    return SAME
+
+
+@exact()
+def set_bounds(c: Any, n: int) -> None:
+    """Set the box problem of the rows at rest by the present sizes of reactions."""
+    k, box = c.count, c.box
+    for i in range(k):
+        if c.pressed[i] != 0 and c.signs[i] != 0.0:
+            c.forces[i] = c.signs[i] * c.sliding[i] * c.sizes[i]
+    for r in range(n):
+        i = c.rest[r]
+        bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
+        bound = bound * c.sizes[i] if bound > 0.0 else 0.0
+        box.bounds[r], box.lower[r] = bound, -bound
+        total = 0.0
+        for j in range(k):
+            if c.pressed[j] != 0 and c.signs[j] != 0.0:
+                total += c.matrix[i * k + j] * c.forces[j]
+        box.offset[r] = c.offset[i] - total
+        for s in range(n):
+            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
+
+
+@exact()
+def follow_sizes(c: Any) -> bool:
+    """Set the sizes of reactions by the present forces; return whether they agree with the bounds."""
+    k, agree = c.count, True
+    for i in range(k):
+        if c.pressed[i] != 0:
+            x, y = c.apart[2 * i], c.apart[2 * i + 1]
+            for j in range(k):
+                x -= c.parts[2 * i * k + j] * c.forces[j]
+                y -= c.parts[(2 * i + 1) * k + j] * c.forces[j]
+            size = math.sqrt(x * x + y * y)
+            agree = agree and abs(size - c.sizes[i]) <= _AGREED * size
+            c.sizes[i] = size
+    return agree
+
+
+@exact(_N(CHOICE))
+def agree_at_rest(c: Any) -> int:
+    """Find the forces at rest with bounds that agree with them; set the signs of rows that they do not hold.
+
+    Bounds by reactions become forces. Returns `SAME`, `NO_FORCES` or `DISAGREED`.
+    """
+    k, n, box = c.count, c.at_rest[0], c.box
+    for i in range(k):
+        c.taken[i], c.sizes[i] = 0, 1.0
+        if c.pressed[i] != 0:
+            x, y = c.apart[2 * i], c.apart[2 * i + 1]
+            c.sizes[i] = math.sqrt(x * x + y * y) if c.signs[i] != 0.0 else math.inf
+    for r in range(n):
+        c.taken[c.rest[r]] = 1 if c.loose[c.rest[r]] == 0 else 0  # its static bound holds
+    rounds, found = 0, False
+    while not found:
+        if rounds == _AGREEMENTS:
+            return DISAGREED
+        rounds += 1
+        set_bounds(c, n)
+        if solve_box(n, box) != 0:
+            return NO_FORCES
+        for r in range(n):
+            c.forces[c.rest[r]] = box.forces[r]
+        found = follow_sizes(c)
+        for r in range(n if found else 0):
+            i = c.rest[r]
+            if c.taken[i] != 0 and c.static[i] > c.sliding[i] and moves_at(c, n, r):
+                c.taken[i], found = 0, False
+    for r in range(n):
+        i = c.rest[r]
+        bound, force, moves = box.bounds[r], box.forces[r], moves_at(c, n, r)
+        moves = moves or (c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0)
+        c.signs[i] = sign_of(box.left[r] if force == 0.0 else force) if moves else 0.0
+        c.taken[i] = 0
+    for i in range(k):
+        if c.pressed[i] != 0:
+            c.static[i] *= c.sizes[i]
+            c.sliding[i] *= c.sizes[i]
+    return SAME
+
+
+@exact(_N(CHOICE))
+def can_move(c: Any) -> int:
+    """Return whether the mechanism can move with the chosen rows in force; assumed of too large ones."""
+    layout = c.layout
+    if c.room.shape[0] == 0:
+        return 1
+    for i in range(c.count):
+        c.w[c.first + MODE_NUMBERS * i + HELD] = c.after[MODE_NUMBERS * i + HELD]
+    return 1 if farthest(layout, layout.nv, layout.m, SKIP, 1, c.w, c.room) < layout.nv else 0
+
+
+@exact(_N(CHOICE, _N))
+def follow_reactions(c: Any, resting: int) -> int:
+    """Have largest efforts follow the reaction, unless rows share a force; return `SAME` or `SHARED`.
+
+    `resting` is the number of coordinates at rest whose bounds depend on reactions.
+    """
+    after, sharing = c.after, 0
+    for i in range(c.count):
+        at = MODE_NUMBERS * i
+        sharing += 1 if after[at + HELD] == 0.0 and after[at + CONSTANT] != 0.0 else 0
+    if sharing > 0 and resting > 0 and (c.changes != 0 or can_move(c) != 0):
+        count = 0
+        for i in range(c.count):
+            at = MODE_NUMBERS * i
+            if after[at + HELD] != 0.0 or after[at + CONSTANT] != 0.0:
+                c.named[count] = i
+                count += 1
+        c.named[count] = -1
+        return SHARED
+    for i in range(c.count):
+        at = MODE_NUMBERS * i
+        if c.pressed[i] != 0 and (sharing == 0 or after[at + HELD] == 0.0):
+            after[at + LIMIT] = 0.0
+    return SAME
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
+def choose_pressed(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Choose modes as `choose_modes` does, where bounds depend on reactions; no row is one-sided."""
+    c.named[0] = find_redundant(c, w)
+    if c.named[0] >= 0:
+        return REDUNDANT
+    n, resting = find_rest(c, w), 0
+    for r in range(n):
+        resting += 1 if c.pressed[c.rest[r]] != 0 else 0
+    for i in range(c.count):
+        c.bounds[i], c.bounds[c.count + i] = c.static[i], c.sliding[i]
+    code = probe_reactions(t, c, y, p, w, iw, control)
+    if code == SAME and n > 0:
+        symmetrise(c)
+        size_forces(c, n, w)
+        code = agree_at_rest(c)
+        add_forces(c)
+    if code == SAME:
+        code = NOT_DETERMINED if hold_rows(c, w) != SAME else follow_reactions(c, resting)
+    for i in range(c.count):
+        c.static[i], c.sliding[i] = c.bounds[i], c.bounds[c.count + i]
+    return int(write_modes(c, w)) if code == SAME else int(code)
+
+
+#: Types of the functions on the arrays of a run.
+KINDS = {"choose_pressed": types.FunctionType(_N(_F8, CHOICE, _A, _A, _A, _K, _K))}

@@ -1,0 +1,369 @@
+"""The choice of modes at one state, compiled: rows at rest, their forces, and which of them are put into force.
+
+One function of the loop language for single runs and rows of sweeps, so that both have the same bits. See
+`symgen.run.single.transitions`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.base.ir.numerics import SKIP
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.layout import abi
+from symgen.run.layout.redundancy import choose_rows, farthest, is_off
+from symgen.run.layout.scales import entry_of, larger
+from symgen.run.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
+from symgen.run.modes.bounded_rows import (
+    AT_BOUND,
+    CHOICE,
+    CONSTANT,
+    DEPENDENT,
+    EFFORT,
+    HELD,
+    LEAST_MASS,
+    LIMIT,
+    NO_ACCELERATION,
+    NO_FORCES,
+    NOT_FINITE,
+    OTHERS,
+    OUT_OF_RANGE,
+    ROUNDED,
+    SAME,
+    SIGN,
+    STILL,
+    is_held,
+    is_shut,
+    row_scale,
+    sign_of,
+    stays_shut,
+    usual_of,
+)
+from symgen.run.modes.box import INSIDE, solve_box
+from symgen.run.modes.holding import hold_rows
+
+_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A))
+def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
+    """Read coordinates, rates and bounds at a state; return `SAME`, or `OUT_OF_RANGE`."""
+    k, dry, out = c.count, c.dry, c.out
+    c.states(t, y, p, w, c.rate, out)
+    valid = True
+    for i in range(k):
+        c.value[i], c.speed[i] = out[i], out[k + i]
+        c.static[i] = c.sliding[i] = c.restitution[i] = 0.0
+        valid = valid and math.isfinite(out[i]) and math.isfinite(out[k + i])
+        if i < dry:
+            static, sliding = out[2 * k + i], out[2 * k + dry + i]
+            if c.varying[i] != 0 and static < sliding and sliding <= static * (1.0 + ROUNDED):
+                static = sliding
+            c.static[i], c.sliding[i] = static, sliding
+            valid = valid and math.isfinite(static) and sliding >= 0.0 and static >= sliding
+            valid = valid and not (sliding == 0.0 and static > 0.0)
+        else:
+            restitution = out[2 * k + dry + i]
+            c.restitution[i] = restitution
+            valid = valid and restitution >= 0.0 and restitution <= 1.0
+            deep = out[i] < -c.depth[0] * row_scale(c, w, i, abi.LENGTH)
+            valid = valid and not (deep and not stays_shut(c, w, i))
+    return SAME if valid else OUT_OF_RANGE
+
+
+@exact(_N(CHOICE))
+def find_mobility(c: Any) -> int:
+    """Set the acceleration of each coordinate by a force on it if no joints held the bodies.
+
+    A body without inertia counts with a part of the mean one: its joints decide how far it moves.
+    """
+    layout = c.layout
+    for i in range(c.count):
+        c.alone[i] = 0.0
+    for e in range(layout.constants.shape[0]):
+        i, j = c.place_of[layout.entries[3 * e]], layout.entries[3 * e + 1]
+        if i >= 0:
+            entry = entry_of(layout, c.w, e)
+            least = LEAST_MASS * c.w[abi.MEAN_MASS] / c.w[layout.gauge + j]
+            c.alone[i] += entry * entry / larger(c.w[layout.mass + j], least)
+    return int(c.count)
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
+def accelerate(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
+
+    A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
+    """
+    for i in range(w.shape[0]):
+        c.w[i] = w[i]
+    for i in range(y.shape[0]):
+        c.y[i] = y[i]
+    for i in range(iw.shape[0]):
+        c.iw[i] = iw[i]
+    for i in range(c.count):
+        at = c.first + MODE_NUMBERS * i
+        c.w[at + HELD] = c.w[at + CONSTANT] = c.w[at + LIMIT] = c.w[at + EFFORT] = 0.0
+        c.w[at + SIGN] = c.trial[i]
+    if c.pushed[0] >= 0:
+        c.w[c.first + MODE_NUMBERS * c.pushed[0] + EFFORT] = 1.0
+    if c.w[abi.STEP_STATUS] == 0.0:  # of laws whose gains follow the step, before the first one
+        c.w[abi.STEP_STATUS] = c.step[0]
+    if c.rates(t, c.y, p, c.w, c.iw, c.rate) != 0:
+        c.confirm(t, c.y, p, c.w, c.iw, c.rate)
+    control[abi.EVALUATIONS] += 1
+    c.accelerations(t, c.y, p, c.w, c.rate, c.out)
+    for i in range(c.count):
+        if not math.isfinite(c.out[i]):
+            return NOT_FINITE
+    return SAME
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
+def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Set G among the rows at rest, and the accelerations without their forces."""
+    k, n = c.count, c.at_rest[0]
+    for i in range(k * k):
+        c.matrix[i] = 0.0
+    for i in range(k):
+        c.trial[i] = c.signs[i]
+    if accelerate(t, c, y, p, w, iw, control) != SAME:
+        return NOT_FINITE
+    for i in range(k):
+        c.offset[i] = c.out[i]
+    find_mobility(c)
+    for r in range(n):
+        j = c.rest[r]
+        force, sign = c.sliding[j], 1.0
+        if c.pushes[j] != 0 and c.alone[j] > 0.0:  # accelerations as large as those that are there
+            force = larger(abs(c.offset[j]), usual_of(c, w, j)) / c.alone[j]
+            sign = -force
+        if force > 0.0 or c.varying[j] != 0:
+            for i in range(k):
+                c.trial[i] = c.signs[i]
+            c.trial[j] = sign
+            if force == 0.0:  # a bound that is 0 now holds what it holds at rest as soon as it rises
+                force, c.trial[j], c.pushed[0] = 1.0, 0.0, j
+            code = accelerate(t, c, y, p, w, iw, control)
+            c.pushed[0] = -1
+            if code != SAME:
+                return NOT_FINITE
+            for i in range(k):
+                c.matrix[i * k + j] = (c.offset[i] - c.out[i]) / force
+    symmetrise(c)
+    size_forces(c, n, w)
+    return SAME
+
+
+@exact()
+def size_forces(c: Any, n: int, w: Any) -> None:
+    """Set the forces at rest that make accelerations as large as those without them, and as usual ones."""
+    for r in range(n):
+        i = c.rest[r]
+        own = c.matrix[i * c.count + i]
+        c.scale[i] = (abs(c.offset[i]) + usual_of(c, w, i)) / own if own > 0.0 else 0.0
+
+
+@exact(_N(CHOICE))
+def symmetrise(c: Any) -> int:
+    """Make G symmetric among rows at rest, and 0 for rows that joints hold still, as at a dead centre."""
+    k, n, matrix = c.count, c.at_rest[0], c.matrix
+    for a in range(n):
+        for b in range(a):
+            i, j = c.rest[a], c.rest[b]
+            mean = 0.5 * (matrix[i * k + j] + matrix[j * k + i])
+            matrix[i * k + j] = matrix[j * k + i] = mean
+    for a in range(n):
+        i = c.rest[a]
+        if matrix[i * k + i] <= DEPENDENT * c.alone[i]:
+            for b in range(n):
+                j = c.rest[b]
+                matrix[i * k + j] = matrix[j * k + i] = 0.0
+    return int(n)
+
+
+@exact(_N(CHOICE, _A))
+def find_rest(c: Any, w: Any) -> int:
+    """Set the rows at rest, which of them are loose, and the signs of all others; return the number at rest."""
+    n = 0
+    for i in range(c.count):
+        c.signs[i] = 0.0
+        for number in range(MODE_NUMBERS):
+            c.before[MODE_NUMBERS * i + number] = w[c.first + MODE_NUMBERS * i + number]
+            c.after[MODE_NUMBERS * i + number] = 0.0
+        c.forces[i] = 0.0
+        c.taken[i] = 0
+    for i in range(c.count):
+        at, pushes = MODE_NUMBERS * i, c.pushes[i] != 0
+        still = abs(c.speed[i]) <= STILL * row_scale(c, w, i, abi.SPEED) or c.broken[i] + c.stopped[i] != 0
+        still = (still or is_held(c, w, i)) and not (pushes and not is_shut(c, w, i))
+        loose = (still and c.before[at + SIGN] != 0.0) or c.broken[i] != 0
+        loose = (loose and c.stopped[i] == 0) or c.left[i] != 0
+        owner = int(c.before[at + CONSTANT]) - 1
+        if c.before[at + HELD] == 0.0 and c.before[at + SIGN] == 0.0 and owner >= 0:
+            moves = c.broken[owner] + c.left[owner] != 0
+            loose = loose or (moves and c.before[MODE_NUMBERS * owner + HELD] != 0.0)
+        c.loose[i] = 1 if loose else 0
+        c.signs[i] = 0.0 if still or pushes else sign_of(c.speed[i])
+        if still:
+            c.rest[n] = i
+            n += 1
+    c.at_rest[0] = n
+    return n
+
+
+@exact()
+def moves_at(c: Any, n: int, r: int) -> bool:
+    """Whether the acceleration of the row at place `r` among those at rest is more than rounding."""
+    box, size = c.box, abs(c.box.offset[r])
+    for j in range(n):
+        size += abs(box.matrix[r * n + j]) * abs(box.forces[j])
+    return bool(box.place[r] != INSIDE and abs(box.left[r]) > NO_ACCELERATION * size)
+
+
+@exact()
+def solve_rest(c: Any, n: int, w: Any) -> int:
+    """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` or `NO_FORCES`."""
+    k, box = c.count, c.box
+    for r in range(n):
+        i = c.rest[r]
+        box.offset[r] = c.offset[i]
+        c.taken[i] = 1 if c.pushes[i] == 0 and c.loose[i] == 0 else 0  # its static bound holds
+        for s in range(n):
+            box.matrix[r * n + s] = c.matrix[i * k + c.rest[s]]
+    while True:
+        for r in range(n):
+            i = c.rest[r]
+            bound = c.static[i] if c.taken[i] != 0 else c.sliding[i]
+            pushes = c.pushes[i] != 0
+            box.bounds[r] = 0.0 if pushes else bound
+            box.lower[r] = -bound if not pushes else (0.0 if c.loose[i] != 0 else -math.inf)
+        if solve_box(n, box) != 0:
+            return NO_FORCES
+        again = False
+        for r in range(n):
+            i = c.rest[r]
+            if moves_at(c, n, r):
+                if c.pushes[i] == 0 and c.taken[i] != 0 and c.static[i] > c.sliding[i]:
+                    c.taken[i], again = 0, True
+                if c.pushes[i] != 0 and c.loose[i] != 0 and box.left[r] < -NO_ACCELERATION * usual_of(c, w, i):
+                    c.loose[i], again = 0, True
+        if not again:
+            break
+    for r in range(n):
+        i = c.rest[r]
+        bound, force, moves = c.static[i] if c.taken[i] != 0 else c.sliding[i], box.forces[r], moves_at(c, n, r)
+        c.passing[i] = 1 if moves else 0
+        if c.pushes[i] != 0:
+            moves = moves and box.left[r] > 0.0
+        elif c.loose[i] != 0 and abs(force) >= AT_BOUND * bound and bound > 0.0:
+            moves = True
+        c.forces[i] = force
+        c.signs[i] = 0.0
+        if moves:
+            c.signs[i] = sign_of(box.left[r] if force == 0.0 or c.pushes[i] != 0 else force)
+        c.taken[i] = 0
+    return SAME
+
+
+@exact(_N(CHOICE, _A))
+def write_modes(c: Any, w: Any) -> int:
+    """Write the chosen modes; return `OTHERS` where they differ from those before, else `SAME`."""
+    code = SAME
+    for i in range(MODE_NUMBERS * c.count):
+        if w[c.first + i] != c.after[i]:
+            code = OTHERS
+        w[c.first + i] = c.after[i]
+    return code
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
+def choose_modes(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Choose the modes of a state whose rows have been read; return `SAME`, `OTHERS`, or why there are none."""
+    n = find_rest(c, w)
+    if n > 0:
+        if probe(t, c, y, p, w, iw, control) != SAME:
+            return NOT_FINITE
+        if solve_rest(c, n, w) != SAME:
+            return NO_FORCES
+    code = hold_rows(c, w)
+    for i in range(c.count):
+        c.shut[i] = 0
+    add_forces(c)
+    return int(write_modes(c, w)) if code == SAME else int(code)
+
+
+@exact()
+def add_forces(c: Any) -> None:
+    """Add the forces at rest and their bounds to the sizes of forces."""
+    for i in range(c.count):
+        c.scale[i] += abs(c.forces[i]) + c.static[i]
+
+
+@exact(_N(CHOICE, _A, _A))
+def measure_margins(c: Any, w: Any, hunt: Any) -> int:
+    """Set the sizes that the rounding of margins is relative to; return their number."""
+    n, at, found = int(hunt[COUNT]), N_HEAD, 0
+    for k in range(n):
+        kind, i = int(hunt[at + MARGIN * n + k]), int(hunt[at + ROW * n + k])
+        size, pace = 1.0, math.inf
+        rests = is_held(c, w, i)
+        if kind == FORCE:
+            size = c.scale[i]
+        elif kind == GAP:
+            size, pace = row_scale(c, w, i, abi.LENGTH), STILL * row_scale(c, w, i, abi.SPEED)
+        elif kind == RATE:
+            size = math.inf if rests else row_scale(c, w, i, abi.SPEED)
+        hunt[at + MEASURE * n + k], hunt[at + PACE * n + k] = size, pace
+        found += 1 if kind != 0 else 0
+    return found
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A))
+def follow_modes(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
+    """Evaluate the geometry in new modes, and choose which redundant rows are left out; return 1 where others are.
+
+    Rows of too large mechanisms stay the same.
+    """
+    layout, m = c.layout, c.layout.m
+    c.geometry(t, y, p, w)
+    if c.room.shape[0] == 0:
+        return 0
+    off, changed = 0, 0
+    for i in range(m):
+        off += 1 if is_off(layout, i, w) else 0
+    redundant = m - off - farthest(layout, layout.nv, m, SKIP, 1, w, c.room)
+    for i in range(m):
+        c.w[i] = w[layout.mask + i]
+        w[layout.mask + i] = 0.0
+    if redundant > 0:
+        choose_rows(layout, m - redundant, 1, w, c.room)
+    for i in range(m):
+        changed = changed if c.w[i] == w[layout.mask + i] else 1
+    if changed != 0:
+        c.geometry(t, y, p, w)
+    return int(changed)
+
+
+def begin_afresh(state: Any) -> None:
+    """Have the scheme begin anew, and passages of singular positions be looked for anew: there are other rows."""
+    gauges, w = state.gauges, state.w
+    sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))
+    gauges[abi.LAST_SINE], gauges[abi.LARGEST_SINE], gauges[abi.LAST_SHORT] = sine, sine, short
+    gauges[abi.FALL], gauges[abi.SHORT_FALL], gauges[abi.CHOSEN] = 0.0, 0.0, 0.0
+    if state.control[abi.BEGUN] == 1:
+        state.control[abi.BEGUN] = abi.ONWARD
+    state.control[abi.KNOWN], state.control[abi.POINTS], state.control[abi.REFUSED] = 0, 0, 0
+    state.clock[abi.ALLOWED] = 0.0
+
+
+_STATE = (_A, _A, _A)
+#: Types of the functions on the arrays of a run.
+KINDS = {
+    **dict.fromkeys(("read_rows", "follow_modes"), types.FunctionType(_N(_F8, CHOICE, *_STATE))),
+    "measure_margins": types.FunctionType(_N(CHOICE, _A, _A)),
+    **dict.fromkeys(("accelerate", "probe", "choose_modes"), types.FunctionType(_N(_F8, CHOICE, *_STATE, _K, _K))),
+}

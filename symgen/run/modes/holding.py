@@ -1,0 +1,188 @@
+"""Rows at rest that are put into force, compiled: independent ones, which carry the forces of all others."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.layout.scales import larger
+from symgen.run.modes.bounded_rows import (
+    AT_BOUND,
+    AT_REST,
+    CHOICE,
+    CONSTANT,
+    DEPENDENT,
+    EFFORT,
+    HELD,
+    LIMIT,
+    NO_ACCELERATION,
+    NO_FACTOR,
+    NOT_DETERMINED,
+    ROUNDED,
+    SAME,
+    SIGN,
+    usual_of,
+)
+from symgen.run.modes.box import independent_set, solve_independent
+
+_A, _N = types.float64[::1], types.int64
+
+#: Rows at rest that are put into force: see `take_rows`.
+PUSHING, WITHIN, ALL = range(3)
+#: Rows of which equal parts are independent, up to this part, hold one coordinate.
+_LEVEL = 1e-6
+
+
+@exact()
+def independence(c: Any, i: int) -> float:
+    """Return the part of a row at rest that rows put into force do not determine."""
+    return float(c.rest_of[i * c.count + i] / c.alone[i]) if c.alone[i] > 0.0 else 0.0
+
+
+@exact()
+def is_followed(c: Any, i: int) -> bool:
+    """Return whether margins read the bound of a row, as it varies; that by a reaction has a limit besides."""
+    return bool(c.varying[i] != 0 and c.pressed[i] == 0)
+
+
+@exact()
+def take_rows(c: Any, n: int, which: int, w: Any) -> None:
+    """Put the most independent rows at rest into force, one after the other.
+
+    `which` is `PUSHING` for one-sided rows that push, `WITHIN` for others whose force is within its bounds, else `ALL`.
+    """
+    k, left = c.count, c.rest_of
+    while True:
+        best, most = -1, 0.0
+        for r in range(n):
+            i = c.rest[r]
+            free = c.taken[i] == 0 and c.signs[i] == 0.0 and not (c.pushes[i] != 0 and c.loose[i] != 0)
+            if which == WITHIN:
+                free = free and (c.pushes[i] != 0 or abs(c.forces[i]) < AT_BOUND * c.static[i])
+            elif which == PUSHING:
+                free = free and c.pushes[i] != 0
+                free = free and -c.forces[i] * c.matrix[i * k + i] > NO_ACCELERATION * usual_of(c, w, i)
+            part = independence(c, i)
+            # of rows with one and two bounds on one coordinate the former carries both: one force with all bounds
+            first = best < 0 or part > (1.0 + _LEVEL) * most or (c.pushes[i] != 0 and part > (1.0 - _LEVEL) * most)
+            if free and part > DEPENDENT and first:
+                best, most = i, part
+        if best < 0:
+            break
+        c.taken[best] = 1
+        pivot = left[best * k + best]
+        for i in range(k):
+            c.trial[i], c.offset[i] = left[i * k + best], left[best * k + i]
+        for i in range(k):
+            for j in range(k):
+                left[i * k + j] -= c.trial[i] * c.offset[j] / pivot
+
+
+@exact(_N(CHOICE, _A))
+def hold_rows(c: Any, w: Any) -> int:
+    """Put independent rows among those at rest into force; set their constants and largest efforts.
+
+    Bounds that vary are no numbers: margins read them, times the largest effort of a row that another one carries.
+
+    Rows that push come first: a coordinate that they keep at rest does not slide. One whose rate only passes zero, at
+    a dead centre, does. Returns `SAME`, or `NOT_DETERMINED`.
+    """
+    k, n, after = c.count, c.at_rest[0], c.after
+    for i in range(k * k):
+        c.rest_of[i] = c.matrix[i]
+    kept = 0
+    for r in range(n):
+        i = c.rest[r]
+        if c.matrix[i * k + i] > DEPENDENT * c.alone[i] or c.signs[i] == 0.0:
+            c.rest[kept] = i
+            kept += 1
+    take_rows(c, kept, PUSHING, w)
+    for r in range(kept):
+        i = c.rest[r]
+        if c.pushes[i] == 0 and c.passing[i] == 0 and independence(c, i) <= DEPENDENT:
+            c.signs[i] = 0.0
+    take_rows(c, kept, WITHIN, w)
+    take_rows(c, kept, ALL, w)
+    count = 0
+    for i in range(k):
+        at = MODE_NUMBERS * i
+        if c.taken[i] != 0:
+            c.box.order[count] = i
+            count += 1
+            after[at + HELD] = 1.0
+            after[at + CONSTANT] = c.before[at + CONSTANT] if c.before[at + HELD] != 0.0 else c.value[i]
+            after[at + LIMIT] = 0.0 if c.pushes[i] != 0 or is_followed(c, i) else c.static[i]
+    for r in range(kept):
+        i = c.rest[r]
+        other = c.taken[i] == 0 and c.signs[i] == 0.0 and c.matrix[i * k + i] > DEPENDENT * c.alone[i]
+        if other and not (c.pushes[i] != 0 and independence(c, i) > DEPENDENT):
+            if share_force(c, i, count) != SAME:
+                return NOT_DETERMINED
+    for i in range(k):
+        after[MODE_NUMBERS * i + SIGN] = 0.0 if c.pushes[i] != 0 else c.signs[i]
+    return SAME
+
+
+@exact()
+def share_force(c: Any, i: int, count: int) -> int:
+    """Give the effort of a row that rows in force determine to the one that carries it.
+
+    Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all
+    rest, and where one reaches its bound, efforts are shared out anew.
+    """
+    k, box, after = c.count, c.box, c.after
+    a = 0
+    for j in range(k):
+        if c.taken[j] != 0:
+            box.offset[a] = c.matrix[j * k + i]
+            b = 0
+            for other in range(k):
+                if c.taken[other] != 0:
+                    box.matrix[a * count + b] = c.matrix[j * k + other]
+                    b += 1
+            a += 1
+    for j in range(count):
+        box.order[j] = j
+    rank, most = independent_set(count, count, box), 0.0
+    for j in range(rank):
+        box.right[j] = box.offset[box.order[j]]
+    solve_independent(count, rank, box)
+    for j in range(count):
+        box.left[j] = 0.0
+    for j in range(rank):
+        box.left[box.order[j]] = box.right[j]
+        most = larger(most, abs(box.right[j]))
+    owners, owner, a, factor = 0, -1, 0, 0.0
+    c.named[0] = i
+    for j in range(k):
+        if c.taken[j] != 0:
+            if abs(box.left[a]) > NO_FACTOR * most:
+                owners += 1
+                owner, factor = j, abs(box.left[a])
+                c.named[owners] = j
+            a += 1
+    at = MODE_NUMBERS * i
+    if c.pushes[i] != 0:
+        after[at + CONSTANT], after[at + LIMIT] = AT_REST, 1.0
+        return SAME
+    if owners == 1:
+        after[at + CONSTANT] = float(owner + 1)
+        if is_followed(c, i):
+            after[at + LIMIT] = factor
+        else:
+            after[MODE_NUMBERS * owner + LIMIT] += factor * c.static[i]
+        return SAME
+    pressed = c.pressed[i] != 0
+    for j in range(1, owners + 1):
+        pressed = pressed or c.pressed[c.named[j]] != 0
+    if pressed:
+        for j in range(owners + 1, k + 1):
+            c.named[j] = -1
+        return NOT_DETERMINED
+    after[at + CONSTANT], after[at + EFFORT] = AT_REST, c.forces[i]
+    if is_followed(c, i):  # an effort at its bound is not watched at zero, and none is not watched
+        slack = ROUNDED * (c.scale[i] + abs(c.forces[i]) + c.static[i])
+        after[at + LIMIT] = slack if abs(c.forces[i]) > slack else 1.0
+    return SAME

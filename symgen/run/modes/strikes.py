@@ -1,0 +1,359 @@
+"""Impacts at gaps, compiled: one function of the loop language for single runs and rows of sweeps.
+
+See `symgen.run.single.impacts` for the law.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.effects.accumulation import OF_EVENT, PAST, accumulation, add_resets
+from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
+from symgen.run.layout import abi
+from symgen.run.layout.scales import larger
+from symgen.run.layout.start_records import Instant, record_type
+from symgen.run.modes.bounded_rows import (
+    CHOICE,
+    NO_FORCES,
+    NOT_APPLIED,
+    NOT_FINITE,
+    OTHERS,
+    SAME,
+    SIGN,
+    STILL,
+    is_held,
+    is_shut,
+    put_off,
+    row_scale,
+)
+from symgen.run.modes.box import solve_box
+from symgen.run.modes.choice import probe
+
+_F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
+
+#: Impulses below this part of the largest are rounding.
+_NOTHING = 1e-12
+#: Flights up to this part of the mechanism's length are low; an importer loses those whose duration errs by this part.
+_LOW, _LOST = 1e-6, 0.1
+#: Changes of a gap below this part of the mechanism's length are rounding.
+_RESOLVED = 2e-15
+#: Numbers of the series of flights to and fro of a row: their number, the end that followed at the last impact, that of
+#: the last two, the least change of the latter, and the end behind it.
+_COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
+OF_SERIES = 5
+
+#: Impacts of a run, and working memory.
+#: - model, happens, work, past: As in `symgen.run.rows.row_events.OF_EFFECTS`.
+#: - chosen (shape (events,)): 1 for events that happen.
+#: - events, losses, active (shapes (rows,)): Event of each one-sided row, -1 for others; place in the state of the
+#:   energy that it has taken, or -1; 1 for gaps that strike.
+#: - pushing (shape (1,)): Number of rows that push at an impact whose accumulation has not been asked for.
+#: - before (shape (rows,)): Rates of gaps before the latest impact.
+#: - series (shape (OF_SERIES rows,)): See above.
+#: - left (shape (rows,)): Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
+#: - v, impulses, energy: Velocities behind the impact, its impulses and its energy, as in `symgen.run.effects.effects`.
+STRIKES = record_type(
+    "Strikes",
+    __name__,
+    ("model", EFFECT_MODEL),
+    ("happens", abi.OBSERVE),
+    ("work", EFFECT_WORK),
+    ("past", PAST),
+    ("chosen events losses active pushing", _K),
+    ("before series left v impulses energy", _A),
+)
+Strikes: Any = STRIKES.constructor
+
+
+def new_strikes(effects: Any, happens: Any, hits: list[int], losses: list[int], work: Any, past: Any) -> Any:
+    """Return the impacts of a run.
+
+    Parameters
+    ----------
+    effects : Effects
+        Of all events.
+    happens : compiled function
+        Switching functions.
+    hits, losses : list of int
+        See `STRIKES`, for rows with bounds.
+    work, past : EffectWork, Past
+        Working memory of effects, and past resets.
+    """
+    k, layout, events = len(hits), effects.model[0], np.zeros(len(effects.names), dtype=np.int64)
+    integers = (np.array(x, dtype=np.int64) for x in (hits, losses, [0] * k, [0]))
+    sizes = k, OF_SERIES * k, k, layout.nv, len(work.impulse.impulses), 1
+    return Strikes._make((effects.model, happens, work, past, events, *integers, *map(np.zeros, sizes)))
+
+
+@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
+def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+    """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
+    n, strikes = 0, False
+    for i in range(c.dry, c.count):
+        if is_shut(c, w, i):
+            c.rest[n] = i
+            n += 1
+            # the rate of a gap that its mode has closed is what a method leaves of it
+            strikes = strikes or (not is_held(c, w, i) and c.speed[i] < -STILL * row_scale(c, w, i, abi.SPEED))
+    if not strikes:
+        return SAME
+    c.at_rest[0] = n
+    for i in range(c.count):
+        c.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN] if c.pushes[i] == 0 else 0.0
+        c.sliding[i] = 0.0
+    return OTHERS if probe(t, c, y, p, w, iw, control) == SAME else NOT_FINITE
+
+
+@exact()
+def find_active(c: Any, s: Any) -> int:
+    """Find the rows that push at the impact; return their number, -1 where there are no impulses."""
+    k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
+    for r in range(n):
+        i = c.rest[r]
+        rate = c.speed[i]
+        box.offset[r] = rate + c.restitution[i] * (rate if rate < 0.0 else 0.0)
+        box.bounds[r], box.lower[r] = 0.0, -math.inf
+        for q in range(n):
+            box.matrix[r * n + q] = c.matrix[i * k + c.rest[q]]
+    if solve_box(n, box) != 0:
+        return -1
+    for r in range(n):
+        most = larger(most, abs(box.forces[r]))
+    for i in range(k):
+        s.active[i] = 0
+    for r in range(n):
+        if -box.forces[r] > _NOTHING * most:
+            s.active[c.rest[r]] = 1
+            count += 1
+    return count
+
+
+@exact()
+def choose_events(c: Any, s: Any, only_struck: bool) -> None:
+    """Choose the events of rows that push; `only_struck`: of those whose gap becomes smaller before."""
+    for event in range(s.chosen.shape[0]):
+        s.chosen[event] = 0
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0 and not (only_struck and s.before[i] >= 0.0):
+            s.chosen[s.events[i]] = 1
+
+
+@exact()
+def rate_behind(c: Any, s: Any, i: int) -> float:
+    """Return the rate of a gap that restitution leaves."""
+    return float(-c.restitution[i] * (s.before[i] if s.before[i] < 0.0 else 0.0))
+
+
+@exact()
+def lose(c: Any, s: Any, first: bool, y: Any) -> None:
+    """Add what an impact takes to the losses of its rows, by the sums of their rates before and behind it."""
+    place = c.layout.m
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0:
+            rate = rate_behind(c, s, i)
+            rates = s.before[i] + rate if first else rate
+            if s.losses[i] >= 0:
+                y[s.losses[i]] -= 0.5 * (s.work.impulse.impulses[place] * rates)
+            place += 1
+
+
+@exact()
+def follow_series(c: Any, s: Any, t: float, count: int) -> float:
+    """Return the end of the series of flights of the only row that pushes, by all of its impacts; else nan.
+
+    It follows at each impact from the rate and its change. Its errors fall with the square of the duration of a flight,
+    of which the next one takes a part, the restitution; errors by rounding grow as flights become shorter. The time
+    that changes least is taken.
+    """
+    end = math.nan
+    for i in range(c.count):
+        at, e = OF_SERIES * i, c.restitution[i]
+        if s.active[i] == 0 or count != 1:
+            s.series[at + _COUNT] = 0.0
+        elif c.out[i] < 0.0 and e < 1.0:
+            now, part = t + 2.0 * e * (s.before[i] / c.out[i]) / (1.0 - e), e * e
+            before = s.series[at + _COUNT]
+            if before > 0.0:
+                better = (now - part * s.series[at + _LAST]) / (1.0 - part)
+                change = abs(better - s.series[at + _BETTER])
+                if before > 1.0 and (before == 2.0 or change < s.series[at + _LEAST]):
+                    s.series[at + _LEAST], s.series[at + _BEST] = change, better
+                s.series[at + _BETTER] = better
+            s.series[at + _LAST] = now
+            s.series[at + _COUNT] = before + 1.0
+            end = s.series[at + _BEST] if before > 1.0 else now
+    return end
+
+
+@exact()
+def end_of_flights(t: float, c: Any, s: Any) -> float:
+    """Return the end of the series of flights that `follow_series` has followed up to now; without any, the time."""
+    for i in range(c.count):
+        at = OF_SERIES * i
+        if s.active[i] != 0 and s.series[at + _COUNT] > 0.0:
+            return float(s.series[at + _BEST] if s.series[at + _COUNT] > 2.0 else s.series[at + _LAST])
+    return t
+
+
+@exact()
+def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
+    """Bring the gaps that push to rest: what is left of their rates is taken by another impact."""
+    choose_events(c, s, False)
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0:
+            now.w[c.first + MODE_NUMBERS * i + SIGN] = 1.0
+    if apply_effects(s.model, t, now, s.chosen, s.work) != APPLIED:
+        return NOT_APPLIED
+    lose(c, s, False, now.y)
+    for i in range(c.dry, c.count):
+        if s.active[i] != 0:
+            now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
+            s.left[i] = larger(end - t, 0.0)
+            if s.before[i] < 0.0:
+                s.past.counts[s.events[i]] = 0
+    for number in range(OF_SERIES * c.count):
+        s.series[number] = 0.0
+    return SAME
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
+def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
+    """Change the velocities by the impact of `find_struck`; all rows with bounds are off behind it.
+
+    Returns `SAME`, `NO_FORCES` where impulses are not found, or `NOT_APPLIED` where joints do not allow the impact.
+    """
+    now, count = Instant(y, p, w), find_active(c, s)
+    for r in range(c.at_rest[0]):
+        c.shut[c.rest[r]] = 1
+    put_off(c, w)
+    for i in range(c.count):
+        s.left[i], s.before[i] = math.nan, c.speed[i]
+    if count < 0:
+        return NO_FORCES
+    choose_events(c, s, False)
+    if apply_effects(s.model, t, now, s.chosen, s.work) != APPLIED:
+        return NOT_APPLIED
+    for j in range(c.layout.nv):
+        s.v[j] = y[c.layout.nq + j]
+    for j in range(s.impulses.shape[0]):
+        s.impulses[j] = s.work.impulse.impulses[j]
+    s.energy[0] = s.work.energy[0]
+    lose(c, s, True, y)
+    choose_events(c, s, True)
+    add_resets(s.past, s.chosen, t)
+    s.pushing[0] = count
+    return SAME
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))
+def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any) -> int:
+    """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen behind it.
+
+    Returns `OTHERS` where velocities have changed, with all rows with bounds off; else `SAME`, or `NOT_APPLIED`.
+    """
+    now, count = Instant(y, p, w), int(s.pushing[0])
+    s.pushing[0] = 0
+    if count == 0:
+        return SAME
+    choose_events(c, s, True)
+    end = accumulation((c.rates, c.confirm, s.happens), t, c.layout.nq, now, iw, hunt, s.chosen, s.past)
+    accelerate_in_force(t, c, now, iw)
+    series = follow_series(c, s, t, count)
+    if not end == end:
+        return SAME
+    put_off(c, w)
+    return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
+def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
+    """Bring the gaps of the latest impact to rest where an importer's tolerance loses their flights.
+
+    A low flight takes twice the rate at its end over the acceleration. Where an importer finds another duration, its
+    errors are as large as the flight, and the next ones, which are lower, would be errors alone: how long they would
+    have lasted follows from those before. `gather` has written the accelerations. Returns as `gather` does.
+    """
+    lost = False
+    for i in range(c.dry, c.count):
+        pull, rate, flight = -c.out[i], -s.before[i], 0.0
+        if s.active[i] != 0 and pull > 0.0 and rate > 0.0:
+            last = OF_EVENT * s.events[i] + s.past.counts[s.events[i]] - 1
+            if s.past.counts[s.events[i]] > 1:
+                flight = s.past.times[last] - s.past.times[last - 1]
+            low = 0.5 * rate * rate <= _LOW * row_scale(c, w, i, abi.LENGTH) * pull
+            lost = lost or (low and flight > 0.0 and abs(flight * pull - 2.0 * rate) > _LOST * 2.0 * rate)
+    if not lost:
+        return SAME
+    put_off(c, w)
+    end = end_of_flights(t, c, s)
+    return OTHERS if come_to_rest(t, c, s, end, Instant(y, p, w)) == SAME else NOT_APPLIED
+
+
+@exact()
+def find_lost(t: float, c: Any, s: Any, w: Any) -> bool:
+    """Find the open gaps that are 0 again on the way up, while their flight is low: an importer has lost it.
+
+    Since the impact a gap has grown by more than its rate times the time, as rates fall in a flight; where less than
+    half of that is left, the height of the flight is below the importer's tolerance.
+    """
+    lost = False
+    for i in range(c.dry, c.count):
+        pull, rate, k = -c.out[i], c.speed[i], s.events[i]
+        s.active[i] = 0
+        if s.past.counts[k] > 0 and not is_held(c, w, i) and pull > 0.0 and rate > 0.0:
+            length = row_scale(c, w, i, abi.LENGTH)
+            risen = rate * (t - s.past.times[OF_EVENT * k + s.past.counts[k] - 1])
+            low = 0.5 * rate * rate <= _LOW * length * pull
+            if low and risen > _RESOLVED * length and c.value[i] < 0.5 * risen:
+                s.active[i], s.before[i], lost = 1, -rate, True
+    return lost
+
+
+@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K))
+def end_lost_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any) -> int:
+    """Bring gaps to rest whose flight an importer has lost, see `find_lost`; rows have been read.
+
+    Returns as `gather` does.
+    """
+    now = Instant(y, p, w)
+    accelerate_in_force(t, c, now, iw)
+    if not find_lost(t, c, s, w):
+        return SAME
+    end = end_of_flights(t, c, s)
+    put_off(c, w)
+    return OTHERS if come_to_rest(t, c, s, end, now) == SAME else NOT_APPLIED
+
+
+@exact()
+def accelerate_in_force(t: float, c: Any, now: Any, iw: Any) -> None:
+    """Write the accelerations of coordinates and gaps in the present modes to ``out``."""
+    for i in range(c.w.shape[0]):
+        c.w[i] = now.w[i]
+    for i in range(c.y.shape[0]):
+        c.y[i] = now.y[i]
+    for i in range(iw.shape[0]):
+        c.iw[i] = iw[i]
+    if c.rates(t, c.y, now.p, c.w, c.iw, c.rate) != 0:
+        c.confirm(t, c.y, now.p, c.w, c.iw, c.rate)
+    c.accelerations(t, c.y, now.p, c.w, c.rate, c.out)
+
+
+@exact(_N(CHOICE, _A))
+def forget_passed(c: Any, w: Any) -> int:
+    """Forget which coordinates an event has found at rest where the impact at its time has set them in motion."""
+    for i in range(c.dry):
+        if abs(c.speed[i]) > STILL * row_scale(c, w, i, abi.SPEED):
+            c.broken[i] = c.stopped[i] = 0
+    return int(c.dry)
+
+
+#: Types of the functions on the arrays of a run.
+KINDS = {"find_struck": types.FunctionType(_N(_F8, CHOICE, _A, _A, _A, _K, _K))}
+STRIKE = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
+GATHER = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))

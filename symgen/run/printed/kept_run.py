@@ -1,0 +1,389 @@
+"""One run that is kept between calls, with its modes, impacts and events, for programs without Python.
+
+The loop is the frame of all runs (`symgen.run.loops.frame`), so that steps, events and modes are those of single runs.
+An output between two steps shortens none of them: what is shown is the state at the time asked for, and the run itself
+may stand at the end of the step behind it. Where a caller changes what is shown, the run goes on from there.
+
+Outputs inside an adaptive step are read from that step, which is kept (`symgen.run.loops.schemes.readable`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from symgen.compile.loopcode.loop_instances import compiled_loop, viewing
+from symgen.compile.native import types
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.records import CHUNK, SPAN, STATE, Span
+from symgen.run.layout.start_records import record_type
+from symgen.run.loops import frame
+from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS
+from symgen.run.loops.frame_parts import ADAPTIVE
+from symgen.run.loops.schemes.readable import forget_step
+from symgen.run.loops.seams import SEAMS, between_seams, due
+from symgen.run.printed.kept_modes import KEPT_MODES, OF_GAPS, OF_ROWS, OF_ROWS_BETWEEN_SEAMS
+from symgen.run.rows import rows
+from symgen.run.rows.row_events import OF_EFFECTS
+from symgen.run.rows.row_results import follow_rows
+from symgen.run.rows.rows import OBSERVERS, begin_choice, begin_run, forget, take_change, take_notes
+
+_F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
+
+#: Results of `advance_run`: the time is reached; an event ends the run; no step, or no modes, lead on.
+REACHED, ENDED, FAILED = range(3)
+#: Places of the time that is shown, and of the time at which a run with adaptive steps is to end [s]; then those of the
+#: code of the end of the run, of the number of the event that ends it, -1 for none, of 1 where the events at which the
+#: run stands have not been met yet, and of 1 where the caller has changed something.
+SHOWN_TIME, END_TIME = range(2)
+END_CODE, ENDING, STANDS, CHANGED = range(4)
+
+#: The output of a call: its time, the state, and the status with modes behind it.
+KEPT_OUTPUT = record_type("KeptOutput", __name__, ("times states status", _A))
+KeptOutput: Any = KEPT_OUTPUT.constructor
+#: What a caller sees and may change, and what ends runs.
+#: - y, clock (shapes (ny,), (1,) or (2,)): State and times [s], see above.
+#: - numbers (shape (4,)): See above.
+#: - ends (shape (events,)): 1 for events that end the run.
+VISIBLE = record_type("Visible", __name__, ("y clock", _A), ("numbers ends", _K))
+Visible: Any = VISIBLE.constructor
+
+
+# -- outputs -----------------------------------------------------------------------------------------------------------
+
+
+def show(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+    """Write the only output: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
+    for i in range(sizes.ny):
+        outputs.states[i] = y[i]
+    for i in range(abi.N_STATUS):
+        outputs.status[i] = w[i]
+    for i in range(abi.N_STATUS, outputs.status.shape[0]):
+        outputs.status[i] = w[abi.WINDING - abi.N_STATUS + i]
+
+
+def read_step(system: Any, scheme: Any, state: Any, outputs: Any) -> int:
+    """Return 0: nothing can be read of a constant step."""
+    return 0
+
+
+def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs: Any) -> int:
+    """Have the run go on from what is shown, where the caller has changed it, or the run stands behind a time [s].
+
+    Returns 1 where the caller has changed the state, else 0.
+    """
+    control, clock, ny, unchanged = state.control, state.clock, visible.y.shape[0], True
+    for i in range(ny):
+        unchanged = unchanged and visible.y[i] == outputs.states[i]
+    same = unchanged and visible.clock[SHOWN_TIME] == outputs.times[0]
+    same = same and until >= (outputs.times[0] if ADAPTIVE else clock[abi.TIME])
+    if control[abi.BEGUN] != 0 and same and visible.numbers[CHANGED] == 0:
+        return 0
+    if ADAPTIVE:
+        forget_step(state.y.shape[0], scheme, state.memory)
+    for i in range(ny):
+        state.y[i] = visible.y[i]
+    if control[abi.BEGUN] == 0 or clock[abi.TIME] != visible.clock[SHOWN_TIME]:
+        for i in range(abi.N_STATUS, outputs.status.shape[0] if control[abi.BEGUN] != 0 else 0):
+            state.w[abi.WINDING - abi.N_STATUS + i] = outputs.status[i]
+        clock[abi.TIME] = clock[abi.ORIGIN] = state.gauges[abi.LAST_TIME] = visible.clock[SHOWN_TIME]
+        control[abi.INDEX] = 0
+    visible.numbers[STANDS], visible.numbers[CHANGED] = 0, 1
+    control[abi.BEGUN] = abi.AFRESH if control[abi.BEGUN] != 0 else 0
+    return 0 if unchanged or control[abi.BEGUN] == 0 else 1
+
+
+def let_go(model: Any, state: Any) -> None:
+    """Do nothing: a run without rows with bounds has none in force."""
+
+
+# -- seams -------------------------------------------------------------------------------------------------------------
+
+
+def begin_at_seams(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where a run without seams begins; return `DONE` or the code of an end."""
+    return int(begin_choice(model, span, state))
+
+
+def return_before_seams(system: Any, state: Any) -> None:
+    """Do nothing: a run without seams has passed none."""
+
+
+@viewing
+def system_of_steps(system: Any) -> Any:
+    """Return the first argument of the loop over steps."""
+    return system
+
+
+@viewing
+def system_between_seams(system: Any) -> Any:
+    """Return the first argument of the loop over steps between two seams."""
+    return system[0]
+
+
+def forget_later_seams(system: Any, state: Any) -> None:
+    """Forget that seams behind the present time have been passed."""
+    _, seams, _, _, _ = system
+    while state.control[abi.PASSED] > 0 and due(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
+        state.control[abi.PASSED] -= 1
+
+
+# -- the run -----------------------------------------------------------------------------------------------------------
+
+
+def assume_step(model: Any, span: Any) -> None:
+    """Do nothing: no modes depend on the step that is assumed before the first one."""
+
+
+def start_run(model: Any, limits: Any, chunk: Any, state: Any, visible: Any) -> int:
+    """Forget the run before: what is shown is the start of another one.
+
+    Parameters
+    ----------
+    model, chunk, state, visible
+        As for `advance_run`.
+    limits : Array
+        As in a `RowChunk`.
+    """
+    begin_run(state, limits)
+    forget(model, state)
+    for i in range(chunk.events.shape[0]):
+        counts = i >= e.HEAD_OF_EVENTS and (i - e.HEAD_OF_EVENTS) % e.OF_EVENT == 0
+        chunk.events[i] = 0.0 if counts else math.nan
+    visible.clock[SHOWN_TIME] = 0.0
+    visible.numbers[END_CODE], visible.numbers[ENDING], visible.numbers[STANDS] = abi.DONE, -1, 0
+    visible.numbers[CHANGED] = 1
+    return 0
+
+
+def steps_until(span: Any, until: float, pause: float, duration: float) -> Any:
+    """Return a span to a time [s], or to a number of steps, of a run that takes a time [s]."""
+    return Span(
+        *(span.step, span.largest, until, span.end, duration, span.rtol, span.atol, span.relative),
+        *(span.safety, span.most, pause, span.turn),
+    )
+
+
+def ending_event(chunk: Any, visible: Any, t: float) -> int:
+    """Return the number of the event that ends the run at a time, -1 for none."""
+    for k in range(visible.ends.shape[0]):
+        at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
+        if visible.ends[k] != 0 and chunk.events[at] > 0.0 and chunk.events[at + 2] == t:
+            return int(k)
+    return -1
+
+
+def meet(model: Any, chunk: Any, state: Any, visible: Any) -> int:
+    """Take the events at which a step has ended; return `MET` to go on, `DONE` where one ends the run."""
+    code = int(take_notes(abi.MET, 0, model, chunk, state))
+    visible.numbers[STANDS] = 0
+    if code == abi.DONE:
+        visible.numbers[ENDING] = ending_event(chunk, visible, state.clock[abi.TIME])
+    return code
+
+
+def go_on(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: Any, visible: Any) -> int:
+    """Make steps up to an output or to the end of a span; return the code of the loop's end, `DONE` at the output."""
+    system, observers = model[0], model[1]
+    control, clock, until = state.control, state.clock, outputs.times[0]
+    code, near = abi.MET, abi.RESOLVED_TIME * abs(until) if ADAPTIVE else abi.SAME_TIME * span.step
+    if visible.numbers[STANDS] != 0:
+        code = meet(model, chunk, state, visible)
+    if code == abi.MET and visible.numbers[CHANGED] != 0:
+        return_before_seams(system, state)
+        code = begin_at_seams(model, span, state) if control[abi.BEGUN] == 0 else begin_choice(model, span, state)
+        code = abi.MET if code == abi.DONE else code
+    visible.numbers[CHANGED] = 0
+    while code < abi.DONE:
+        ahead = 1.0 if until - clock[abi.TIME] > near else 0.0
+        part = steps_until(span, span.until, control[abi.STEPS] + ahead, span.duration)
+        if ADAPTIVE:  # outputs are read from steps that are over
+            control[abi.OUTPUTS] = 1
+        code = integrate(system, scheme, part, state, outputs)
+        if ADAPTIVE:
+            control[abi.OUTPUTS] = read_step(system_of_steps(system), scheme, state, outputs) if code <= abi.DONE else 0
+        if code == abi.CHOOSE:
+            follow_rows(chunk, state, state.w)
+        elif code == abi.CHANGED:
+            code = take_change(model, part, state)
+        elif code == abi.NOTED:
+            take_notes(code, 0, model, chunk, state)
+        elif code == abi.MET and control[abi.OUTPUTS] > 0 and until < clock[abi.TIME] - near:
+            visible.numbers[STANDS] = 1
+        elif code == abi.MET:
+            control[abi.OUTPUTS] = 0  # what is shown is the state behind events
+            code = meet(model, chunk, state, visible)
+        if code < abi.DONE and clock[abi.TIME] >= until - near:
+            code = abi.DONE
+    if code == abi.DONE and control[abi.OUTPUTS] == 0:
+        show(observers[0], state.w, outputs, 0, state.y)
+    return int(code)
+
+
+def advance_run(
+    through: int, model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: Any, visible: Any
+) -> int:
+    """Take a run on to the end of `span`, and show its state there.
+
+    Parameters
+    ----------
+    through : int
+        1 where the run may go on to the end of a step behind that time, as runs with outputs do; 0 where a step ends.
+    model : tuple
+        First argument of the loop, sizes and functions of the model, and behind these `KEPT_MODES` where rows have
+        bounds, else `OF_EFFECTS` where events change a run.
+    scheme : record
+        The scheme.
+    span : Span
+        Steps; its end is the time to reach.
+    chunk : RowChunk
+        The run as a row: the places of its events, and what rows are chosen with.
+    state : State
+        State of the run, with the data of events where it has any.
+    outputs, visible : KeptOutput, Visible
+        What is shown, and what the caller sees and may have changed.
+
+    Returns
+    -------
+    int
+        `REACHED`, `ENDED` or `FAILED`; where a run ends, what is shown is the last state from which it goes on.
+    """
+    observers = model[1]
+    control, clock, numbers, until = state.control, state.clock, visible.numbers, span.until
+    duration = visible.clock[END_TIME] if ADAPTIVE else span.duration
+    behind = max(until, visible.clock[END_TIME]) if ADAPTIVE else math.inf
+    endless = steps_until(span, behind if through != 0 else until, math.inf, duration)
+    if control[abi.BEGUN] == 0:
+        assume_step(model, endless)
+    if return_to_shown(until, scheme, visible, state, outputs) == 1:
+        let_go(model, state)  # what rests need not rest in another state
+    outputs.times[0], control[abi.OUTPUTS], numbers[ENDING] = until, 0, -1
+    code = abi.DONE
+    if not ADAPTIVE or read_step(system_of_steps(model[0]), scheme, state, outputs) == 0:
+        code = go_on(model, scheme, endless, chunk, state, outputs, visible)
+    if not ADAPTIVE and code > abi.DONE and control[abi.OUTPUTS] > 0 and through != 0:
+        # the step behind the output fails: the run goes on up to the output
+        control[abi.OUTPUTS] = 0
+        code = go_on(model, scheme, steps_until(span, until, math.inf, duration), chunk, state, outputs, visible)
+    numbers[END_CODE] = code
+    if code > abi.DONE:
+        take_notes(code, 0, model, chunk, state)
+    ended = code != abi.DONE or numbers[ENDING] >= 0
+    if ended:
+        show(observers[0], state.w, outputs, 0, state.y)
+        outputs.times[0] = clock[abi.TIME]
+    for i in range(visible.y.shape[0]):
+        visible.y[i] = outputs.states[i]
+    visible.clock[SHOWN_TIME] = outputs.times[0]
+    return FAILED if code != abi.DONE else ENDED if ended else REACHED
+
+
+def integrate(*arguments: Any) -> int:
+    """Mark the place of the loop, which `kept_run` inserts: it is never called."""
+    raise NotImplementedError
+
+
+_loops: dict[Any, KeptLoops] = {}
+_SEAMED = {
+    **{"return_before_seams": forget_later_seams, "system_of_steps": system_between_seams},
+    "integrate": between_seams,
+}
+
+
+class Traits(NamedTuple):
+    """What the runs of a model have.
+
+    Attributes
+    ----------
+    events, effects, modes, pressed, seams : bool
+        Switching functions; events that change a run, or gaps that strike; rows with bounds, and bounds that depend on
+        reactions; formulas that jump or have kinks over time.
+    """
+
+    events: bool
+    effects: bool
+    modes: bool
+    pressed: bool
+    seams: bool
+
+    @property
+    def meanings(self) -> dict[str, Any]:
+        """Meanings of names in this module and in the frame."""
+        meanings = {"store": show, "_MAX_PASSAGES": 1, "integrate": frame.integrate}
+        if self.events:
+            meanings |= MEANINGS | rows.EVENTS
+        if self.modes:
+            meanings |= OF_ROWS | (rows.STRIKING | OF_GAPS if self.effects else {})
+            meanings |= (rows.PRESSED if self.pressed else {}) | (OF_ROWS_BETWEEN_SEAMS if self.seams else {})
+        elif self.effects:
+            meanings |= rows.EFFECTS
+        return meanings | (_SEAMED if self.seams else {})
+
+    @property
+    def state(self) -> types.RecordType:
+        """Type of the state of a run."""
+        return EVENT_STATE if self.events else STATE
+
+    @property
+    def further(self) -> tuple[types.RecordType, ...]:
+        """Types of what stands behind the functions of a model."""
+        return (KEPT_MODES,) if self.modes else (OF_EFFECTS,) if self.effects else ()
+
+
+class KeptLoops(NamedTuple):
+    """Compiled functions of runs that are kept between calls.
+
+    Attributes
+    ----------
+    start, advance : compiled functions
+        `start_run` and `advance_run`.
+    steps : compiled loop or None
+        The loop between two seams, where a run has any: `advance` calls it by its address.
+    """
+
+    start: Any
+    advance: Any
+    steps: Any
+
+
+def kept_run(loop: Any, traits: Traits) -> KeptLoops:
+    """Return the functions around the loop of a scheme, made at the first use.
+
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.run.loops.frame.loop`; one with adaptive steps is that of `symgen.run.loops.schemes.readable`.
+    traits : Traits
+        What the run has.
+    """
+    key = loop, traits
+    if key not in _loops:
+        name, meanings, steps, model = recipe_of(loop, traits)
+        scheme, state = frame.RECIPES[loop][0][2], traits.state
+        kinds = CHUNK, state, KEPT_OUTPUT, VISIBLE
+        start = types.int64(model, _A, CHUNK, state, VISIBLE)
+        advance = types.int64(types.int64, model, scheme, SPAN, *kinds)
+        _loops[key] = KeptLoops(
+            compiled_loop(__name__, f"{name}_start", start_run, start, **meanings),
+            compiled_loop(__name__, f"{name}_advance", advance_run, advance, **meanings),
+            steps,
+        )
+    return _loops[key]
+
+
+def recipe_of(loop: Any, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
+    """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and the model.
+
+    Parameters are those of `kept_run`.
+    """
+    (module, own, scheme, *functions), parts = frame.RECIPES[loop]
+    meanings = {**parts, **traits.meanings}
+    system = types.RecordType((*frame.kinds_of(functions), *((abi.OBSERVE, abi.DECIDE, abi.RHS) * traits.events)))
+    steps, name = None, f"{module.rpartition('.')[2]}_{own}"
+    if traits.seams:
+        signature = types.int64(system, scheme, SPAN, traits.state, KEPT_OUTPUT)
+        steps = compiled_loop(__name__, f"{name}_steps", frame.integrate, signature, **meanings)
+        system = types.RecordType((system, SEAMS, types.FunctionType(signature), e.PREPARE, e.PREPARE))
+    name += "".join(f"_{trait}" for trait, has in traits._asdict().items() if has)
+    return name, meanings, steps, types.RecordType((system, OBSERVERS, *traits.further))
