@@ -54,7 +54,7 @@ OF_SERIES = 5
 #: - events, losses, active (shapes (rows,)): Event of each one-sided row, -1 for others; place in the state of the
 #:   energy that it has taken, or -1; 1 for gaps that strike.
 #: - pushing (shape (1,)): Number of rows that push at an impact whose accumulation has not been asked for.
-#: - before (shape (rows,)): Rates of gaps before the latest impact.
+#: - before, asked (shapes (rows,)): Rates of gaps before the latest impact; those that their events ask for after it.
 #: - series (shape (OF_SERIES rows,)): See above.
 #: - left (shape (rows,)): Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
 #: - v, impulses, energy: Velocities behind the impact, its impulses and its energy, as in `symgen.run.effects.effects`.
@@ -66,7 +66,7 @@ STRIKES = record_type(
     ("work", EFFECT_WORK),
     ("past", PAST),
     ("chosen events losses active pushing", _K),
-    ("before series left v impulses energy", _A),
+    ("before asked series left v impulses energy", _A),
 )
 Strikes: Any = STRIKES.constructor
 
@@ -87,7 +87,7 @@ def new_strikes(effects: Any, happens: Any, hits: list[int], losses: list[int], 
     """
     k, layout, events = len(hits), effects.model[0], np.zeros(len(effects.names), dtype=np.int64)
     integers = (np.array(x, dtype=np.int64) for x in (hits, losses, [0] * k, [0]))
-    sizes = k, OF_SERIES * k, k, layout.nv, len(work.impulse.impulses), 1
+    sizes = k, k, OF_SERIES * k, k, layout.nv, len(work.impulse.impulses), 1
     return Strikes._make((effects.model, happens, work, past, events, *integers, *map(np.zeros, sizes)))
 
 
@@ -116,8 +116,7 @@ def find_active(c: Any, s: Any) -> int:
     k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
     for r in range(n):
         i = c.rest[r]
-        rate = c.speed[i]
-        box.offset[r] = rate + c.restitution[i] * (rate if rate < 0.0 else 0.0)
+        box.offset[r] = c.speed[i] - s.asked[i]
         box.bounds[r], box.lower[r] = 0.0, -math.inf
         for q in range(n):
             box.matrix[r * n + q] = c.matrix[i * k + c.rest[q]]
@@ -145,9 +144,17 @@ def choose_events(c: Any, s: Any, only_struck: bool) -> None:
 
 
 @exact()
-def rate_behind(c: Any, s: Any, i: int) -> float:
-    """Return the rate of a gap that restitution leaves."""
-    return float(-c.restitution[i] * (s.before[i] if s.before[i] < 0.0 else 0.0))
+def ask_rates(t: float, c: Any, s: Any, now: Any) -> None:
+    """Set the rates of gaps after an impact at the present state: the law of impacts is the formula of the event."""
+    _, _, formulas, _, changes = s.model
+    work, count = s.work, changes.owners.shape[0]
+    for i in range(work.scratch.shape[0]):
+        work.scratch[i] = now.w[i]
+    formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
+    for j in range(count):
+        for i in range(c.dry, c.count):
+            if changes.owners[j] == s.events[i]:
+                s.asked[i] = work.out[count + j]
 
 
 @exact()
@@ -156,8 +163,7 @@ def lose(c: Any, s: Any, first: bool, y: Any) -> None:
     place = c.layout.m
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
-            rate = rate_behind(c, s, i)
-            rates = s.before[i] + rate if first else rate
+            rates = s.before[i] + s.asked[i] if first else s.asked[i]
             if s.losses[i] >= 0:
                 y[s.losses[i]] -= 0.5 * (s.work.impulse.impulses[place] * rates)
             place += 1
@@ -168,12 +174,12 @@ def follow_series(c: Any, s: Any, t: float, count: int) -> float:
     """Return the end of the series of flights of the only row that pushes, by all of its impacts; else nan.
 
     It follows at each impact from the rate and its change. Its errors fall with the square of the duration of a flight,
-    of which the next one takes a part, the restitution; errors by rounding grow as flights become shorter. The time
-    that changes least is taken.
+    of which the next one takes a part, the rate after the impact over that before; errors by rounding grow as flights
+    become shorter. The time that changes least is taken.
     """
     end = math.nan
     for i in range(c.count):
-        at, e = OF_SERIES * i, c.restitution[i]
+        at, e = OF_SERIES * i, -s.asked[i] / s.before[i] if s.before[i] < 0.0 else 0.0
         if s.active[i] == 0 or count != 1:
             s.series[at + _COUNT] = 0.0
         elif c.out[i] < 0.0 and e < 1.0:
@@ -228,12 +234,14 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
 
     Returns `SAME`, `NO_FORCES` where impulses are not found, or `NOT_APPLIED` where joints do not allow the impact.
     """
-    now, count = Instant(y, p, w), find_active(c, s)
+    now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
         c.shut[c.rest[r]] = 1
     put_off(c, w)
     for i in range(c.count):
         s.left[i], s.before[i] = math.nan, c.speed[i]
+    ask_rates(t, c, s, now)
+    count = find_active(c, s)
     if count < 0:
         return NO_FORCES
     choose_events(c, s, False)
@@ -311,7 +319,7 @@ def find_lost(t: float, c: Any, s: Any, w: Any) -> bool:
             risen = rate * (t - s.past.times[OF_EVENT * k + s.past.counts[k] - 1])
             low = 0.5 * rate * rate <= _LOW * length * pull
             if low and risen > _RESOLVED * length and c.value[i] < 0.5 * risen:
-                s.active[i], s.before[i], lost = 1, -rate, True
+                s.active[i], s.before[i], s.asked[i], lost = 1, -rate, rate, True
     return lost
 
 
