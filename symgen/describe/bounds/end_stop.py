@@ -137,6 +137,10 @@ class EndStop(GapStop, frozen=True):
         """The effort that takes energy, a formula of outputs."""
         return effort_in_force(self)
 
+    def rebound(self, rate: Expr) -> Expr:
+        """Return the rate of the gap after an impact, the law of impacts: ``-e u`` for a rate u below 0, else 0."""
+        return call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
+
     def closed(self) -> Expr:
         """Return the formula that is 1 where the stop is closed, else 0."""
         held, limit = number_of(self, "held"), number_of(self, "limit")
@@ -147,15 +151,14 @@ class EndStop(GapStop, frozen=True):
 
         The number ``limit`` of a row in force is the bound of the dry friction whose force it carries: before the stop
         opens, that holds it too. The velocity that an impact sets is the rate of the gap: 0 where the sign of the row
-        is not 0, and where impacts do not come to rest, the rate that restitution leaves.
+        is not 0, and where impacts do not come to rest, that of `rebound`.
         """
         held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
         pulling = sum_of_terms(effort_in_force(self), limit, *carried_bounds(self, beside))
         closed, rate = self.closed(), rate_of(self)
         open_gap = call("add", call("mul", call("sub", ONE, closed), self.place[1]), closed)
         pushing = call("add", call("mul", held, pulling), call("sub", ONE, held))
-        rebound = call("mul", call("mul", Number(0.5), self.restitution), call("sub", call("abs", rate), rate))
-        after = call("mul", call("sub", ONE, call("mul", sign, sign)), rebound)
+        after = call("mul", call("sub", ONE, call("mul", sign, sign)), self.rebound(rate))
         return (
             Event(f"{self.name}.{HIT}", open_gap, "falling", MODE, ((rate, after),), "gap 0"),
             Event(f"{self.name}.{LEAVE}", pushing, "falling", MODE, (), "force of a closed stop 0"),

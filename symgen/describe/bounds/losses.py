@@ -1,7 +1,7 @@
 """Energy lost at rows with bounds, as quantities of outputs: ``NAME.dissipated`` [J].
 
 Each is an integral beside the state, which only runs whose outputs read it have. That of a one-sided row is 0 between
-impacts, which add what they take (`symgen.run.single.impacts`).
+impacts, which add what they take (`symgen.run.modes.strikes`).
 """
 
 from __future__ import annotations

@@ -16,9 +16,10 @@ from symgen.describe.drawing.scene import Array
 from symgen.describe.mechanism import Parameter
 from symgen.run.compiling.checked import checked
 from symgen.run.compiling.printed import Printed, PrintedEvents
-from symgen.run.compiling.printed_run import FINDER, WORDS
+from symgen.run.compiling.printed_run import FINDER
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
+from symgen.run.modes.transition_log import OF_LOG
 from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
 from symgen.run.planning.kept_runs import run_with_modes
 from symgen.run.planning.start_lines import (
@@ -28,7 +29,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.printed import kept_modes
+from symgen.run.single.turn_memory import WORDS
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -186,7 +187,7 @@ def modes_data(mechanism: Mechanism, run: PrintedRun) -> dict[str, Any]:
         if name not in ("y", "p", "w", "iw") and np.any(array)
     }
     rows = [row.name for row in mechanism.bounded]
-    return {"rows": rows, "words": list(WORDS), "kept": kept_modes.OF_LOG, "status": abi.N_STATUS, "initial": initial}
+    return {"rows": rows, "words": list(WORDS), "kept": OF_LOG, "status": abi.N_STATUS, "initial": initial}
 
 
 def rates_part(compiled: CompiledModel, start: Start) -> tuple[Live | None, str]:

@@ -9,12 +9,13 @@ import numpy as np
 from symgen.base.errors import InputError
 from symgen.compile.native.c99_words import broken_line, c_number
 from symgen.result.targets._c_reasons import values_of_ends
-from symgen.run.compiling.printed_run import WORDS
 from symgen.run.integrators import INTEGRATORS
 from symgen.run.integrators._tableau import Tableau
 from symgen.run.layout import abi
+from symgen.run.modes.transition_log import OF_LOG
 from symgen.run.planning.outputs import DEFAULT_OUTPUTS
-from symgen.run.printed import kept_modes, kept_run
+from symgen.run.printed import kept_run
+from symgen.run.single.turn_memory import WORDS
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -57,7 +58,7 @@ def values_of_run(mechanism: Mechanism, run: PrintedRun, used: Collection[str], 
     return {
         "bounded": [row.name for row in mechanism.bounded],
         "words": WORDS,
-        "of_log": kept_modes.OF_LOG,
+        "of_log": OF_LOG,
         "functions_of_events": 0 if watched is None else len(watched.names) + len(watched.switches),
         "ending": kept_run.ENDING,
         "changed": kept_run.CHANGED,

@@ -18,7 +18,7 @@ from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.run.compiling.side import compile_side
 from symgen.run.effects.effects import Effect, Effects
 from symgen.run.layout.compiled import CompiledModel
-from symgen.run.loops.run_spec import BoundedRows, Switch, Watched
+from symgen.run.loops.run_spec import BoundedNames, BoundedRows, Switch, Watched
 from symgen.run.single.row_jumps import RowJumps
 
 Array = NDArray[np.float64]
@@ -83,18 +83,29 @@ def bounded_rows(mechanism: Mechanism, compiled: CompiledModel) -> BoundedRows |
     pressed, forces = held_by_reactions(mechanism), list[tuple[str, Expr]]()
     for row in pressed:
         forces += zip((f"{row.name}, reaction {k}" for k in range(2)), (*components(row), ZERO), strict=False)
+    reactions = (
+        compile_side(mechanism, compiled, "reactions", "Reactions at rows with bounds", forces) if pressed else None
+    )
     return BoundedRows(
+        **vars(bounded_names(mechanism)),
+        state=compile_side(mechanism, compiled, "bounded", "Rows with bounds", state),
+        accelerations=compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),
+        reactions=reactions,
+        changes=changes_in_time(mechanism),
+        losses=tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
+        varying=tuple(i for i, row in enumerate(every) if row.changing),
+    )
+
+
+def bounded_names(mechanism: Mechanism) -> BoundedNames:
+    """Return what the rows with bounds of a mechanism are called."""
+    every = mechanism.bounded
+    return BoundedNames(
         tuple(row.name for row in every),
         tuple(row.family.one for row in every),
         tuple(row.family.noun for row in every),
-        len(held),
-        compile_side(mechanism, compiled, "bounded", "Rows with bounds", state),
-        compile_side(mechanism, compiled, "accelerations", "Accelerations along rows with bounds", rates),
-        compile_side(mechanism, compiled, "reactions", "Reactions at rows with bounds", forces) if pressed else None,
+        len(two_sided(mechanism)),
         tuple(i for i, row in enumerate(every) if row.pressed),
-        changes_in_time(mechanism),
-        tuple(None if i is None else compiled.info.own_states.stop + i for i in places_of_losses(mechanism)),
-        tuple(i for i, row in enumerate(every) if row.changing),
     )
 
 

@@ -18,12 +18,11 @@ from symgen.compile.native.binding import Meaning
 from symgen.compile.native.loops import read_loop
 from symgen.compile.native.pieces import Piece
 from symgen.compile.store.jit import RuntimeFunction
-from symgen.describe.bounds import modes
+from symgen.describe.bounds.modes import MODE
 from symgen.describe.parts.events import STOP
 from symgen.run.compiling.checked import checked_function
 from symgen.run.compiling.foresight import Passages
 from symgen.run.compiling.printed import meanings_of
-from symgen.run.compiling.run_memory import effects_of_runs, modes_of_runs, new_transitions
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
@@ -36,12 +35,12 @@ from symgen.run.loops.search_records import COUNT
 from symgen.run.loops.searching import deciding
 from symgen.run.printed.exchanged_run import RESTS, Exchange, exchanged_run
 from symgen.run.printed.foreseen_run import foreseen_run
-from symgen.run.printed.kept_modes import KeptModes
 from symgen.run.printed.kept_reset import kept_reset
 from symgen.run.printed.kept_run import KeptLoops, KeptOutput, Traits, Visible, kept_run
 from symgen.run.rows.rows import observe_no_coordinate
 from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_state, span_of
+from symgen.run.single.turn_memory import effects_of_runs, modes_of_runs
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
@@ -62,15 +61,13 @@ SWITCHING, ROWS, ACCELERATIONS, REACTIONS, CHANGED, PASSAGES = (
 _NOTES = 8
 #: Name of the search for events inside a step, the same for all models.
 FINDER = "find_events"
-#: Words of transitions, by the numbers of `symgen.run.printed.kept_modes`.
-WORDS = (modes.SLIP, modes.STICK, modes.REVERSE, modes.HIT, modes.REST, modes.LEAVE)
 #: Arrays that never change: of records with these names, and fields of others, by the name of the record.
 _TABLES = frozenset(("layout", "changes", "scheme"))
 _CONSTANT = {
     "choice": frozenset(("angular", "place_of", "pushes", "pressed", "varying")),
     "strikes": frozenset(("events", "losses")),
-    "effects": frozenset(("resets",)),
-    "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves", "resets")),
+    "effects": frozenset(("resets", "stops")),
+    "2": frozenset(("choosing", "breaks", "reverses", "jams", "leaves", "resets", "stops")),
     "visible": frozenset(("ends",)),
     "foresight": frozenset(("slots", "straight", "kinds", "first", "levels", "periods")),
     "seams": frozenset(("head", "changes", "places", "values")),
@@ -286,7 +283,7 @@ class PrintedRun:
         observers = sizes, *rates, compiled.law_module.accept, observe_no_coordinate
         integers, nothing = np.zeros(0, dtype=np.int64), np.zeros(0)
         actions = () if watched is None else watched.actions
-        own = sum(action != modes.MODE for action in actions)  # a row keeps no events of modes, which end no run
+        own = sum(action != MODE for action in actions)  # a row keeps no events of modes, which end no run
         events = np.zeros(e.HEAD_OF_EVENTS + e.OF_EVENT * own)
         arrays = integers, nothing, np.zeros(len(state.p)), nothing, nothing, integers, nothing, nothing, events
         room = np.zeros(room_of_choice(info.m, info.nv))
@@ -312,8 +309,7 @@ class PrintedRun:
         """Return what stands behind the functions of a model: rows with bounds, or effects of events."""
         compiled, watched, rows, width = self.compiled, self.watched, self._rows, self.compiled.info.ny
         if watched is not None and rows is not None:
-            of_rows = modes_of_runs(compiled, watched, rows, span, width, nw)
-            return (KeptModes(*of_rows, new_transitions(len(rows.names))),)
+            return (modes_of_runs(compiled, watched, rows, span, width, nw),)
         if watched is not None and watched.effects is not None:
             return (effects_of_runs(compiled, watched, span.end, width, nw),)
         return ()

@@ -6,15 +6,14 @@ Events change velocities and modes, and known times change inputs. A run that ke
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.directions.moments import Moment
-from symgen.run.effects.effects import Effects, Impact
 from symgen.run.layout import abi
 from symgen.run.single.simulation import Simulation
 
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
     from symgen.run.starts.assembly import Start
 
 Array = NDArray[np.float64]
-Note = Callable[[Sequence[int], Array, Array], None]
 
 
 @dataclass(frozen=True)
@@ -68,26 +66,6 @@ class RunPassage:
     starts: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
-class NotedEffects(Effects):
-    """Effects of events that are noted.
-
-    Attributes
-    ----------
-    note : callable
-        Called behind effects with the numbers of their events, the state before them and the scratch.
-    """
-
-    note: Note
-
-    def apply(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
-        """Change a state by the effects of events at one time; see `Effects.apply`."""
-        before = y.copy()
-        impact = super().apply(numbers, t, y, p, w)
-        self.note(numbers, before, w.copy())
-        return impact
-
-
 class PassingSimulation(Simulation):
     """A run that keeps its passages.
 
@@ -98,19 +76,18 @@ class PassingSimulation(Simulation):
     """
 
     def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
-        self._effects = list[Struck]()
-        watched = spec.events
-        if watched is not None and watched.effects is not None:
-            plain = {f.name: getattr(watched.effects, f.name) for f in fields(Effects)}
-            effects = NotedEffects(**plain, note=self._note)
-            spec = replace(spec, events=replace(watched, effects=effects))
         super().__init__(compiled, integrator, start, spec)
-        if self.transitions is not None:
-            self.transitions.impacts.note = self._note
         self._p = self.state.p.copy()
 
-    def _note(self, numbers: Sequence[int], y: Array, w: Array) -> None:
-        self._effects.append(Struck(tuple(numbers), Moment(self._time, y, self.state.p.copy(), w)))
+    @property
+    def has_modes(self) -> bool:
+        """Whether rows have bounds, so that a run begins in modes."""
+        return self.turn is not None and self.turn.rows is not None
+
+    def _struck(self) -> tuple[Struck, ...]:
+        """Return what events have just changed, in order."""
+        effects = [] if self.turn is None else self.turn.effects_in_order
+        return tuple(Struck(numbers, Moment(self._time, y, self.state.p.copy(), w)) for numbers, y, w in effects)
 
     @property
     def _time(self) -> float:
@@ -124,24 +101,25 @@ class PassingSimulation(Simulation):
         """Take a passage; the run goes on behind it. What is done with it is up to subclasses."""
         raise NotImplementedError
 
-    def _pass(self, numbers: Sequence[int], before: Moment, starts: bool = False) -> None:
-        effects, self._effects = tuple(self._effects), []
+    def _pass(
+        self, numbers: Sequence[int], before: Moment, effects: tuple[Struck, ...] = (), starts: bool = False
+    ) -> None:
         self._p = self.state.p.copy()
         self.passed(RunPassage(tuple(numbers), before, self._moment(), effects, starts))
 
     def _begin_modes(self) -> None:
-        if self.transitions is None or self.state.control[abi.BEGUN] == 1:
+        if not self.has_modes or self.state.control[abi.BEGUN] == 1:
             return
         before = self._moment()._replace(p=self._p)
         starts = bool(self.state.control[abi.BEGUN] == 0 and self.state.control[abi.STEPS] == 0)
         super()._begin_modes()
-        self._pass((), before, starts)
+        self._pass((), before, self._struck(), starts)
 
     def _meet(self, events: Sequence[tuple[int, Happening]]) -> int:
         before, acting = self._moment(), self._acting(events)
         code = super()._meet(events)
         if acting:
-            self._pass(acting, before)
+            self._pass(acting, before, self._struck())
         return code
 
     def _acting(self, events: Sequence[tuple[int, Happening]]) -> list[int]:
@@ -156,5 +134,5 @@ class PassingSimulation(Simulation):
         before = self._moment()._replace(p=self._p)
         if not super()._go_on_changed():
             return False
-        self._pass((), before)
+        self._pass((), before, self._struck() if self.has_modes else ())
         return True

@@ -82,7 +82,7 @@ class StepsAgain(PassingSimulation):
         self._p, self._until = state.p.copy(), until
         self.slopes, self._modes[:], self._later[:] = self._seeds.y.copy(), 0.0, 0.0
         self._begin()
-        if self.transitions is not None:
+        if self.has_modes:
             here = self._moment()
             self.passed(RunPassage((), here, here, starts=True))
         while self.is_ahead(until) and code in _ENDS:

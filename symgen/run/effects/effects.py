@@ -149,7 +149,7 @@ class Effects:
         except (ArithmeticError, ValueError):  # where nothing is compiled
             code = NO_VELOCITIES
         if code == NO_VALUES:
-            raise self._no_values(numbers, chosen, work, t)
+            raise self.no_values(numbers, chosen, work, t)
         if code == NO_VELOCITIES:
             raise self.no_velocities(numbers, work, before, t)
         return self.impact(numbers, y[info.nq : info.work], work.impulse.impulses, float(work.energy[0]))
@@ -167,7 +167,7 @@ class Effects:
         names = " and ".join(f"'{self.names[n]}'" for n in numbers)
         return f"event{'s' * (len(numbers) > 1)} {names}: reset"
 
-    def _no_values(self, numbers: Sequence[int], chosen: NDArray[np.int64], work: Any, t: float) -> InputError:
+    def no_values(self, numbers: Sequence[int], chosen: NDArray[np.int64], work: Any, t: float) -> InputError:
         """Return the error on values of states that are not finite, or that differ for one state."""
         writes = [(n, name) for n, effect in self.effects.items() for name in effect.writes]
         values = work.out[2 * len(self.changes.owners) :]

@@ -60,11 +60,14 @@ IMPOSSIBLE = 50
 #: Code of a run at a state at which modes of bounded rows are not determined.
 NO_MODES = 51
 
-# -- after that row, if the run has events -----------------------------------------------------------------------------
+# -- after that row, if the run has events or modes --------------------------------------------------------------------
 #: First the time at which they accumulate, the accumulating ones (a sum of powers of 2), and the one that is impossible
 #: or undefined.
 ACCUMULATION, GATHERING, IMPOSSIBLE_EVENT = range(3)
-HEAD_OF_EVENTS = 3
+#: Where modes are not determined: why (`symgen.run.modes.bounded_rows`), the row, or rows as a sum of powers of 2,
+#: and two numbers of the sentence (`symgen.run.modes.refusals`).
+FAILURE, WHICH, FIRST_NUMBER, SECOND_NUMBER = range(3, 7)
+HEAD_OF_EVENTS = 7
 #: Then for each event: its count, first and last time.
 EVENT_COLUMNS = (("count", "1"), ("first", "s"), ("last", "s"))
 OF_EVENT = len(EVENT_COLUMNS)

@@ -81,8 +81,8 @@ class ChangingRows(Protocol):
 
 
 @dataclass(frozen=True)
-class BoundedRows:
-    """Rows whose forces have bounds, two of them first, then one-sided ones (`symgen.run.single.transitions`).
+class BoundedNames:
+    """What rows whose forces have bounds are called, two-sided ones first (`symgen.run.modes.choice`).
 
     Attributes
     ----------
@@ -92,29 +92,42 @@ class BoundedRows:
         What each is, and what all of its family are.
     dry : int
         Number of those with two bounds.
-    state, accelerations : callable
-        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
-        of a motion, of one-sided rows restitutions; second derivatives of coordinates and gaps. Bounds by reactions
-        are over these.
-    reactions : callable or None
-        ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
-    pressed, varying : tuple of int
-        Coordinates whose bounds depend on the reaction of their joint; those whose bounds are formulas of more than
-        parameters.
-    changes : bool
-        Whether anything but the motion and inputs changes over time.
-    losses : tuple of int or None
-        Of each one-sided row, the place in the state of the energy that it has taken; None where no output reads it.
+    pressed : tuple of int
+        Coordinates whose bounds depend on the reaction of their joint.
     """
 
     names: tuple[str, ...]
     kinds: tuple[str, ...]
     nouns: tuple[str, ...]
     dry: int
+    pressed: tuple[int, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoundedRows(BoundedNames):
+    """Rows whose forces have bounds, with their formulas.
+
+    Attributes
+    ----------
+    names, kinds, nouns, dry, pressed
+        See `BoundedNames`.
+    state, accelerations : callable
+        ``(t, y, p, w, rate)`` -> coordinates and gaps, their rates, bounds at rest and bounds at the beginning
+        of a motion, of one-sided rows restitutions; second derivatives of coordinates and gaps. Bounds by reactions
+        are over these.
+    reactions : callable or None
+        ``(t, y, p, w, rate)`` -> components of the reactions of `pressed` coordinates, two each.
+    varying : tuple of int
+        Coordinates whose bounds are formulas of more than parameters.
+    changes : bool
+        Whether anything but the motion and inputs changes over time.
+    losses : tuple of int or None
+        Of each one-sided row, the place in the state of the energy that it has taken; None where no output reads it.
+    """
+
     state: RunFormulas
     accelerations: RunFormulas
     reactions: RunFormulas | None = None
-    pressed: tuple[int, ...] = ()
     changes: bool = True
     losses: tuple[int | None, ...] = ()
     varying: tuple[int, ...] = ()

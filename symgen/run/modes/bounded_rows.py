@@ -51,8 +51,10 @@ SAME, OTHERS, NOT_FINITE, NO_FORCES, NOT_DETERMINED, OUT_OF_RANGE = range(6)
 #: Codes where bounds depend on reactions: efforts that bring about all of their reaction; reactions that redundant
 #: rows leave undetermined; bounds and reactions that never agree; a force shared at rest beside what changes.
 JAMMED, REDUNDANT, DISAGREED, SHARED = range(6, 10)
-#: Code of an impact that the joints do not allow.
-NOT_APPLIED = 10
+#: Codes of impacts: one that the joints do not allow, one whose impulses are not found.
+NOT_APPLIED, NO_IMPULSES = 10, 11
+#: What is out of range: a gap, a restitution, a bound in motion that is 0 beside one at rest, other bounds.
+NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 
 #: The rows with bounds of a run, k of them, and working memory; those with two bounds first.
 #: - reactions: Components of the reactions that bounds depend on, two each.

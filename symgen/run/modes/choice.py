@@ -1,7 +1,12 @@
 """The choice of modes at one state, compiled: rows at rest, their forces, and which of them are put into force.
 
-One function of the loop language for single runs and rows of sweeps, so that both have the same bits. See
-`symgen.run.single.transitions`.
+A coordinate at rest stays so as long as a force within its bounds keeps it; all of these forces follow from the box
+problem (`symgen.run.modes.box`) on accelerations, which are linear in them. Static bounds hold for coordinates that
+come to rest, those in motion for coordinates that have just broken loose; a coordinate that its static bound does not
+hold breaks loose too. Rows at rest that other ones determine stay off: the rows in force carry their part.
+
+A one-sided row is in force where its gap is 0 and stays so, by a force that pushes. Gaps that strike have impacts first
+(`symgen.run.modes.strikes`).
 """
 
 from __future__ import annotations
@@ -16,6 +21,7 @@ from symgen.compile.native import types
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest, is_off
 from symgen.run.layout.scales import entry_of, larger
+from symgen.run.loops.afresh import forget_steps
 from symgen.run.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
@@ -26,8 +32,12 @@ from symgen.run.modes.bounded_rows import (
     HELD,
     LEAST_MASS,
     LIMIT,
+    NEGATIVE_GAP,
     NO_ACCELERATION,
+    NO_BOUND_IN_MOTION,
+    NO_BOUNDS,
     NO_FORCES,
+    NO_RESTITUTION,
     NOT_FINITE,
     OTHERS,
     OUT_OF_RANGE,
@@ -72,6 +82,30 @@ def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
             deep = out[i] < -c.depth[0] * row_scale(c, w, i, abi.LENGTH)
             valid = valid and not (deep and not stays_shut(c, w, i))
     return SAME if valid else OUT_OF_RANGE
+
+
+@exact(_N(CHOICE, _A))
+def find_fault(c: Any, w: Any) -> int:
+    """Return what is out of range at rows that have been read, and name the first such row."""
+    for i in range(c.dry, c.count):
+        if not (c.value[i] >= -c.depth[0] * row_scale(c, w, i, abi.LENGTH) or stays_shut(c, w, i)):
+            c.named[0] = i
+            return NEGATIVE_GAP
+    for i in range(c.dry, c.count):
+        if not (c.restitution[i] >= 0.0 and c.restitution[i] <= 1.0):
+            c.named[0] = i
+            return NO_RESTITUTION
+    for i in range(c.dry):
+        if c.sliding[i] == 0.0 and c.static[i] > 0.0:
+            c.named[0] = i
+            return NO_BOUND_IN_MOTION
+    c.named[0] = 0
+    for i in range(c.dry):
+        static, sliding = c.static[i], c.sliding[i]
+        if not (math.isfinite(static) and math.isfinite(sliding) and sliding >= 0.0 and static >= sliding):
+            c.named[0] = i
+            break
+    return NO_BOUNDS
 
 
 @exact(_N(CHOICE))
@@ -348,7 +382,7 @@ def follow_modes(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
     return int(changed)
 
 
-def begin_afresh(state: Any) -> None:
+def look_anew(state: Any) -> None:
     """Have the scheme begin anew, and passages of singular positions be looked for anew: there are other rows."""
     gauges, w = state.gauges, state.w
     sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))
@@ -356,14 +390,4 @@ def begin_afresh(state: Any) -> None:
     gauges[abi.FALL], gauges[abi.SHORT_FALL], gauges[abi.CHOSEN] = 0.0, 0.0, 0.0
     if state.control[abi.BEGUN] == 1:
         state.control[abi.BEGUN] = abi.ONWARD
-    state.control[abi.KNOWN], state.control[abi.POINTS], state.control[abi.REFUSED] = 0, 0, 0
-    state.clock[abi.ALLOWED] = 0.0
-
-
-_STATE = (_A, _A, _A)
-#: Types of the functions on the arrays of a run.
-KINDS = {
-    **dict.fromkeys(("read_rows", "follow_modes"), types.FunctionType(_N(_F8, CHOICE, *_STATE))),
-    "measure_margins": types.FunctionType(_N(CHOICE, _A, _A)),
-    **dict.fromkeys(("accelerate", "probe", "choose_modes"), types.FunctionType(_N(_F8, CHOICE, *_STATE, _K, _K))),
-}
+    forget_steps(state)

@@ -1,11 +1,15 @@
-"""Impacts at gaps, compiled: one function of the loop language for single runs and rows of sweeps.
+"""Impacts at gaps: Newton's law through all rows of joints, in the metric of M, in one source for all targets.
 
-See `symgen.run.single.impacts` for the law.
+At an impact the rate u of each gap that is 0 satisfies ``u+ >= r(u-)``, where r is the rate that the formula of its
+event asks for, such as ``-e min(u-, 0)`` with a restitution e; its impulse only pushes, and one of both is zero: the
+box problem (`symgen.run.modes.box`) on rates instead of accelerations. A row with two bounds has no impulse. Where
+impacts follow each other ever faster, so that the time until they accumulate counts as zero, the gap is at rest.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,14 +17,15 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
-from symgen.run.effects.accumulation import OF_EVENT, PAST, accumulation, add_resets
-from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
+from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
+from symgen.run.effects.applying import APPLIED, apply_effects
+from symgen.run.effects.resets import KEPT_EFFECT, OF_EFFECTS, new_kept_effect
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
 from symgen.run.layout.start_records import Instant, record_type
 from symgen.run.modes.bounded_rows import (
     CHOICE,
-    NO_FORCES,
+    NO_IMPULSES,
     NOT_APPLIED,
     NOT_FINITE,
     OTHERS,
@@ -49,7 +54,7 @@ _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
 OF_SERIES = 5
 
 #: Impacts of a run, and working memory.
-#: - model, happens, work, past: As in `symgen.run.rows.row_events.OF_EFFECTS`.
+#: - effects: Those of all events.
 #: - chosen (shape (events,)): 1 for events that happen.
 #: - events, losses, active (shapes (rows,)): Event of each one-sided row, -1 for others; place in the state of the
 #:   energy that it has taken, or -1; 1 for gaps that strike.
@@ -57,38 +62,34 @@ OF_SERIES = 5
 #: - before, asked (shapes (rows,)): Rates of gaps before the latest impact; those that their events ask for after it.
 #: - series (shape (OF_SERIES rows,)): See above.
 #: - left (shape (rows,)): Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
-#: - v, impulses, energy: Velocities behind the impact, its impulses and its energy, as in `symgen.run.effects.effects`.
+#: - struck, rested: The latest impact; what has brought gaps to rest where impacts accumulate.
 STRIKES = record_type(
     "Strikes",
     __name__,
-    ("model", EFFECT_MODEL),
-    ("happens", abi.OBSERVE),
-    ("work", EFFECT_WORK),
-    ("past", PAST),
+    ("effects", OF_EFFECTS),
     ("chosen events losses active pushing", _K),
-    ("before asked series left v impulses energy", _A),
+    ("before asked series left", _A),
+    ("struck rested", KEPT_EFFECT),
 )
 Strikes: Any = STRIKES.constructor
 
 
-def new_strikes(effects: Any, happens: Any, hits: list[int], losses: list[int], work: Any, past: Any) -> Any:
+def new_strikes(effects: Any, hits: Sequence[int], losses: Sequence[int], keeps: bool) -> Any:
     """Return the impacts of a run.
 
     Parameters
     ----------
-    effects : Effects
+    effects : OfEffects
         Of all events.
-    happens : compiled function
-        Switching functions.
-    hits, losses : list of int
-        See `STRIKES`, for rows with bounds.
-    work, past : EffectWork, Past
-        Working memory of effects, and past resets.
+    hits, losses : sequence of int
+        Event of the impact of each row with bounds, and place in the state of the energy that it takes; -1 for none.
+    keeps : bool
+        Whether somebody reads the impacts.
     """
-    k, layout, events = len(hits), effects.model[0], np.zeros(len(effects.names), dtype=np.int64)
+    k, events = len(hits), np.zeros(len(effects.chosen), dtype=np.int64)
     integers = (np.array(x, dtype=np.int64) for x in (hits, losses, [0] * k, [0]))
-    sizes = k, k, OF_SERIES * k, k, layout.nv, len(work.impulse.impulses), 1
-    return Strikes._make((effects.model, happens, work, past, events, *integers, *map(np.zeros, sizes)))
+    kept = (new_kept_effect(effects.model[0], effects.work, keeps) for _ in range(2))
+    return Strikes(effects, events, *integers, *map(np.zeros, (k, k, OF_SERIES * k, k)), *kept)
 
 
 @exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
@@ -146,8 +147,8 @@ def choose_events(c: Any, s: Any, only_struck: bool) -> None:
 @exact()
 def ask_rates(t: float, c: Any, s: Any, now: Any) -> None:
     """Set the rates of gaps after an impact at the present state: the law of impacts is the formula of the event."""
-    _, _, formulas, _, changes = s.model
-    work, count = s.work, changes.owners.shape[0]
+    _, _, formulas, _, changes = s.effects.model
+    work, count = s.effects.work, changes.owners.shape[0]
     for i in range(work.scratch.shape[0]):
         work.scratch[i] = now.w[i]
     formulas(t, now.y, now.p, work.scratch, work.rate, work.out)
@@ -165,7 +166,7 @@ def lose(c: Any, s: Any, first: bool, y: Any) -> None:
         if s.active[i] != 0:
             rates = s.before[i] + s.asked[i] if first else s.asked[i]
             if s.losses[i] >= 0:
-                y[s.losses[i]] -= 0.5 * (s.work.impulse.impulses[place] * rates)
+                y[s.losses[i]] -= 0.5 * (s.effects.work.impulse.impulses[place] * rates)
             place += 1
 
 
@@ -214,7 +215,7 @@ def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
     for i in range(c.dry, c.count):
         if s.active[i] != 0:
             now.w[c.first + MODE_NUMBERS * i + SIGN] = 1.0
-    if apply_effects(s.model, t, now, s.chosen, s.work) != APPLIED:
+    if apply_effects(s.effects.model, t, now, s.chosen, s.effects.work) != APPLIED:
         return NOT_APPLIED
     lose(c, s, False, now.y)
     for i in range(c.dry, c.count):
@@ -222,7 +223,7 @@ def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
             now.w[c.first + MODE_NUMBERS * i + SIGN] = 0.0
             s.left[i] = larger(end - t, 0.0)
             if s.before[i] < 0.0:
-                s.past.counts[s.events[i]] = 0
+                s.effects.past.counts[s.events[i]] = 0
     for number in range(OF_SERIES * c.count):
         s.series[number] = 0.0
     return SAME
@@ -232,7 +233,7 @@ def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
 def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     """Change the velocities by the impact of `find_struck`; all rows with bounds are off behind it.
 
-    Returns `SAME`, `NO_FORCES` where impulses are not found, or `NOT_APPLIED` where joints do not allow the impact.
+    Returns `SAME`, `NO_IMPULSES` where none are found, or `NOT_APPLIED` where joints do not allow the impact.
     """
     now = Instant(y, p, w)
     for r in range(c.at_rest[0]):
@@ -243,18 +244,13 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     ask_rates(t, c, s, now)
     count = find_active(c, s)
     if count < 0:
-        return NO_FORCES
+        return NO_IMPULSES
     choose_events(c, s, False)
-    if apply_effects(s.model, t, now, s.chosen, s.work) != APPLIED:
+    if apply_effects(s.effects.model, t, now, s.chosen, s.effects.work) != APPLIED:
         return NOT_APPLIED
-    for j in range(c.layout.nv):
-        s.v[j] = y[c.layout.nq + j]
-    for j in range(s.impulses.shape[0]):
-        s.impulses[j] = s.work.impulse.impulses[j]
-    s.energy[0] = s.work.energy[0]
     lose(c, s, True, y)
     choose_events(c, s, True)
-    add_resets(s.past, s.chosen, t)
+    add_resets(s.effects.past, s.chosen, t)
     s.pushing[0] = count
     return SAME
 
@@ -270,7 +266,8 @@ def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any)
     if count == 0:
         return SAME
     choose_events(c, s, True)
-    end = accumulation((c.rates, c.confirm, s.happens), t, c.layout.nq, now, iw, hunt, s.chosen, s.past)
+    functions = c.rates, c.confirm, s.effects.happens
+    end = accumulation(functions, t, c.layout.nq, now, iw, hunt, s.chosen, s.effects.past)
     accelerate_in_force(t, c, now, iw)
     series = follow_series(c, s, t, count)
     if not end == end:
@@ -291,9 +288,9 @@ def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     for i in range(c.dry, c.count):
         pull, rate, flight = -c.out[i], -s.before[i], 0.0
         if s.active[i] != 0 and pull > 0.0 and rate > 0.0:
-            last = OF_EVENT * s.events[i] + s.past.counts[s.events[i]] - 1
-            if s.past.counts[s.events[i]] > 1:
-                flight = s.past.times[last] - s.past.times[last - 1]
+            last = OF_EVENT * s.events[i] + s.effects.past.counts[s.events[i]] - 1
+            if s.effects.past.counts[s.events[i]] > 1:
+                flight = s.effects.past.times[last] - s.effects.past.times[last - 1]
             low = 0.5 * rate * rate <= _LOW * row_scale(c, w, i, abi.LENGTH) * pull
             lost = lost or (low and flight > 0.0 and abs(flight * pull - 2.0 * rate) > _LOST * 2.0 * rate)
     if not lost:
@@ -314,9 +311,9 @@ def find_lost(t: float, c: Any, s: Any, w: Any) -> bool:
     for i in range(c.dry, c.count):
         pull, rate, k = -c.out[i], c.speed[i], s.events[i]
         s.active[i] = 0
-        if s.past.counts[k] > 0 and not is_held(c, w, i) and pull > 0.0 and rate > 0.0:
+        if s.effects.past.counts[k] > 0 and not is_held(c, w, i) and pull > 0.0 and rate > 0.0:
             length = row_scale(c, w, i, abi.LENGTH)
-            risen = rate * (t - s.past.times[OF_EVENT * k + s.past.counts[k] - 1])
+            risen = rate * (t - s.effects.past.times[OF_EVENT * k + s.effects.past.counts[k] - 1])
             low = 0.5 * rate * rate <= _LOW * length * pull
             if low and risen > _RESOLVED * length and c.value[i] < 0.5 * risen:
                 s.active[i], s.before[i], s.asked[i], lost = 1, -rate, rate, True
@@ -359,9 +356,3 @@ def forget_passed(c: Any, w: Any) -> int:
         if abs(c.speed[i]) > STILL * row_scale(c, w, i, abi.SPEED):
             c.broken[i] = c.stopped[i] = 0
     return int(c.dry)
-
-
-#: Types of the functions on the arrays of a run.
-KINDS = {"find_struck": types.FunctionType(_N(_F8, CHOICE, _A, _A, _A, _K, _K))}
-STRIKE = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
-GATHER = types.FunctionType(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))

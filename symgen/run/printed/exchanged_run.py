@@ -25,8 +25,9 @@ from symgen.run.loops.switching import is_sought, taken_for
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
 from symgen.run.modes.choice import read_rows
 from symgen.run.modes.strikes import end_flights, end_lost_flights
+from symgen.run.modes.turn import rest_gaps
 from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, meet, recipe_of, system_of_steps
-from symgen.run.rows.row_modes import begin_modes, rest_gaps
+from symgen.run.rows.row_events import begin_row_in_modes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
 
@@ -239,7 +240,7 @@ def handle(t: float, system: Any, run: Any, model: Any, span: Any, chunk: Any, s
         return STUCK
     if passed == HAPPENED or numbers[CHANGED] != 0 or lost == OTHERS:
         control[abi.BEGUN] = abi.AFRESH
-        if begin_modes(model, span, state) != abi.DONE:
+        if begin_row_in_modes(model, span, state) != abi.DONE:
             return STUCK
         code = HAPPENED
     return int(code)

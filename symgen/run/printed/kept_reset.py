@@ -26,7 +26,7 @@ def effects_alone(further: Any) -> Any:
 @viewing
 def effects_beside_modes(further: Any) -> Any:
     """Return the effects of events in a run with rows with bounds."""
-    return further.effects
+    return further.strikes.effects
 
 
 def leave_alone(further: Any, w: Any) -> None:

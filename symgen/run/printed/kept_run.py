@@ -23,9 +23,10 @@ from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS
 from symgen.run.loops.frame_parts import ADAPTIVE
 from symgen.run.loops.schemes.readable import forget_step
 from symgen.run.loops.seams import SEAMS, between_seams, due
-from symgen.run.printed.kept_modes import KEPT_MODES, OF_GAPS, OF_ROWS, OF_ROWS_BETWEEN_SEAMS
-from symgen.run.rows import rows
-from symgen.run.rows.row_events import OF_EFFECTS
+from symgen.run.modes import turn
+from symgen.run.modes.bounded_rows import first_step
+from symgen.run.modes.turn import open_rows_of
+from symgen.run.rows import row_events, rows
 from symgen.run.rows.row_results import follow_rows
 from symgen.run.rows.rows import OBSERVERS, begin_choice, begin_run, forget, take_change, take_notes
 
@@ -136,6 +137,16 @@ def assume_step(model: Any, span: Any) -> None:
     """Do nothing: no modes depend on the step that is assumed before the first one."""
 
 
+def assume_first_step(model: Any, span: Any) -> None:
+    """Set the step that laws assume before the first one."""
+    model[2].choice.step[0] = first_step(span)
+
+
+def let_rows_go(model: Any, state: Any) -> None:
+    """Take all rows out of force, and keep which gaps are closed."""
+    open_rows_of(model[2], state)
+
+
 def start_run(model: Any, limits: Any, chunk: Any, state: Any, visible: Any) -> int:
     """Forget the run before: what is shown is the start of another one.
 
@@ -231,8 +242,8 @@ def advance_run(
     through : int
         1 where the run may go on to the end of a step behind that time, as runs with outputs do; 0 where a step ends.
     model : tuple
-        First argument of the loop, sizes and functions of the model, and behind these `KEPT_MODES` where rows have
-        bounds, else `OF_EFFECTS` where events change a run.
+        First argument of the loop, sizes and functions of the model, and behind these `OfModes` where rows have
+        bounds, else `OfEffects` where events change a run.
     scheme : record
         The scheme.
     span : Span
@@ -285,6 +296,11 @@ def integrate(*arguments: Any) -> int:
 
 
 _loops: dict[Any, KeptLoops] = {}
+#: Meanings of names here where rows have bounds, and between seams.
+_OF_ROWS: dict[str, Any] = {"assume_step": assume_first_step, "let_go": let_rows_go}
+_OF_ROWS_BETWEEN_SEAMS: dict[str, Any] = {
+    **{"begin_at_seams": row_events.begin_row_between_seams, "take_change": row_events.choose_after_change}
+}
 _SEAMED = {
     **{"return_before_seams": forget_later_seams, "system_of_steps": system_between_seams},
     "integrate": between_seams,
@@ -314,8 +330,8 @@ class Traits(NamedTuple):
         if self.events:
             meanings |= MEANINGS | rows.EVENTS
         if self.modes:
-            meanings |= OF_ROWS | (rows.STRIKING | OF_GAPS if self.effects else {})
-            meanings |= (rows.PRESSED if self.pressed else {}) | (OF_ROWS_BETWEEN_SEAMS if self.seams else {})
+            meanings |= rows.MODES | _OF_ROWS | (turn.STRIKING if self.effects else {})
+            meanings |= (turn.PRESSED if self.pressed else {}) | (_OF_ROWS_BETWEEN_SEAMS if self.seams else {})
         elif self.effects:
             meanings |= rows.EFFECTS
         return meanings | (_SEAMED if self.seams else {})
@@ -328,7 +344,7 @@ class Traits(NamedTuple):
     @property
     def further(self) -> tuple[types.RecordType, ...]:
         """Types of what stands behind the functions of a model."""
-        return (KEPT_MODES,) if self.modes else (OF_EFFECTS,) if self.effects else ()
+        return (turn.FURTHER["modes" if self.modes else "effects"],) if self.modes or self.effects else ()
 
 
 class KeptLoops(NamedTuple):

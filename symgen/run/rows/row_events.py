@@ -1,4 +1,4 @@
-"""Events in rows of a sweep: their notes become numbers of the row, and their effects are applied, without Python."""
+"""Events in rows of a sweep: what happens there is the turn of all runs, and its notes become numbers of the row."""
 
 from __future__ import annotations
 
@@ -7,32 +7,13 @@ from typing import Any
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import called
-from symgen.compile.native import types
-from symgen.run.effects.accumulation import PAST, accumulation, add_resets, latest_events
-from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
+from symgen.run.effects.resets import first_note, forget_resets
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.start_records import Instant, record_type
 from symgen.run.loops import search_records as records
-from symgen.run.loops.event_loop import notes_at
 from symgen.run.loops.frame_parts import store_behind
-
-_K = types.int64[::1]
-
-#: What events change in runs, and their past.
-#: - model, happens: First argument of `apply_effects`; switching functions.
-#: - resets, chosen (shape (events,)): 1 for events that change a run; working memory.
-#: - work, past: Working memory of effects; past resets of the present run.
-OF_EFFECTS = record_type(
-    "OfEffects",
-    __name__,
-    ("model", EFFECT_MODEL),
-    ("happens", abi.OBSERVE),
-    ("resets chosen", _K),
-    ("work", EFFECT_WORK),
-    ("past", PAST),
-)
-OfEffects: Any = OF_EFFECTS.constructor
+from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
+from symgen.run.modes.turn import begin_modes, forget_modes, open_rows_of, take_resets, take_turn
 
 
 def forget_functions(model: Any, state: Any) -> None:
@@ -47,6 +28,18 @@ def forget_functions(model: Any, state: Any) -> None:
         hunt[records.REACH] = 0.0
 
 
+def forget_past(model: Any, state: Any) -> None:
+    """Clear the data of switching functions, and the past resets of the run before."""
+    forget_functions(model, state)
+    forget_resets(model[2])
+
+
+def forget_past_modes(model: Any, state: Any) -> None:
+    """Clear the data of switching functions, past resets, impacts and transitions of the run before."""
+    forget_functions(model, state)
+    forget_modes(model[2])
+
+
 def numbers_of_row(chunk: Any, state: Any) -> int:
     """Return the count of numbers that a row leaves of events."""
     return int(chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0]))
@@ -57,9 +50,49 @@ def count_of_events(numbers: int) -> int:
     return int(max(0, numbers - e.HEAD_OF_EVENTS) // e.OF_EVENT)
 
 
+# -- what happens ------------------------------------------------------------------------------------------------------
+
+
+def happen(code: int, model: Any, state: Any) -> int:
+    """Return `DONE` where an event ends a run that no event changes, else the code."""
+    hunt, t, stops = state.hunt, state.clock[abi.TIME], False
+    first, size, n = first_note(state), 2 + state.y.shape[0], int(hunt[records.COUNT])
+    for i in range(int(hunt[records.NOTED])):
+        at, k = hunt[first + i * size], int(hunt[first + i * size + 1])
+        leaves = k < n and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE)
+        stops = stops or (at == t and leaves)
+    return int(abi.DONE) if stops and code == abi.MET else code
+
+
+def keep_ends(model: Any, count: int, row: Any) -> None:
+    """Do nothing: events end no run but by their time."""
+
+
+def happen_with_resets(code: int, model: Any, state: Any) -> int:
+    """Do what happens at events that change a run; see `take_resets`."""
+    return int(take_resets(code, model[2], state))
+
+
+def happen_with_modes(code: int, model: Any, state: Any) -> int:
+    """Do what happens at events where rows have bounds; see `take_turn`."""
+    return int(take_turn(code, model[2], state))
+
+
+def keep_ends_of_resets(model: Any, count: int, row: Any) -> None:
+    """Write why events have ended a run to the first numbers of its row."""
+    for i in range(count):
+        row[i] = model[2].ends[i]
+
+
+def keep_ends_of_modes(model: Any, count: int, row: Any) -> None:
+    """Write why events, or modes, have ended a run to the first numbers of its row."""
+    for i in range(count):
+        row[i] = model[2].strikes.effects.ends[i]
+
+
 @called
 def take_notes_of_events(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
-    """Write the events noted by a run to its row; return the end code of the run, `DONE` where an event stops it.
+    """Do what happens at the events noted by a run, and write them to its row.
 
     Parameters
     ----------
@@ -67,84 +100,71 @@ def take_notes_of_events(code: int, r: int, model: Any, chunk: Any, state: Any) 
         End code of its loop, and the row.
     model, chunk, state
         As for `symgen.run.rows.rows.run_rows`.
+
+    Returns
+    -------
+    int
+        End code of the run: `MET` to go on, `DONE` where an event ends it, or another one, see `take_turn`.
     """
-    _, observers = model
-    width = observers[0].width
-    hunt, clock = state.hunt, state.clock
-    n, numbers = int(hunt[records.COUNT]), numbers_of_row(chunk, state)
-    events = count_of_events(numbers)
-    first, row = notes_at(n, width, state.w.shape[0]), part(chunk.events, r * numbers, numbers)
-    ended = code
+    hunt, n, numbers = state.hunt, int(state.hunt[records.COUNT]), numbers_of_row(chunk, state)
+    events, first, size = count_of_events(numbers), first_note(state), 2 + state.y.shape[0]
+    row = part(chunk.events, r * numbers, numbers)
+    ended = happen(code, model, state)
+    keep_ends(model, e.HEAD_OF_EVENTS if numbers > 0 else 0, row)
     for i in range(int(hunt[records.NOTED])):
-        t, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
+        t, k = hunt[first + i * size], int(hunt[first + i * size + 1])
         at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
-        if k >= events:  # a change of a constraint
+        if k >= events:  # a change of a constraint, or of a mode
             continue
         if row[at] == 0.0:
             row[at + 1] = t
         row[at] += 1.0
         row[at + 2] = t
-        if t == clock[abi.TIME] and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE):
-            ended = abi.DONE
     hunt[records.NOTED] = hunt[records.ACCEPTED] = 0.0
     if code == abi.UNDEFINED:
         for k in range(events):
             g = hunt[records.N_HEAD + records.N_COLUMNS * n + k]
             if not g == g and not row[e.IMPOSSIBLE_EVENT] == row[e.IMPOSSIBLE_EVENT]:
                 row[e.IMPOSSIBLE_EVENT] = float(k)
-    return ended
+    return int(ended)
 
 
-def forget_past(model: Any, state: Any) -> None:
-    """Clear the data of switching functions, and the past resets of the run before."""
-    forget_functions(model, state)
-    _, _, effects = model
-    past = effects.past
-    for k in range(past.counts.shape[0]):
-        past.counts[k] = 0
+# -- modes -------------------------------------------------------------------------------------------------------------
 
 
-@called
-def take_effects(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
-    """Write the events noted by a run to its row, and apply their effects; return the end code of the run.
+def begin_row_in_modes(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where a run begins; return `DONE`, or `NO_MODES`."""
+    return int(begin_modes(model[2], state))
 
-    Parameters and end code are those of `take_notes_of_events`; `GATHERED` where events accumulate, `IMPOSSIBLE` where
-    the joints or other effects do not allow an effect.
-    """
-    _, observers, effects = model
-    hunt, clock, control = state.hunt, state.clock, state.control
-    chosen, t, which = effects.chosen, state.clock[abi.TIME], -1
-    n, width = int(hunt[records.COUNT]), observers[0].width
-    first = notes_at(n, width, state.w.shape[0])
-    for k in range(chosen.shape[0]):
-        chosen[k] = 0
-    for i in range(int(hunt[records.NOTED])):
-        at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
-        if code == abi.MET and at == t and k < chosen.shape[0] and effects.resets[k] != 0:
-            chosen[k], which = 1, k
-    numbers = numbers_of_row(chunk, state)
-    row, stops = part(chunk.events, r * numbers, numbers), False
-    for i in range(int(hunt[records.NOTED])):
-        at, k = hunt[first + i * (2 + width)], int(hunt[first + i * (2 + width) + 1])
-        if at == t and k < chosen.shape[0] and effects.resets[k] == 0:
-            stops = stops or hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE)
-    ended = take_notes_of_events(code, r, (model[0], observers), chunk, state)
-    if which < 0:
-        return int(ended)
-    now = Instant(state.y, state.p, state.w)
-    if apply_effects(effects.model, t, now, chosen, effects.work) != APPLIED:
-        row[e.IMPOSSIBLE_EVENT] = float(which)
-        return int(e.IMPOSSIBLE)
-    control[abi.BEGUN], control[abi.KNOWN], control[abi.POINTS], control[abi.REFUSED] = abi.AFRESH, 0, 0, 0
-    clock[abi.ALLOWED] = 0.0
-    if stops:
-        return int(abi.DONE)
-    add_resets(effects.past, chosen, t)
-    functions = observers[1], observers[2], effects.happens
-    end = accumulation(functions, t, observers[0].nq, now, state.iw, hunt, chosen, effects.past)
-    if end == end:
-        row[e.ACCUMULATION], row[e.GATHERING] = end, latest_events(effects.past)
-        return int(abi.GATHERED)
+
+def begin_row_between_seams(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where a run begins, with the values of inputs there; return `DONE` or the code of an end."""
+    system, _, _ = model
+    _, seams, _, prepare, prepare_law = system
+    seams = bare(seams)
+    control, p, changed = state.control, state.p, False
+    while due(seams, control[abi.PASSED]) - state.clock[abi.TIME] <= same(seams, span, state.clock[abi.TIME]):
+        changed = change(seams, control[abi.PASSED], p) or changed
+        if has_gap(seams, control[abi.PASSED]):
+            go_over(seams, control[abi.PASSED], state.clock)
+        control[abi.PASSED] += 1
+    if changed:
+        prepare(p)
+        prepare_law(p)
+        if not is_defined(p):
+            return int(e.IMPOSSIBLE)
+    return begin_row_in_modes(model, span, state)
+
+
+def choose_after_change(model: Any, span: Any, state: Any) -> int:
+    """Choose modes where inputs have changed; return `CHANGED` to go on, or the code of an end."""
+    system, _, modes = model
+    now, seams = state.clock[abi.TIME], bare(system[1])
+    if has_struck(seams, state.control[abi.PASSED] - 1):
+        open_rows_of(modes, state)
+    code = begin_row_in_modes(model, span, state)
+    if code == abi.DONE and span.until - now > same(seams, span, now):
+        code = int(abi.CHANGED)
     return code
 
 
@@ -179,10 +199,9 @@ def waits_for_examination(code: int, model: Any, chunk: Any, state: Any) -> bool
     if control[e.EXAMINATION] == e.HOLDS:
         control[e.EXAMINATION] = e.NOT_EXAMINED
         return False
-    n, width = int(hunt[records.COUNT]), state.y.shape[0]
-    first = notes_at(n, width, state.w.shape[0])
+    n, first, size = int(hunt[records.COUNT]), first_note(state), 2 + state.y.shape[0]
     for i in range(int(hunt[records.NOTED])):
-        k = int(hunt[first + i * (2 + width) + 1])
+        k = int(hunt[first + i * size + 1])
         if hunt[records.N_HEAD + records.ACTION * n + k] == float(records.EXAMINE):
             control[e.EXAMINATION] = e.WAITS
             return True

@@ -16,28 +16,8 @@ from symgen.run.layout import abi
 from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import parameters_at, select_row, with_seams
-from symgen.run.modes.agreement import choose_pressed
-from symgen.run.rows.row_events import (
-    OF_EFFECTS,
-    forget_functions,
-    forget_past,
-    resumed_after_examination,
-    store_after_effects,
-    take_effects,
-    take_notes_of_events,
-    waits_for_examination,
-)
-from symgen.run.rows.row_modes import (
-    OF_MODES,
-    begin_modes,
-    begin_modes_between_seams,
-    choose_after_change,
-    forget_modes,
-    rest_gaps,
-    strike_gaps,
-    take_modes,
-    take_resets,
-)
+from symgen.run.modes import turn
+from symgen.run.rows import row_events
 from symgen.run.rows.row_results import end_run, follow_rows
 
 _F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
@@ -111,7 +91,7 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
     model : tuple
         First argument of the loop over one run; then, for observed values at outputs, sizes and functions
         (`symgen.run.layout.abi`): ``rates`` or ``rhs``, its confirmation, ``accept`` and ``observe``; behind these,
-        where bounded rows have modes, `OF_MODES`, else where events change a run, what they change: `OF_EFFECTS`.
+        where bounded rows have modes, `OfModes`, else where events change a run, what they change: `OfEffects`.
     scheme, span
         As for a single run.
     chunk : Chunk
@@ -208,17 +188,21 @@ def observe_no_coordinate(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any)
 
 #: Sizes of a model, and the functions called at outputs.
 OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-#: Meanings of names here, where rows have events, effects, modes, impacts, and bounds by reactions.
-EVENTS = {"forget": forget_functions, "take_notes": take_notes_of_events}
-EFFECTS = {"forget": forget_past, "take_notes": take_effects, "store_after": store_after_effects}
-MODES = {
-    **{"forget": forget_modes, "begin_choice": begin_modes, "take_notes": take_modes},
-    **{"store_after": store_after_effects},
+#: Meanings of names here, where rows have events, effects, modes, and constraints that may jump.
+EVENTS = {"forget": row_events.forget_functions, "take_notes": row_events.take_notes_of_events}
+EFFECTS = {
+    **{"forget": row_events.forget_past, "happen": row_events.happen_with_resets},
+    **{"keep_ends": row_events.keep_ends_of_resets, "store_after": row_events.store_after_effects},
 }
-STRIKING = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "take_others": take_resets}
-_MODES_BETWEEN_SEAMS = {"begin_choice": begin_modes_between_seams, "take_change": choose_after_change}
-PRESSED = {"choose_modes": choose_pressed}
-_EXAMINED = {"resumed": resumed_after_examination, "waits": waits_for_examination}
+MODES = {
+    **{"forget": row_events.forget_past_modes, "begin_choice": row_events.begin_row_in_modes},
+    **{"happen": row_events.happen_with_modes, "keep_ends": row_events.keep_ends_of_modes},
+    "store_after": row_events.store_after_effects,
+}
+MODES_BETWEEN_SEAMS = {
+    **{"begin_choice": row_events.begin_row_between_seams, "take_change": row_events.choose_after_change}
+}
+_EXAMINED = {"resumed": row_events.resumed_after_examination, "waits": row_events.waits_for_examination}
 SEAMED = {"take_row": take_seams, "hold": hold_between_seams}
 _loops: dict[Any, Any] = {}
 
@@ -249,13 +233,13 @@ def over_rows(
         inner = with_events(loop) if events else loop
         inner = with_seams(inner) if seams else inner
         args = signature_of(inner).arguments
-        further = [OF_MODES] if modes else [OF_EFFECTS] if effects else []
+        further = [turn.FURTHER["modes" if modes else "effects"]] if modes or effects else []
         model = types.RecordType((*args[:1], OBSERVERS, *further))
         signature = types.int64(model, *args[1:2], SPAN, CHUNK, *args[3:4], KEPT_OF_RUN)
         meanings: dict[str, Any] = {**(EVENTS if events else {}), **(EFFECTS if effects else {})}
-        meanings |= (MODES if modes else {}) | (PRESSED if pressed else {})
-        meanings |= STRIKING if effects and modes else {}
-        meanings |= _MODES_BETWEEN_SEAMS if modes and seams else {}
+        meanings |= (MODES if modes else {}) | (turn.PRESSED if pressed else {})
+        meanings |= turn.STRIKING if effects and modes else {}
+        meanings |= MODES_BETWEEN_SEAMS if modes and seams else {}
         meanings |= (SEAMED if seams else {}) | (_EXAMINED if examined else {})
         compiled = compiled_loop(__name__, name, run_rows, signature, integrate=inner, **meanings)
         _loops[key] = globals()[name] = compiled  # it is found by its name, as all loops are

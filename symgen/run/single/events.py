@@ -3,31 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compile.loopcode.exact import compiled_form
 from symgen.describe.bounds.modes import HIT, JAM, LEAVE, REVERSE, SLIP
-from symgen.describe.parts.events import RECORD, RESET, STOP
-from symgen.run.effects.accumulation import accumulation, add_resets, latest_events, new_past
+from symgen.describe.parts.events import RECORD, STOP
 from symgen.run.effects.effects import Impact
 from symgen.run.layout import abi
-from symgen.run.layout.probe import rate_functions
-from symgen.run.layout.start_records import Instant
 from symgen.run.loops import event_loop
 from symgen.run.loops import search_records as searching
-from symgen.run.single.new_state import model_sizes
+from symgen.run.loops.afresh import begin_afresh
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
     from symgen.run.layout.records import Sizes, State
     from symgen.run.loops.run_spec import Watched
     from symgen.run.single.outcome import Outcome
+    from symgen.run.single.turn_of_run import TurnOfRun
 
 Array = NDArray[np.float64]
 
@@ -72,12 +68,6 @@ def margins_of(watched: Watched) -> tuple[list[int], list[int]]:
     found = {f"{name}.{word}": (kind, i) for i, name in enumerate(rows) for word, kind in _MARGINS.items()}
     kinds = [found.get(name, (0, 0)) for name in watched.names]
     return [kind for kind, _ in kinds], [row for _, row in kinds]
-
-
-def forget_steps(state: event_loop.EventState) -> None:
-    """Discard what schemes keep of past steps."""
-    state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
-    state.clock[abi.ALLOWED] = 0.0
 
 
 @dataclass(frozen=True)
@@ -130,28 +120,29 @@ class Events:
         Past events in order of time.
     accumulation : float or None
         Time at which events accumulate [s].
+    turn : TurnOfRun or None
+        What happens at them, where they change the run.
     """
 
     def __init__(self, compiled: CompiledModel, watched: Watched, until: float) -> None:
         self.compiled, self.watched, self.until = compiled, watched, until
         self.happened: list[Happening] = []
         self.accumulation: float | None = None
-        self._jump, self._changes = "", False
+        self.turn: TurnOfRun | None = None
+        self._recent: tuple[str, ...] = ()
+        self._jump, self._changes, self._noted = "", False, 0.0
 
     def forget_after(self, t: float) -> None:
         """Remove later events, as a run continues from an earlier state."""
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
-        if "past" in vars(self):
-            numbers = {name: k for k, name in enumerate(self.watched.names)}
-            self.past.counts[:] = 0
-            for event in self.happened:
-                if event.action == RESET or event.impact is not None:
-                    compiled_form(add_resets)(self.past, self.watched.effects.chosen([numbers[event.name]]), event.t)
+        if self.turn is not None:
+            self.turn.forget_after(self.happened)
 
     def take(self, state: event_loop.EventState) -> list[tuple[int, Happening]]:
         """Store and return the passages noted by a loop since the last call, with numbers of events."""
         names, actions, info = self.watched.names, self.watched.actions, self.compiled.info
+        self._noted = float(state.hunt[searching.NOTED])
         notes = event_loop.taken_notes(state.hunt, len(state.y), len(state.w))
         events = [
             (number, Happening(t, names[number], actions[number], y[: info.work], y[info.own_states]))
@@ -163,7 +154,7 @@ class Events:
         return events
 
     def meet(self, state: event_loop.EventState, events: Sequence[tuple[int, Happening]]) -> int:
-        """Execute the actions of the events at which a loop ended; return `DONE` if it may be entered again.
+        """Do what happens at the events at which a loop ended; return `DONE` if it may be entered again.
 
         Parameters
         ----------
@@ -175,27 +166,24 @@ class Events:
         Raises
         ------
         InputError
-            If the constraints, or other resets at the same time, do not allow the velocities of a reset.
+            If the constraints, or other events at the same time, do not allow what happens.
         """
         now = float(state.clock[abi.TIME])
         if self._changes:  # of formulas of rows
             if self._finds_jump(state):
                 return abi.JUMPED
             if self.watched.adaptive:
-                self.begin_anew(state)
-        here = [(number, event) for number, event in events if event.t == now]
-        resets = [number for number, event in here if event.action == RESET]
-        if resets:
-            self._reset(state, resets)
-        if any(event.action == STOP for _, event in here):
-            return abi.MET
-        self.accumulation = self.end_of_resets(resets, state) if resets else None
-        return abi.DONE if self.accumulation is None else abi.GATHERED
-
-    def begin_anew(self, state: event_loop.EventState) -> None:
-        """Discard what schemes keep of past steps."""
-        state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
-        state.clock[abi.ALLOWED] = 0.0
+                begin_afresh(state)
+        here = [event for _, event in events if event.t == now]
+        if self.turn is None:
+            return abi.MET if any(event.action == STOP for event in here) else abi.DONE
+        state.hunt[searching.NOTED] = self._noted  # the turn reads the notes
+        try:
+            code = self.turn.meet(here)
+        finally:
+            state.hunt[searching.NOTED] = 0.0
+        self.accumulation, self._recent = self.turn.accumulation if code == abi.GATHERED else (None, ())
+        return code
 
     def _finds_jump(self, state: event_loop.EventState) -> bool:
         """Return whether a row jumps or has a kink in the last step, and store the sentence on it."""
@@ -203,63 +191,10 @@ class Events:
         self._jump = "" if rows is None else rows.sentence(self.compiled, state)
         return bool(self._jump)
 
-    # -- resets --------------------------------------------------------------------------------------------------------
-
-    def _reset(self, state: event_loop.EventState, numbers: Sequence[int]) -> None:
-        watched, now = self.watched, float(state.clock[abi.TIME])
-        impact = watched.effects.apply(numbers, now, state.y, state.p, state.w)
-        self.begin_anew(state)
-        names, energy = {watched.names[number] for number in numbers}, impact.energy
-        first = len(self.happened)
-        while first > 0 and self.happened[first - 1].t == now:
-            first -= 1
-        for i, event in enumerate(self.happened[first:], first):
-            if event.action == RESET and event.name in names:
-                self.happened[i] = replace(event, impact=impact, energy=energy)
-                energy = 0.0
-
-    # -- events that accumulate ----------------------------------------------------------------------------------------
-
-    @cached_property
-    def past(self) -> Any:
-        """Past resets, for the search of accumulations."""
-        compiled, watched = self.compiled, self.watched
-        functions = len(watched.names) + len(watched.switches)
-        width, nw = model_sizes(compiled).width, len(compiled.scratch())
-        return new_past(len(watched.names), functions, width, nw, self.until)
-
-    def end_of_resets(self, numbers: Sequence[int], state: event_loop.EventState) -> float | None:
-        """Return the time at which resets by events accumulate [s]; None where they do not.
-
-        Parameters
-        ----------
-        numbers : sequence of int
-            Events that have just changed velocities.
-        state : State
-            State afterwards.
-        """
-        watched, now = self.watched, float(state.clock[abi.TIME])
-        chosen, instant = watched.effects.chosen(numbers), Instant(state.y, state.p, state.w)
-        compiled_form(add_resets)(self.past, chosen, now)
-        functions = *rate_functions(self.compiled.law_module), watched.function
-        with np.errstate(all="ignore"):
-            end = compiled_form(accumulation)(
-                *(functions, now, self.compiled.info.nq, instant, state.iw, state.hunt, chosen, self.past)
-            )
-        if np.isnan(end):
-            return None
-        return float(end)
-
-    @property
-    def recent(self) -> tuple[str, ...]:
-        """Names of the events with the latest resets."""
-        latest = int(compiled_form(latest_events)(self.past))
-        return tuple(name for k, name in enumerate(self.watched.names) if latest >> k & 1)
-
     def reason(self, code: int, state: Any, t: float) -> str:
         """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
         if code == abi.GATHERED:
-            return gathered(self.recent, self.accumulation or t)
+            return gathered(self._recent, self.accumulation or t)
         return undefined(self.watched.names[event_loop.undefined_event(state)], t)
 
     def jump(self, state: Any) -> str:

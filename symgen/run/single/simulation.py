@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from symgen.run.loops.integrator import Integrator
     from symgen.run.loops.run_spec import RunSpec, Seam, Watched
     from symgen.run.single.events import Events, Happening
-    from symgen.run.single.transitions import Transitions
+    from symgen.run.single.turn_of_run import TurnOfRun
     from symgen.run.starts.assembly import Start
 
 Array = NDArray[np.float64]
@@ -78,6 +78,8 @@ class Simulation:
         Counts at the point where the run was continued: zeros for a new run.
     events : Events or None
         Events of the run, where they are looked for.
+    turn : TurnOfRun or None
+        What happens at events and where inputs change, where events change the run or rows have bounds.
     changes : Changes
         Changes of parameters during the run.
     halt : InputError or None
@@ -98,7 +100,7 @@ class Simulation:
         self.halt: InputError | None = None
         state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room, start.datum)
         self.events: Events | None = None
-        self.transitions: Transitions | None = None
+        self.turn: TurnOfRun | None = None
         if spec.events is not None:
             state = event_state(spec.events, self.sizes, state)
             self._watch(spec.events)
@@ -119,12 +121,6 @@ class Simulation:
             self._take_up(start.saved, start.p)
         else:
             self.divide(spec)
-        if spec.events is not None and spec.events.bounded is not None:
-            from symgen.run.single.pressed import PressedTransitions
-            from symgen.run.single.transitions import Transitions
-
-            rows = spec.events.bounded
-            self.transitions = PressedTransitions(self, rows) if rows.pressed else Transitions(self, rows)
         self.changes.keep_first()
 
     def set_limits(self) -> None:
@@ -143,6 +139,10 @@ class Simulation:
         functions = *self.setup.functions, watched.function, decide, rates
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
+        if watched.bounded is not None or watched.effects is not None:
+            from symgen.run.single.turn_of_run import TurnOfRun
+
+            self.turn = self.events.turn = TurnOfRun(self, watched)
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
@@ -318,29 +318,21 @@ class Simulation:
 
     def _begin_modes(self) -> None:
         """Choose modes where the run begins, or something has changed."""
-        if self.transitions is not None:
-            self.transitions.begin()
+        if self.turn is not None:
+            self.turn.begin()
 
     def _meet(self, events: Sequence[tuple[int, Happening]]) -> int:
         """Serve the events at which a loop ended; return `DONE` if it may be entered again."""
         assert self.events is not None, "events were met"
-        now = [event for _, event in events if event.t == self._clock[abi.TIME]]
-        if self.transitions is not None:
-            self.transitions.release(now)
         state: Any = self.state
-        code = self.events.meet(state, events)
-        if self.transitions is not None:
-            self.transitions.meet(now)
-        return code
+        return self.events.meet(state, events)
 
     def _go_on_changed(self) -> bool:
         """Prepare parameters that have changed at a seam, and choose modes; return whether all are defined."""
         if not self.changes.are_defined():
             return False
-        if self.transitions is not None:
-            if self.spec.seams[self.state.control[abi.PASSED] - 2].strikes:
-                self.transitions.take_off()
-            self.transitions.begin()
+        if self.turn is not None:
+            self.turn.begin(self.spec.seams[self.state.control[abi.PASSED] - 2].strikes)
         return True
 
     @cached_property

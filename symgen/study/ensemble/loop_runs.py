@@ -11,20 +11,21 @@ from numpy.typing import NDArray
 
 from symgen.base.ir.program import LANES, lane_bases
 from symgen.compile.loopcode.padding import aligned
-from symgen.run.compiling.run_memory import effects_of_runs, modes_of_runs
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
 from symgen.run.layout.records import Kept, Observed, RowChunk
 from symgen.run.layout.redundancy import room_of_choice
 from symgen.run.layout.start_records import Instant
+from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import preparing, seams_of, with_table
 from symgen.run.loops.searching import decide
 from symgen.run.rows.row_observers import observe_rows_between_seams, observe_rows_left
 from symgen.run.rows.rows import observe_no_coordinate, over_rows
-from symgen.run.single.events import event_state, forget_steps
+from symgen.run.single.events import event_state
 from symgen.run.single.new_state import model_sizes, new_outputs, new_state, span_of
+from symgen.run.single.turn_memory import effects_of_runs, modes_of_runs
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.tree_start import TURNED_OVER, Carried
 
@@ -187,7 +188,7 @@ class LoopRuns:
         assert self.watched is not None and self.watched.rows is not None, "a run waits for it"
         jumps = bool(self.watched.rows.sentence(self.compiled, state))
         if not jumps and self.watched.adaptive:
-            forget_steps(state)
+            begin_afresh(state)
         state.control[e.EXAMINATION] = e.JUMPS if jumps else e.HOLDS
 
     def _series(self) -> Kept:

@@ -139,7 +139,8 @@ class EventPlan:
     @property
     def width(self) -> int:
         """Numbers that each run leaves beside the numbers of every ensemble."""
-        return e.HEAD_OF_EVENTS + e.OF_EVENT * len(self.events) if self.events else 0
+        has_ends = bool(self.events) or bool(self.mechanism.bounded)
+        return e.HEAD_OF_EVENTS + e.OF_EVENT * len(self.events) if has_ends else 0
 
     @property
     def described(self) -> list[Any]:

@@ -25,13 +25,14 @@ from symgen.result.export import netcdf
 from symgen.result.labelled import notebook_table
 from symgen.result.plot import Plot, plotted
 from symgen.result.result import FAILED, OK, UNVERIFIED
+from symgen.run.compiling.events import bounded_names
 from symgen.run.layout.ensemble_abi import ASSEMBLED
 from symgen.study.ensemble.axes import Grid
 from symgen.study.ensemble.lines import table_lines
 from symgen.study.ensemble.names import Names
 from symgen.study.ensemble.row_quantities import NUMBERS, event_columns
 from symgen.study.ensemble.samples import contributions
-from symgen.study.ensemble.verdicts import NOT_RUN, judge_all, summary_column, warnings_all
+from symgen.study.ensemble.verdicts import NOT_RUN, EventNames, judge_all, summary_column, warnings_all
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -95,7 +96,9 @@ class Sweep:
     def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
-        status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
+        rows = None if recipe.watch is None else bounded_names(recipe.tree or recipe.watch.mechanism)
+        named = EventNames(events, rows, recipe.tree is not None)
+        status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, named)
         failed = self.done & (summary_column(self.summary, "start") != ASSEMBLED)
         for row, why in self.ensemble.driving.refusals(self.ensemble, failed):
             reason[row] = why

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.base.ir.numerics import WARN
-from symgen.describe.bounds.keys import nouns
 from symgen.result.judge import JUMP_DOUBT, judge_alone
 from symgen.result.result import FAILED, OK
+from symgen.run.effects.applying import NO_VALUES
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
+from symgen.run.modes.refusals import names_in, refusal
 from symgen.run.single.events import gathered, undefined
 from symgen.run.single.outcome import Ended, RankEvent
 from symgen.run.single.run import end_reason
@@ -22,9 +23,28 @@ from symgen.run.starts.start_words import start_refusal
 if TYPE_CHECKING:
     from symgen.base.vocabulary.infos import LawInfo
     from symgen.run.layout.compiled import ModelInfo
-    from symgen.run.loops.run_spec import RunSpec
+    from symgen.run.loops.run_spec import BoundedNames, RunSpec
 
 Array = NDArray[np.float64]
+
+
+class EventNames(NamedTuple):
+    """Names of what ends runs.
+
+    Attributes
+    ----------
+    events : sequence of str
+        Events that were looked for.
+    bounded : BoundedNames or None
+        Rows with bounds.
+    tree : bool
+        Whether runs are in joint coordinates, whose rows are others.
+    """
+
+    events: Sequence[str]
+    bounded: BoundedNames | None = None
+    tree: bool = False
+
 
 #: Status of a run that has not been done.
 NOT_RUN = "not run"
@@ -38,7 +58,7 @@ def summary_column(summary: Array, name: str) -> Array:
 
 
 def judge_all(
-    summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec, events: Sequence[str] = ()
+    summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec, events: EventNames
 ) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
     """Return status and reason of every run.
 
@@ -52,8 +72,8 @@ def judge_all(
         The model and its law.
     spec : RunSpec
         How.
-    events : sequence of str
-        Names of those that were looked for.
+    events : EventNames
+        Those that were looked for.
 
     Returns
     -------
@@ -73,7 +93,7 @@ def judge_all(
         if summary_column(row, "start") != e.ASSEMBLED:
             status[i], reason[i] = FAILED, str(start_refusal(row, info))
             continue
-        if (why := _of_events(row, events)) is not None:
+        if (why := _of_events(row, events, info)) is not None:
             status[i], reason[i] = FAILED, why
             continue
         verdict = judge_alone(_ended(row, spec), law)
@@ -101,26 +121,26 @@ def warnings_all(summary: Array, done: NDArray[np.bool_], law: LawInfo, spec: Ru
     return warnings
 
 
-def _of_events(row: Array, events: Sequence[str]) -> str | None:
-    """Return why an event, or an input, ended a run as failed, None where none did."""
+def _of_events(row: Array, looked: EventNames, info: ModelInfo) -> str | None:
+    """Return why an event, modes, or an input ended a run as failed, None where none did."""
+    events = looked.events
     code, time, further = int(summary_column(row, "code")), float(summary_column(row, "end")), row[e.N_SUMMARY :]
     if code == abi.GATHERED:
-        names = [name for i, name in enumerate(events) if int(further[e.GATHERING]) >> i & 1]
-        return gathered(names, float(further[e.ACCUMULATION]))
+        return gathered(names_in(float(further[e.GATHERING]), events), float(further[e.ACCUMULATION]))
     if code == abi.UNDEFINED:
         return undefined(events[int(further[e.IMPOSSIBLE_EVENT])], time)
-    if code == e.NO_MODES:
-        got = f"none at t = {time:.6g} s, which a run of this row explains"
-        return f"{nouns('fact')}: expected modes that are determined, got {got}"
+    if code == e.NO_MODES and looked.bounded is not None:
+        failure, which, first, second = (float(x) for x in further[e.FAILURE : e.SECOND_NUMBER + 1])
+        every = [] if looked.tree else [row.name for row in info.rows]
+        return str(refusal(looked.bounded, every, int(failure), which, first, second, time))
     if code != e.IMPOSSIBLE:
         return None
     if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):
         return f"inputs: expected values for which every formula is finite, got others at t = {time:.6g} s"
     name = events[int(further[e.IMPOSSIBLE_EVENT])]
-    return (
-        f"event '{name}': reset: expected velocities that the joints and each other allow, "
-        f"got others at t = {time:.6g} s"
-    )
+    values = further[e.FAILURE] == NO_VALUES
+    expected = "one finite value of each state" if values else "velocities that the joints and each other allow"
+    return f"event '{name}': reset: expected {expected}, got others at t = {time:.6g} s"
 
 
 def _jumped(summary: Array) -> NDArray[np.bool_]:

@@ -5,13 +5,13 @@ from functools import cache
 import msgspec
 import numpy as np
 import pytest
+from support.set_modes import set_modes
 from support.switching import with_switchable
 
 import symgen
 from symgen.base.settings import Settings
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import prepare
-from symgen.run.single.modes import set_modes
 
 RUN = {"method": "lagrange", "integrator": "rk4", "step": 1e-3, "until": 0.2}
 

@@ -40,7 +40,7 @@ def agree(name, coordinates, folder):
     random, w, iw = np.random.default_rng(1), start.w.copy(), np.zeros(16, dtype=np.int64)
     if mechanism.bounded:  # the start of a run chooses their modes
         begun = prepare(mechanism, settings).simulation()
-        begun.transitions.begin()
+        begun.turn.begin()
         w = begun.state.w.copy()
     speed = 1.0 + np.abs(y0[info.nq : info.work]).max()
     rates = corrections = 0.0

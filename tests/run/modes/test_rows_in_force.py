@@ -5,6 +5,7 @@ from functools import cache
 import msgspec
 import numpy as np
 import pytest
+from support.set_modes import set_modes
 from support.switching import with_switchable
 
 import symgen
@@ -16,7 +17,6 @@ from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism
 from symgen.run.layout import abi
 from symgen.run.planning.prepare import Prepared, prepare
-from symgen.run.single.modes import set_modes
 from symgen.run.single.run import outcome_of
 from symgen.run.single.simulation import Simulation
 from symgen.run.starts.assembler import Assembly

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from symgen.compile.loopcode.exact import compiled_form
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest, room_of_choice
 from symgen.run.loops.watch import remember_rank
-from symgen.run.modes.choice import begin_afresh
+from symgen.run.modes.choice import look_anew
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
@@ -56,24 +55,19 @@ def set_modes(simulation: Simulation, modes: Mapping[str, tuple[float, float, fl
     begin_in_modes(simulation)
 
 
-def begin_in_modes(simulation: Simulation, follow: Callable[[float], int] | None = None) -> None:
+def begin_in_modes(simulation: Simulation) -> None:
     """Have a run go on in the modes of its rows; the scheme begins anew, the counts and the balance go on.
 
     Parameters
     ----------
     simulation : Simulation
         A run between two entries of its loop.
-    follow : callable, optional
-        ``follow_modes`` of `symgen.run.modes.choice` at a time.
     """
     compiled, state = simulation.compiled, simulation.state
-    now = float(state.clock[abi.TIME])
-    if follow is None:
-        follow = partial(_follow, compiled, state)
-    if follow(now):
+    if _follow(compiled, state, float(state.clock[abi.TIME])):
         simulation.scheme = simulation.integrator.setup(compiled, simulation.spec, state.w).scheme
     remember_rank(simulation.sizes, state)
-    begin_afresh(state)
+    look_anew(state)
 
 
 def _follow(compiled: CompiledModel, state: Any, now: float) -> bool:

@@ -1,0 +1,195 @@
+"""Resets of runs: events that change a state, in one source for single runs, rows of sweeps, C and FMUs."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.compile.native import types
+from symgen.run.effects.accumulation import PAST, accumulation, add_resets, latest_events
+from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.start_records import Instant, record_type
+from symgen.run.loops import search_records as records
+from symgen.run.loops.afresh import begin_afresh
+from symgen.run.loops.event_loop import notes_at
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from symgen.run.effects.effects import Effects
+
+_A, _K = types.float64[::1], types.int64[::1]
+
+#: What one effect was, for a single run.
+#: - y (shape (ny,)): State before it.
+#: - w (shape (nw,)): Scratch after it.
+#: - v, impulses, energy (shapes (nv,), (m + velocities,), (1,)): Velocities after it, impulses of rows and of
+#:   velocities that were set, and the change of the energy [J], nan where nothing has happened.
+KEPT_EFFECT = record_type("KeptEffect", __name__, ("y w v impulses energy", _A))
+KeptEffect: Any = KEPT_EFFECT.constructor
+
+#: What events change in runs, and their past.
+#: - rates, confirm, happens: Rates of v and multipliers, their confirmation, switching functions.
+#: - model: First argument of `apply_effects`.
+#: - resets, stops, chosen (shape (events,)): 1 for events that change a run; for those that end it; working memory.
+#: - work, past: Working memory of effects; past resets of the present run.
+#: - ends (shape (HEAD_OF_EVENTS,)): Why events end the present run, see `symgen.run.layout.ensemble_abi`.
+#: - kept: The latest reset.
+OF_EFFECTS = record_type(
+    "OfEffects",
+    __name__,
+    ("rates confirm", abi.RHS),
+    ("happens", abi.OBSERVE),
+    ("model", EFFECT_MODEL),
+    ("resets stops chosen", _K),
+    ("work", EFFECT_WORK),
+    ("past", PAST),
+    ("ends", _A),
+    ("kept", KEPT_EFFECT),
+)
+OfEffects: Any = OF_EFFECTS.constructor
+
+
+def new_kept_effect(layout: Any, work: Any, keeps: bool) -> Any:
+    """Return memory for one effect; empty where nobody reads it."""
+    sizes = len(work.state), len(work.scratch), layout.nv, len(work.impulse.impulses), 1
+    return KeptEffect(*(np.full(size if keeps else 0, math.nan) for size in sizes))
+
+
+def new_effects(
+    effects: Effects,
+    functions: tuple[Any, Any, Any],
+    actions: tuple[NDArray[np.int64], NDArray[np.int64]],
+    memory: tuple[Any, Any],
+    keeps: bool,
+) -> Any:
+    """Return the effects of events, as `OF_EFFECTS`.
+
+    Parameters
+    ----------
+    effects : Effects
+        The effects.
+    functions : tuple of function
+        Rates of v and multipliers, their confirmation, switching functions.
+    actions : tuple of Array of int
+        1 for events that change a run, and for those that end it.
+    memory : (EffectWork, Past)
+        Working memory, and past resets.
+    keeps : bool
+        Whether somebody reads the effects.
+    """
+    chosen, kept = np.zeros(len(effects.names), dtype=np.int64), new_kept_effect(effects.model[0], memory[0], keeps)
+    ends = np.full(e.HEAD_OF_EVENTS, math.nan)
+    return OfEffects(*functions, effects.model, *actions, chosen, *memory, ends, kept)
+
+
+def keep_before(kept: Any, y: Any) -> None:
+    """Do nothing: nobody reads the effects of this run."""
+
+
+def keep_after(kept: Any, now: Any, first: int, work: Any) -> None:
+    """Do nothing: nobody reads the effects of this run."""
+
+
+def store_before(kept: Any, y: Any) -> None:
+    """Keep the state before an effect."""
+    for i in range(kept.y.shape[0]):
+        kept.y[i] = y[i]
+
+
+def store_after(kept: Any, now: Any, first: int, work: Any) -> None:
+    """Keep what an effect has changed; `first` is the place of the velocities in the state."""
+    for i in range(kept.w.shape[0]):
+        kept.w[i] = now.w[i]
+    for j in range(kept.v.shape[0]):
+        kept.v[j] = now.y[first + j]
+    for j in range(kept.impulses.shape[0]):
+        kept.impulses[j] = work.impulse.impulses[j]
+    kept.energy[0] = work.energy[0]
+
+
+def first_note(state: Any) -> int:
+    """Return the index of the first note of a run."""
+    return int(notes_at(int(state.hunt[records.COUNT]), state.y.shape[0], state.w.shape[0]))
+
+
+def forget_resets(effects: Any) -> None:
+    """Forget the resets of the run before, and why it ended."""
+    for k in range(effects.past.counts.shape[0]):
+        effects.past.counts[k] = 0
+    for k in range(effects.ends.shape[0]):
+        effects.ends[k] = math.nan
+
+
+def choose_resets(effects: Any, state: Any) -> int:
+    """Choose the events noted at the present time that change a run; return the last one, -1 for none."""
+    hunt, chosen, t, last = state.hunt, effects.chosen, state.clock[abi.TIME], -1
+    first, size = first_note(state), 2 + state.y.shape[0]
+    for k in range(chosen.shape[0]):
+        chosen[k] = 0
+    for i in range(int(hunt[records.NOTED])):
+        at, k = hunt[first + i * size], int(hunt[first + i * size + 1])
+        if at == t and k < chosen.shape[0] and effects.resets[k] != 0:
+            chosen[k], last = 1, k
+    return last
+
+
+def is_stopped(effects: Any, state: Any) -> bool:
+    """Return whether an event noted at the present time ends a run."""
+    hunt, t, stops = state.hunt, state.clock[abi.TIME], False
+    first, size = first_note(state), 2 + state.y.shape[0]
+    for i in range(int(hunt[records.NOTED])):
+        at, k = hunt[first + i * size], int(hunt[first + i * size + 1])
+        stops = stops or (at == t and k < effects.stops.shape[0] and effects.stops[k] != 0)
+    return stops
+
+
+def change_nothing(last: int, effects: Any, state: Any) -> int:
+    """Return `MET` to go on, or `DONE` where an event ends a run that no event changes."""
+    return int(abi.DONE) if is_stopped(effects, state) else int(abi.MET)
+
+
+def apply_resets(last: int, effects: Any, state: Any) -> int:
+    """Apply the chosen resets; return `MET` to go on, or the code of the end of the run.
+
+    Parameters
+    ----------
+    last : int
+        The last chosen event, -1 for none.
+    effects : OfEffects
+        The effects; why a run ends is written to its ``ends``.
+    state : State
+        State of the run.
+
+    Returns
+    -------
+    int
+        `MET`; `DONE` where an event ends the run; `GATHERED` where resets accumulate, or `IMPOSSIBLE` where joints or
+        other effects do not allow one.
+    """
+    if last >= 0:
+        now, t, chosen = Instant(state.y, state.p, state.w), state.clock[abi.TIME], effects.chosen
+        nq = effects.model[0].nq
+        keep_before(effects.kept, state.y)
+        code = apply_effects(effects.model, t, now, chosen, effects.work)
+        if code != APPLIED:
+            effects.ends[e.IMPOSSIBLE_EVENT], effects.ends[e.FAILURE] = float(last), float(code)
+            return int(e.IMPOSSIBLE)
+        keep_after(effects.kept, now, nq, effects.work)
+        begin_afresh(state)
+        if not is_stopped(effects, state):
+            add_resets(effects.past, chosen, t)
+            functions = effects.rates, effects.confirm, effects.happens
+            end = accumulation(functions, t, nq, now, state.iw, state.hunt, chosen, effects.past)
+            if end == end:
+                effects.ends[e.ACCUMULATION], effects.ends[e.GATHERING] = end, latest_events(effects.past)
+                return int(abi.GATHERED)
+    return int(change_nothing(last, effects, state))
+
+
+#: Meanings of names where single runs read the effects.
+KEEPING: dict[str, Any] = {"keep_before": store_before, "keep_after": store_after}

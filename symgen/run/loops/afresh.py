@@ -1,0 +1,20 @@
+"""Schemes that begin afresh: what they keep of past steps is forgotten, from compiled loops and from Python alike."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symgen.run.layout import abi
+
+
+def forget_steps(state: Any) -> None:
+    """Forget what a scheme keeps of past steps: rates, points, refusals and the length that is allowed."""
+    control = state.control
+    control[abi.KNOWN] = control[abi.POINTS] = control[abi.REFUSED] = 0
+    state.clock[abi.ALLOWED] = 0.0
+
+
+def begin_afresh(state: Any) -> None:
+    """Have a scheme begin afresh at its next step, as velocities or inputs have jumped."""
+    state.control[abi.BEGUN] = abi.AFRESH
+    forget_steps(state)

@@ -1,0 +1,141 @@
+"""Why a run has no modes: one table of sentences, for single runs, rows of sweeps, C and FMUs.
+
+A fault is a code of `symgen.run.modes.bounded_rows` with the row, or the rows, at which it is found, and at most two
+numbers. Fields of sentences are names of rows and numbers with their formats, which Python and C write alike.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from symgen.base.errors import InputError
+from symgen.run.modes.bounded_rows import (
+    DISAGREED,
+    JAMMED,
+    NEGATIVE_GAP,
+    NO_BOUND_IN_MOTION,
+    NO_BOUNDS,
+    NO_FORCES,
+    NO_IMPULSES,
+    NO_RESTITUTION,
+    NOT_APPLIED,
+    NOT_DETERMINED,
+    NOT_FINITE,
+    REDUNDANT,
+    SHARED,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from symgen.run.loops.run_spec import BoundedNames
+
+
+class Sentence(NamedTuple):
+    """What is wrong, what was expected, what was found and what to do.
+
+    Fields: ``kind``, ``kinds``, ``name`` of the row at fault; ``names`` of several rows; ``hits`` of their impacts;
+    ``a_kind``, ``all`` of the first row; ``by_reaction``, ``pressed``, what depends on reactions and where; ``gaps``;
+    ``row`` of the mechanism; ``first`` and ``second``, numbers; ``t``, the time [s].
+    """
+
+    where: str
+    expected: str
+    got: str
+    hint: str = ""
+
+
+#: Sentences by their codes.
+SENTENCES = {
+    NEGATIVE_GAP: Sentence(
+        "{kind} {name}", "a gap of at least 0", "{first:.6g} at t = {t:.6g} s", "a start within all {kinds}"
+    ),
+    NO_RESTITUTION: Sentence("{kind} {name}", "a restitution from 0 to 1", "{first:g}"),
+    NO_BOUND_IN_MOTION: Sentence("{kind} of {name}", "a bound in motion above 0, as that at rest is above 0", "0"),
+    NO_BOUNDS: Sentence(
+        "{kind} of {name}",
+        "bounds of at least 0, at rest at least that in motion",
+        "{first:g} at rest and {second:g} in motion",
+    ),
+    NOT_FINITE: Sentence("{a_kind}", "accelerations that are finite", "others at t = {t:.6g} s"),
+    NO_FORCES: Sentence("{a_kind}", "forces at rest that can be found", "none after many changes"),
+    NOT_DETERMINED: Sentence(
+        "{a_kind}",
+        "{all} whose forces at rest are determined, or share one direction of motion",
+        "forces of {names} that rest at one time",
+    ),
+    JAMMED: Sentence(
+        "{by_reaction} of {name}",
+        "{by_reaction} that brings about less than all of its own reaction (a jamming number below 1)",
+        "{first:.12g} at t = {t:.9g} s",
+    ),
+    REDUNDANT: Sentence(
+        "{by_reaction} of {pressed}",
+        "rows that determine all reactions, where {by_reaction} depends on one",
+        "{row}, which other rows determine",
+    ),
+    DISAGREED: Sentence("{by_reaction}", "bounds and reactions that agree", "others at {pressed} after many changes"),
+    SHARED: Sentence(
+        "{by_reaction}",
+        "{by_reaction} by reactions whose forces at rest are determined, or that rests for good",
+        "{names} at rest at one time, beside what changes",
+    ),
+    NO_IMPULSES: Sentence("{gaps}", "impulses that can be found", "none of {names} at t = {t:.6g} s"),
+    NOT_APPLIED: Sentence(
+        "{hits}: reset", "velocities that the joints and each other allow", "others at t = {t:.6g} s"
+    ),
+}
+
+
+def fixed_words(rows: BoundedNames) -> dict[str, str]:
+    """Return the fields that are the same at all faults of a run."""
+    pressed = rows.pressed
+    return {
+        "a_kind": rows.kinds[0],
+        "all": rows.nouns[0],
+        "by_reaction": rows.kinds[pressed[0]] if pressed else "",
+        "pressed": ", ".join(rows.names[i] for i in pressed),
+        "gaps": rows.nouns[rows.dry] if rows.dry < len(rows.names) else "",
+    }
+
+
+def names_in(which: float, names: Sequence[str]) -> list[str]:
+    """Return the names whose powers of 2 are in a sum."""
+    return [name for i, name in enumerate(names) if int(which) >> i & 1]
+
+
+def hits_of(names: Sequence[str]) -> str:
+    """Return the impacts of some rows in words."""
+    return f"event{'s' * (len(names) > 1)} " + " and ".join(f"'{name}.hit'" for name in names)
+
+
+def refusal(
+    rows: BoundedNames, every: Sequence[str], code: int, which: float, first: float, second: float, t: float
+) -> InputError:
+    """Return the error on a state without modes.
+
+    Parameters
+    ----------
+    rows : BoundedNames
+        The rows with bounds of the run.
+    every : sequence of str
+        Names of all rows of the mechanism.
+    code : int
+        The fault.
+    which : float
+        The row; a sum of powers of 2 for several.
+    first, second : float
+        Numbers.
+    t : float
+        Time [s].
+    """
+    sentence, place = SENTENCES[code], int(which) if which >= 0.0 else 0
+    own = place if place < len(rows.names) else 0
+    names = names_in(which, rows.names) if which >= 0.0 else []
+    words = {
+        **fixed_words(rows),
+        **{"kind": rows.kinds[own], "kinds": rows.nouns[own], "name": rows.names[own]},
+        **{"names": ", ".join(names), "hits": hits_of(names)},
+        "row": every[place] if place < len(every) else "a row",
+    }
+    return InputError(*(text.format(**words, first=first, second=second, t=t) for text in sentence))

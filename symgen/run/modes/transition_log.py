@@ -1,0 +1,64 @@
+"""The latest transitions of rows with bounds: what each has done, and when, for whoever asks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.layout.start_records import record_type
+from symgen.run.modes.bounded_rows import CHOICE, SIGN, is_held, stays_shut
+
+_F8, _N, _A, _K = types.float64, types.int64, types.float64[::1], types.int64[::1]
+
+#: What a row with bounds does at a transition: rest ends, rest begins, its rate changes sign, an impact, the row comes
+#: into force, it is off again.
+SLIP, STICK, REVERSE, HIT, REST, LEAVE = range(6)
+#: Transitions that are kept, the latest ones.
+OF_LOG = 64
+
+#: The latest transitions.
+#: - times, rows, words (shapes (length,)): When [s], of which row, and what it does; number k is at k % length.
+#: - count (shape (1,)): Number of transitions of the run so far.
+#: - signs, shut (shapes (rows,)): Signs of rows, and 1 for closed gaps, before the choice.
+TRANSITIONS = record_type("Transitions", __name__, ("times", _A), ("rows words count", _K), ("signs", _A), ("shut", _K))
+Transitions: Any = TRANSITIONS.constructor
+
+
+def new_transitions(rows: int, length: int = OF_LOG) -> Any:
+    """Return memory for the latest transitions of some rows with bounds."""
+    integers = (np.zeros(size, dtype=np.int64) for size in (length, length, 1))
+    return Transitions(np.zeros(length), *integers, np.zeros(rows), np.zeros(rows, dtype=np.int64))
+
+
+@exact(_N(_F8, TRANSITIONS, _N, _N))
+def log_transition(t: float, log: Any, row: int, word: int) -> int:
+    """Add a transition to the latest ones; return the number of transitions."""
+    at = log.count[0] % log.times.shape[0]
+    log.times[at], log.rows[at], log.words[at] = t, row, word
+    log.count[0] += 1
+    return int(log.count[0])
+
+
+@exact(_N(CHOICE, _A, TRANSITIONS))
+def remember_modes(c: Any, w: Any, log: Any) -> int:
+    """Keep what rows do before a choice; return their number."""
+    for i in range(c.count):
+        log.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN]
+        log.shut[i] = 1 if stays_shut(c, w, i) else 0
+    return int(c.count)
+
+
+@exact(_N(_F8, CHOICE, _A, TRANSITIONS))
+def log_changes(t: float, c: Any, w: Any, log: Any) -> int:
+    """Log the rows that a choice has changed; return the number of transitions."""
+    for i in range(c.count):
+        sign, before = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i]
+        if c.pushes[i] == 0 and sign != before:
+            log_transition(t, log, i, SLIP if before == 0.0 else STICK if sign == 0.0 else REVERSE)
+        if c.pushes[i] != 0 and (1 if is_held(c, w, i) else 0) != log.shut[i]:
+            log_transition(t, log, i, LEAVE if log.shut[i] != 0 else REST)
+    return int(log.count[0])

@@ -1,0 +1,316 @@
+"""The turn: what happens where a run begins, at its events and where inputs change, in one source for all targets.
+
+Resets change the state with no row with bounds in force. Rows are read, gaps strike, modes are chosen, and gaps whose
+impacts accumulate come to rest. What has changed is logged, and why a run cannot go on is kept. Single runs, rows of
+sweeps, C, FMUs and pages call these functions; single runs make sentences of the log.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.compile.loopcode.loop_instances import called
+from symgen.compile.native import types
+from symgen.run.effects.resets import (
+    OF_EFFECTS,
+    apply_resets,
+    change_nothing,
+    choose_resets,
+    first_note,
+    forget_resets,
+    keep_after,
+    keep_before,
+)
+from symgen.run.layout import abi
+from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.records import SIZES
+from symgen.run.layout.start_records import Instant, record_type
+from symgen.run.loops import search_records as records
+from symgen.run.loops.afresh import begin_afresh
+from symgen.run.loops.watch import remember_rank
+from symgen.run.modes.agreement import choose_pressed
+from symgen.run.modes.bounded_rows import (
+    CHOICE,
+    DEEP,
+    JAMMED,
+    NEGATIVE_GAP,
+    NO_BOUNDS,
+    NO_IMPULSES,
+    NO_RESTITUTION,
+    NOT_APPLIED,
+    NOT_DETERMINED,
+    OTHERS,
+    OUT_OF_RANGE,
+    SAME,
+    SHARED,
+    TOUCHING,
+    put_off,
+)
+from symgen.run.modes.choice import choose_modes, find_fault, follow_modes, look_anew, measure_margins, read_rows
+from symgen.run.modes.strikes import STRIKES, find_struck, forget_passed, gather, strike
+from symgen.run.modes.transition_log import HIT, TRANSITIONS, log_changes, log_transition, remember_modes
+
+_K = types.int64[::1]
+
+#: Rows with bounds of a run, what its events change, and working memory.
+#: - sizes: See `symgen.run.layout.records`.
+#: - choice, strikes: Modes, and impacts with the effects of all events.
+#: - transitions: The latest ones.
+#: - choosing (shape (events,)): 1 for events at which modes are chosen.
+#: - breaks, reverses, jams, leaves (shapes (events,)): Row that breaks loose, whose rate becomes zero, whose effort
+#:   jams, or whose force becomes zero, at each event; else -1.
+#: - renewed (shape (1,)): 1 where other redundant rows have been left out since somebody looked.
+OF_MODES = record_type(
+    "OfModes",
+    __name__,
+    ("sizes", SIZES),
+    ("choice", CHOICE),
+    ("strikes", STRIKES),
+    ("transitions", TRANSITIONS),
+    ("choosing breaks reverses jams leaves renewed", _K),
+)
+OfModes: Any = OF_MODES.constructor
+
+
+# -- why there are no modes --------------------------------------------------------------------------------------------
+
+
+def set_of(numbers: Any, count: int) -> float:
+    """Return some numbers, up to the first negative one, as a sum of powers of 2."""
+    total = 0.0
+    for j in range(count):
+        if numbers[j] < 0:
+            break
+        power = 1.0
+        for _ in range(numbers[j]):
+            power *= 2.0
+        total += power
+    return total
+
+
+def refuse_fault(code: int, which: float, first: float, second: float, modes: Any) -> int:
+    """Keep why there are no modes, with rows and numbers of the sentence; return `NO_MODES`."""
+    ends = modes.strikes.effects.ends
+    ends[e.FAILURE], ends[e.WHICH], ends[e.FIRST_NUMBER], ends[e.SECOND_NUMBER] = float(code), which, first, second
+    return int(e.NO_MODES)
+
+
+@called
+def refuse(code: int, modes: Any, state: Any) -> int:
+    """Keep why there are no modes, and at which rows; return `NO_MODES`."""
+    c, first, second = modes.choice, math.nan, math.nan
+    code = find_fault(c, state.w) if code == OUT_OF_RANGE else code
+    row = int(c.named[0])
+    which = float(row)
+    if code == JAMMED:
+        first = c.jam[0]
+    elif code == NOT_DETERMINED or code == SHARED:
+        which = set_of(c.named, c.count + 1)
+    elif code == NO_IMPULSES:
+        which = set_of(c.rest, c.at_rest[0])
+    elif code == NOT_APPLIED:
+        which, power = 0.0, 1.0
+        for i in range(c.count):
+            which += power if modes.strikes.active[i] != 0 else 0.0
+            power *= 2.0
+    elif code == NO_RESTITUTION:
+        first = c.restitution[row]
+    elif code == NO_BOUNDS:
+        first, second = c.static[row], c.sliding[row]
+    elif code == NEGATIVE_GAP:
+        first = c.value[row]
+    return refuse_fault(code, which, first, second, modes)
+
+
+# -- impacts -----------------------------------------------------------------------------------------------------------
+
+
+def meet_impacts(t: float, modes: Any, state: Any) -> int:
+    """Return `SAME`: a run without gaps has no impacts."""
+    return SAME
+
+
+def gather_impacts(t: float, modes: Any, state: Any) -> int:
+    """Return `SAME`: a run without gaps has no impacts that accumulate."""
+    return SAME
+
+
+def strike_gaps(t: float, modes: Any, state: Any) -> int:
+    """Apply the impact of gaps that strike at the present state, and log them; return `SAME`, or why there is none."""
+    c, s, control = modes.choice, modes.strikes, state.control
+    code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
+    if code != OTHERS:
+        return int(code)
+    keep_before(s.struck, state.y)
+    code = strike(t, c, s, state.y, state.p, state.w)
+    if code != SAME:
+        return int(code)
+    keep_after(s.struck, Instant(state.y, state.p, state.w), c.layout.nq, s.effects.work)
+    if control[abi.BEGUN] == 0:  # the balance of energies begins after an impact at the start
+        state.y[c.layout.nq + c.layout.nv] = 0.0
+    else:
+        begin_afresh(state)
+    for i in range(c.count):
+        if s.active[i] != 0:
+            log_transition(t, modes.transitions, i, HIT)
+    if read_rows(t, c, state.y, state.p, state.w) != SAME:
+        return OUT_OF_RANGE
+    forget_passed(c, state.w)
+    return SAME
+
+
+def rest_gaps(t: float, modes: Any, state: Any) -> int:
+    """Bring gaps to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
+    c, s = modes.choice, modes.strikes
+    keep_before(s.rested, state.y)
+    code = gather(t, c, s, state.y, state.p, state.w, state.iw, state.hunt)
+    if code == OTHERS:
+        keep_after(s.rested, Instant(state.y, state.p, state.w), c.layout.nq, s.effects.work)
+        if read_rows(t, c, state.y, state.p, state.w) != SAME:
+            code = OUT_OF_RANGE
+    return int(code)
+
+
+# -- modes -------------------------------------------------------------------------------------------------------------
+
+
+def clear_flags(c: Any) -> None:
+    """Forget which rows an event has found."""
+    for i in range(c.count):
+        c.broken[i] = c.stopped[i] = c.left[i] = 0
+
+
+def take_chosen(modes: Any, state: Any) -> int:
+    """Choose modes at a state whose rows have been read, and have the run go on in them; return `SAME` or a code."""
+    c, t = modes.choice, state.clock[abi.TIME]
+    code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
+    if code > OTHERS:
+        return int(code)
+    measure_margins(c, state.w, state.hunt)
+    if code == OTHERS:
+        if follow_modes(t, c, state.y, state.p, state.w) != 0:
+            modes.renewed[0] = 1
+        remember_rank(modes.sizes, state)
+        look_anew(state)
+    elif state.control[abi.BEGUN] == 1:  # margins sleep anew
+        state.control[abi.BEGUN] = abi.ONWARD
+    return SAME
+
+
+@called
+def choose_here(modes: Any, state: Any) -> int:
+    """Choose modes at the present state, with its impacts, and log what changes; return `DONE` or `NO_MODES`."""
+    c, t = modes.choice, state.clock[abi.TIME]
+    remember_modes(c, state.w, modes.transitions)
+    starts = state.control[abi.BEGUN] == 0 and state.control[abi.STEPS] == 0
+    code = read_rows(t, c, state.y, state.p, state.w)
+    if code == SAME:
+        code = meet_impacts(t, modes, state)
+    if code == SAME:
+        code = take_chosen(modes, state)
+    if code == SAME:
+        code = gather_impacts(t, modes, state)
+        if code == OTHERS:
+            clear_flags(c)
+            code = take_chosen(modes, state)
+    if code != SAME:
+        return int(refuse(code, modes, state))
+    if not starts:  # a start has modes, and no change of them
+        log_changes(t, c, state.w, modes.transitions)
+    return int(abi.DONE)
+
+
+def begin_modes(modes: Any, state: Any) -> int:
+    """Choose modes where a run begins, or something has changed; return `DONE` or `NO_MODES`."""
+    c = modes.choice
+    clear_flags(c)
+    for i in range(c.count):
+        c.shut[i] = 0 if state.control[abi.BEGUN] == 0 else c.shut[i]
+    c.depth[0] = TOUCHING if state.control[abi.BEGUN] == 0 else DEEP
+    return int(choose_here(modes, state))
+
+
+def open_rows_of(modes: Any, state: Any) -> None:
+    """Take all rows out of force, where closed gaps may strike, and keep which gaps are closed."""
+    put_off(modes.choice, state.w)
+
+
+def forget_modes(modes: Any) -> None:
+    """Forget impacts, transitions and resets of the run before."""
+    forget_resets(modes.strikes.effects)
+    for i in range(modes.strikes.series.shape[0]):
+        modes.strikes.series[i] = 0.0
+    modes.transitions.count[0] = 0
+
+
+# -- the turn ----------------------------------------------------------------------------------------------------------
+
+
+@called
+def take_turn(code: int, modes: Any, state: Any) -> int:
+    """Do what happens at the events noted by a loop: resets, then impacts and modes.
+
+    Parameters
+    ----------
+    code : int
+        End code of the loop; nothing happens but where it is `MET`.
+    modes : OfModes
+        Rows with bounds.
+    state : State
+        State of the run.
+
+    Returns
+    -------
+    int
+        `MET` to go on, or the code of the end of the run: `DONE` where an event ends it, `GATHERED` where resets
+        accumulate, `IMPOSSIBLE` where one cannot be, `NO_MODES` where modes are not determined.
+    """
+    if code != abi.MET:
+        return code
+    c, effects, hunt, t = modes.choice, modes.strikes.effects, state.hunt, state.clock[abi.TIME]
+    first, size, chooses, jammed = first_note(state), 2 + state.y.shape[0], False, -1
+    clear_flags(c)
+    c.depth[0] = math.inf  # positions inside a run are what its steps have made of them
+    for i in range(int(hunt[records.NOTED])):
+        at, k = hunt[first + i * size], int(hunt[first + i * size + 1])
+        if at == t and k < modes.breaks.shape[0]:
+            chooses = chooses or modes.choosing[k] != 0
+            if modes.breaks[k] >= 0:
+                c.broken[modes.breaks[k]] = 1
+            if modes.reverses[k] >= 0:
+                c.stopped[modes.reverses[k]] = 1
+            if modes.leaves[k] >= 0:
+                c.left[modes.leaves[k]] = 1
+            jammed = modes.jams[k] if modes.jams[k] >= 0 and jammed < 0 else jammed
+    last = choose_resets(effects, state)
+    if last >= 0:  # rows with two bounds have no impulse, and gaps strike after the reset
+        put_off(c, state.w)
+    ended = change_state(last, effects, state)
+    if ended == e.IMPOSSIBLE:
+        return int(ended)
+    if jammed >= 0:
+        return int(refuse_fault(JAMMED, float(jammed), 1.0, math.nan, modes))
+    if chooses and choose_here(modes, state) != abi.DONE:
+        return int(e.NO_MODES)
+    return int(ended)
+
+
+@called
+def take_resets(code: int, effects: Any, state: Any) -> int:
+    """Do what happens at the events of a run without rows with bounds; parameters and result as of `take_turn`."""
+    if code != abi.MET:
+        return code
+    return int(apply_resets(choose_resets(effects, state), effects, state))
+
+
+def change_state(last: int, effects: Any, state: Any) -> int:
+    """Return whether events end a run that no event changes, see `change_nothing`."""
+    return int(change_nothing(last, effects, state))
+
+
+#: Meanings of names where gaps strike or events change a run with rows with bounds; where bounds depend on reactions.
+STRIKING: dict[str, Any] = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "change_state": apply_resets}
+PRESSED: dict[str, Any] = {"choose_modes": choose_pressed}
+#: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
+FURTHER = {"effects": OF_EFFECTS, "modes": OF_MODES}

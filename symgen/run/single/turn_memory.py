@@ -1,0 +1,103 @@
+"""Memory of the turn: what events change in a run, and its rows with bounds, for single runs, rows of sweeps and C."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.bounds.modes import HIT, JAM, LEAVE, MODE, REST, REVERSE, SLIP, STICK
+from symgen.describe.parts.events import RESET, STOP
+from symgen.run.effects.accumulation import new_past
+from symgen.run.effects.effects import Effects
+from symgen.run.effects.resets import new_effects
+from symgen.run.layout.probe import rate_functions
+from symgen.run.modes.bounded_rows import first_step, new_choice
+from symgen.run.modes.strikes import new_strikes
+from symgen.run.modes.transition_log import OF_LOG, new_transitions
+from symgen.run.modes.turn import OfModes
+from symgen.run.single.new_state import model_sizes
+from symgen.run.starts.starting import observe_nothing
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+    from symgen.run.layout.records import Span
+    from symgen.run.loops.run_spec import BoundedRows, Watched
+
+#: Words of transitions, by the numbers of `symgen.run.modes.transition_log`.
+WORDS = (SLIP, STICK, REVERSE, HIT, REST, LEAVE)
+
+
+def what_changes(compiled: CompiledModel, watched: Watched) -> Effects:
+    """Return the effects of events, where there are none too."""
+    nothing = Effects(compiled, watched.names, {}, observe_nothing, ())
+    return nothing if watched.effects is None else watched.effects
+
+
+def effects_of_runs(
+    compiled: CompiledModel, watched: Watched, until: float, width: int, nw: int, keeps: bool = False
+) -> Any:
+    """Return the effects of events, as `OF_EFFECTS`.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    watched : Watched
+        Switching functions.
+    until : float
+        End of the runs [s].
+    width, nw : int
+        Lengths of a state and of the scratch array.
+    keeps : bool
+        Whether somebody reads what has changed.
+    """
+    effects, events = what_changes(compiled, watched), len(watched.names)
+    past = new_past(events, events + len(watched.switches), width, nw, until)
+    functions = *rate_functions(compiled.law_module), watched.function
+    actions = _where(watched, RESET), _where(watched, STOP)
+    return new_effects(effects, functions, actions, (effects.memory(width, nw), past), keeps)
+
+
+def modes_of_runs(
+    compiled: CompiledModel,
+    watched: Watched,
+    rows: BoundedRows,
+    span: Span,
+    width: int,
+    nw: int,
+    keeps: bool = False,
+) -> Any:
+    """Return rows with bounds and their events, as `OF_MODES`; parameters otherwise as for `effects_of_runs`.
+
+    Parameters
+    ----------
+    rows : BoundedRows
+        The rows.
+    span : Span
+        End and steps of the runs.
+    """
+    choice = new_choice(compiled, rows, rate_functions(compiled.law_module), width, nw)
+    choice.step[0] = first_step(span)
+    effects = effects_of_runs(compiled, watched, span.end, width, nw, keeps)
+    events = {name: k for k, name in enumerate(watched.names)}
+    hits = [events[f"{name}.{HIT}"] if i >= rows.dry else -1 for i, name in enumerate(rows.names)]
+    losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
+    places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM, LEAVE))
+    # a turn of a single run is read whole
+    log = new_transitions(len(rows.names), max(OF_LOG, 3 * len(rows.names)) if keeps else OF_LOG)
+    return OfModes(
+        model_sizes(compiled),
+        choice,
+        new_strikes(effects, hits, losses, keeps),
+        log,
+        _where(watched, MODE) | effects.resets,
+        *(np.array([at.get(name, -1) for name in watched.names], dtype=np.int64) for at in places),
+        np.zeros(1, dtype=np.int64),
+    )
+
+
+def _where(watched: Watched, kind: str) -> NDArray[np.int64]:
+    """Return 1 for events of an action, else 0."""
+    return np.array([action == kind for action in watched.actions], dtype=np.int64)
