@@ -285,14 +285,14 @@ def test_rows_choose_modes_by_reactions_in_compiled_loops(integrator: str, coord
     settings = {"integrator": integrator, "until": 9.0, "times": [3.0, 9.0], "coordinates": coordinates}
     alone = [model.simulate(parameters={"mu": x}, verify=False, **settings) for x in values[:2]]
     assert all(len(run.events) > 8 for run in alone)
-    with pytest.raises(InputError, match="jamming number"):
+    with pytest.raises(InputError, match="jamming number") as refused:
         model.simulate(parameters={"mu": values[2]}, verify=False, **settings)
     rows = model.sweep({"mu": list(values)}, quantities=("crank.theta", "A.mode", "C.force"), **settings)
     for i, run in enumerate(alone):
         assert rows["crank.theta"][i].tolist() == run["crank.theta"].tolist()
         assert rows["A.mode"][i].tolist() == run["A.mode"].tolist()
         np.testing.assert_allclose(rows["C.force"][i], run["C.force"], rtol=1e-11)
-    assert rows.status[2] == "failed" and "modes that are determined, got none at t = 0 s" in rows.reason[2]
+    assert rows.status[2] == "failed" and rows.reason[2] == str(refused.value)
 
 
 @pytest.mark.slow
@@ -308,7 +308,7 @@ def test_pins_that_share_their_rest_rest_for_good_or_are_refused() -> None:
     assert rows.status[0] == "ok" and abs(rows["crank.omega"][0, 0]) < 1e-14
     raw["forces"] = {**raw.get("forces", {}), "motor": {"type": "torque", "body": "crank", "torque": "0.01*sin(t)"}}
     model = symgen.Model(validate(raw, source))
-    with pytest.raises(InputError, match=r"got A, B, C, D at rest at one time, beside what changes"):
+    with pytest.raises(InputError, match=r"got A, B, C, D at rest at one time, beside what changes") as refused:
         model.simulate(**settings)
     rows = model.sweep({"mu": [0.2, 2.0]}, **settings)
-    assert list(rows.status) == ["ok", "failed"] and "got none at t = 0 s" in rows.reason[1]
+    assert list(rows.status) == ["ok", "failed"] and rows.reason[1] == str(refused.value)

@@ -112,7 +112,7 @@ DERIVATIVES = """
 options = {"until": 1.1, "integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "verify": False}
 exact = model.simulate(sensitivities=("e",), **options)
 ends = [model.simulate(parameters={"e": 0.8 + d}, **options)["hammer.y"][-1] for d in (-1e-5, 1e-5)]
-print(json.dumps({"exact": float(exact.sensitivities["hammer.y"]["e"][-1]), "differences": (ends[1] - ends[0]) / 2e-5}))
+print(json.dumps({"exact": float(exact.gradient("hammer.y")["e"][-1]), "differences": (ends[1] - ends[0]) / 2e-5}))
 """
 
 
