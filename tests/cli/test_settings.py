@@ -73,7 +73,9 @@ def test_every_setting_is_an_option_of_every_command_that_runs(name):
 @pytest.mark.parametrize(("names", "text"), tuple(sections()), ids=lambda x: "-".join(x) if isinstance(x, list) else "")
 def test_options_that_the_page_names_are_those_of_its_commands(names, text):
     commands = [group.get_command(click.Context(group), name) for name in (*names, "run")]
-    flags = {flag for command in commands for option in command.params for flag in (*option.opts, *option.secondary_opts)}
+    flags = {
+        flag for command in commands for option in command.params for flag in (*option.opts, *option.secondary_opts)
+    }
     assert not set(re.findall(r"(?<![\w-])--[a-z][\w-]*", text)) - flags - {"--help", "--version"}
 
 
