@@ -318,8 +318,8 @@ def index() -> str:
     lines = [
         "# Gallery",
         "",
-        "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`. Times are",
-        "of the loop alone, beside other work; ratios are to `lagrange`.",
+        "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
+        "Times are of the loop alone, beside other work; ratios are to `lagrange`.",
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",
