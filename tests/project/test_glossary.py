@@ -27,9 +27,7 @@ def test_files_with_a_word_of_the_glossary_are_listed_with_its_meaning(word: str
     meaning, listed = LINES[word]
     assert meaning
     new, gone = having(word) - {*listed}, {*listed} - having(word)
-    assert not new, (
-        f"{sorted(new)} have '{word}': list them in docs/glossary.md if they mean '{meaning}', or rename them"
-    )
+    assert not new, f"{sorted(new)} have '{word}': list them if they mean '{meaning}', else rename them"
     assert not gone, f"docs/glossary.md lists {sorted(gone)} for '{word}', which are not there"
 
 
