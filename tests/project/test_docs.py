@@ -315,14 +315,11 @@ def test_an_integrator_stands_in_its_page_with_its_order(integrator: str) -> Non
         assert float(row.split("|")[3]) == parameter.default
 
 
-def test_every_command_is_in_the_table_of_commands_and_has_an_example() -> None:
+def test_every_command_has_an_example() -> None:
     from symgen.cli import COMMANDS
 
     reference = page("command-line")
-    table = section(reference, "The commands")
-    for command in COMMANDS:
-        assert f"| `{command}" in table or f", `{command}" in table
-        assert f"$ symgen {command}" in reference
+    assert not [command for command in COMMANDS if f"$ symgen {command}" not in reference]
 
 
 def test_the_readme_takes_a_screen_and_a_half() -> None:
