@@ -291,8 +291,8 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return a line for each method, with its runs side by side."""
     runs = {(row["integrator"], words.setting(row["step"], row["rtol"])): None for row in rows}
     cells = {(row["method"], row["integrator"]): row for row in rows}
-    heads = (f"`{integrator}`, {setting}: error [m] | time | ratio" for integrator, setting in runs)
-    lines = [f"| method | {' | '.join(heads)} |", "| --- |" + " ---: | ---: | ---: |" * len(runs)]
+    heads = (f"`{integrator}`, {setting}: error [m] | time" for integrator, setting in runs)
+    lines = [f"| method | {' | '.join(heads)} |", "| --- |" + " ---: | ---: |" * len(runs)]
     for method in dict.fromkeys(row["method"] for row in rows):
         parts = (_cells(cells.get((method, integrator))) for integrator, _ in runs)
         lines.append(f"| `{method}` | {' | '.join(parts)} |")
@@ -300,17 +300,11 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def _cells(row: Mapping[str, Any] | None) -> str:
-    """Return error, time and ratio of a run."""
+    """Return error and time of a run."""
     if row is None:
-        return "– | – | –"
+        return "– | –"
     marks = (" \\*" if row["below_reference"] else "") + (f" {row['status']}" if row["status"] != "ok" else "")
-    return f"{words.rounded(row['error'])}{marks} | {words.seconds(row['run_seconds'])} | {_ratio(row)}"
-
-
-def _ratio(row: Mapping[str, Any]) -> str:
-    """Return the ratio to `lagrange` with what it may vary by."""
-    spread = row["cost_ratio_spread"]
-    return words.ratio(row["cost_ratio"]) + (f" ± {words.ratio(spread)}" if spread else "")
+    return f"{words.rounded(row['error'])}{marks} | {words.seconds(row['run_seconds'])}"
 
 
 def index() -> str:
@@ -319,7 +313,7 @@ def index() -> str:
         "# Gallery",
         "",
         "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
-        "Times are of the loop alone, beside other work; ratios are to `lagrange`.",
+        "Times are of the loop alone, beside other work.",
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",
