@@ -182,6 +182,12 @@ def each_target(pattern: re.Pattern[str]) -> Iterator[tuple[Path, str]]:
         yield from ((page, target) for target in pattern.findall(page.read_text(encoding="utf-8")))
 
 
+def test_every_block_is_closed() -> None:
+    """A block without its end would hide the commands after it from these tests."""
+    fences = {page: page.read_text(encoding="utf-8").count("\n```") for page in PAGES}
+    assert not [name(page) for page, count in fences.items() if count % 2]
+
+
 def test_links_lead_somewhere() -> None:
     for page, target in each_target(_LINK):
         if target.startswith(("https://", "http://")):
