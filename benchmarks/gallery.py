@@ -282,18 +282,8 @@ def _measured(name: str, measured: Mapping[str, Any]) -> list[str]:
     lines += [how + (f" {words.sentence(words.readable(reference['note']))}" if reference["note"] else ""), ""]
     if any(row["below_reference"] for row in rows):
         lines += ["\\* below the error of the reference itself.", ""]
-    failed = [row for row in rows if row["status"] != "ok"]
-    lines += ["All but these ended `ok`:" if failed else "All ended `ok`.", ""]
-    for row in failed:
-        what = f"`{row['method']}`, `{row['integrator']}`: {row['status']}"
-        lines += [f"- {what}{': ' + words.readable(row['reason']) if row['reason'] else ''}"]
-    lines += [""] if failed else []
-    lines += [
-        "Times are of the loop alone, beside other work; ratios are to `lagrange` "
-        f"([versions, machine](data/{name}.json)).",
-        "",
-        *("```sh", measured["command"], "```", ""),
-    ]
+    lines += [f"[Reasons of what did not end `ok`, versions, machine](data/{name}.json).", ""]
+    lines += ["```sh", measured["command"], "```", ""]
     return lines
 
 
@@ -301,8 +291,8 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return a line for each method, with its runs side by side."""
     runs = {(row["integrator"], words.setting(row["step"], row["rtol"])): None for row in rows}
     cells = {(row["method"], row["integrator"]): row for row in rows}
-    heads = (f"`{integrator}`, {setting}: error [m] | time | ratio" for integrator, setting in runs)
-    lines = [f"| method | {' | '.join(heads)} |", "| --- |" + " ---: | ---: | ---: |" * len(runs)]
+    heads = (f"`{integrator}`, {setting}: error [m] | time" for integrator, setting in runs)
+    lines = [f"| method | {' | '.join(heads)} |", "| --- |" + " ---: | ---: |" * len(runs)]
     for method in dict.fromkeys(row["method"] for row in rows):
         parts = (_cells(cells.get((method, integrator))) for integrator, _ in runs)
         lines.append(f"| `{method}` | {' | '.join(parts)} |")
@@ -310,17 +300,11 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def _cells(row: Mapping[str, Any] | None) -> str:
-    """Return error, time and ratio of a run."""
+    """Return error and time of a run."""
     if row is None:
-        return "– | – | –"
+        return "– | –"
     marks = (" \\*" if row["below_reference"] else "") + (f" {row['status']}" if row["status"] != "ok" else "")
-    return f"{words.rounded(row['error'])}{marks} | {words.seconds(row['run_seconds'])} | {_ratio(row)}"
-
-
-def _ratio(row: Mapping[str, Any]) -> str:
-    """Return the ratio to `lagrange` with what it may vary by."""
-    spread = row["cost_ratio_spread"]
-    return words.ratio(row["cost_ratio"]) + (f" ± {words.ratio(spread)}" if spread else "")
+    return f"{words.rounded(row['error'])}{marks} | {words.seconds(row['run_seconds'])}"
 
 
 def index() -> str:
@@ -329,6 +313,7 @@ def index() -> str:
         "# Gallery",
         "",
         "All studied mechanisms of the catalogue, with measurements. Written by `python -m benchmarks.gallery`.",
+        "Times are of the loop alone, beside other work.",
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",

@@ -181,7 +181,7 @@ def adaptive() -> PageTable:
     kinds += [(f"`{rule}`", "adaptive-baumgarte", {"method.rule": rule}) for rule in ("taylor", "pole-placed")]
     rows = tuple(((label,), partial(list_of, cells, method, options)) for label, method, options in kinds)
     headings = ("gains", "8 ms", "4 ms", "2 ms", r"largest \|D v - nu\| at 8 ms [m/s]")
-    return PageTable("literature adaptive", "docs/methods.md", headings, rows)
+    return PageTable("literature adaptive", "docs/measured/adaptive-gains.md", headings, rows)
 
 
 def energy() -> PageTable:

@@ -1,6 +1,6 @@
 """Quick stress studies of the whole catalogue: what `symgen stress NAME --quick` costs, and how its cells end.
 
-    python -m benchmarks.stress_quick                                   prints the table of docs/stress.md
+    python -m benchmarks.stress_quick                                   prints the table of docs/measured/stress.md
     python -m benchmarks.records stress_quick [--workers N]             measures what the record lacks
 
 A line has the processor time of the command in one process, `first` with loops in the cache and nothing of the
@@ -26,7 +26,7 @@ from benchmarks.records import Line, Pair, Record
 from symgen.describe.catalogue import all_names, names
 from symgen.study.stress.cell_outcome import GOOD, OUTCOMES
 
-PAGE = "docs/stress.md"
+PAGE = "docs/measured/stress.md"
 #: Time of a study at most, however busy the machine is [s].
 LONGEST = 1200.0
 #: Fills a cache with the loops.

@@ -60,6 +60,7 @@ NAVIGATION = {
     "Development": (
         "docs/architecture",
         "docs/internals",
+        "docs/glossary",
         "docs/extending",
         "CONTRIBUTING",
         "docs/decisions/README",

@@ -39,17 +39,20 @@ def options(command):
     return {p.name: p for p in command.params if isinstance(p, click.Option)}
 
 
-def rows(name):
-    """Return meaning and default by flag, from the table of a command in the page."""
+def sections():
+    """Return the text of each section of the page, with the commands that its heading names."""
     page = (PAGES / "command-line.md").read_text(encoding="utf-8")
-    section = page.partition(f"## `{name}`\n")[2].partition("\n## ")[0]
-    found = {}
-    for line in section.splitlines():
-        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        if len(cells) == 3 and cells[0].startswith("`-"):
-            for flag in re.findall(r"`(--[\w-]+)", cells[0]):
-                found[flag] = cells[1:]
-    return found
+    for part in page.split("\n## ")[1:]:
+        heading, _, text = part.partition("\n")
+        if names := re.findall(r"`([a-z]+)`", heading):
+            yield names, text
+
+
+def helped(name):
+    """Return what help says of the options of a command, in one line each."""
+    command = COMMANDS[name]
+    records = [p.get_help_record(click.Context(command)) for p in command.params if isinstance(p, click.Option)]
+    return {flag: said for flags, said in filter(None, records) for flag in re.findall(r"--[\w-]+", flags)}
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -67,22 +70,25 @@ def test_every_setting_is_an_option_of_every_command_that_runs(name):
         assert not unit or f"[{unit}]" in option.help
 
 
-@pytest.mark.parametrize("name", COMMANDS)
-def test_the_page_has_a_row_for_every_option_and_no_other(name):
-    flags = {flag for option in options(COMMANDS[name]).values() for flag in option.opts if flag.startswith("--")}
-    assert set(rows(name)) == flags
+@pytest.mark.parametrize(("names", "text"), tuple(sections()), ids=lambda x: "-".join(x) if isinstance(x, list) else "")
+def test_options_that_the_page_names_are_those_of_its_commands(names, text):
+    commands = [group.get_command(click.Context(group), name) for name in (*names, "run")]
+    flags = {
+        flag for command in commands for option in command.params for flag in (*option.opts, *option.secondary_opts)
+    }
+    assert not set(re.findall(r"(?<![\w-])--[a-z][\w-]*", text)) - flags - {"--help", "--version"}
 
 
-def test_defaults_in_the_page_are_those_of_the_table():
+def test_defaults_in_help_are_those_of_the_table():
     for setting in set(settings.setting_names()) - WITHOUT["run"]:
         about, usual = settings.about(setting), settings.default(setting)
-        said = rows("run")[settings.flag(setting)][1].replace("`", "")
-        if isinstance(usual, float):
-            assert float(said) == usual, setting
-        elif isinstance(usual, str | int) and not isinstance(usual, bool):
-            assert said == str(usual), setting
-        elif about.otherwise and about.kind is float and "mechanism" not in about.otherwise:
-            assert about.otherwise in said, setting
+        found = re.search(r"\[default: (.*)\]", helped("run")[settings.flag(setting)])
+        if isinstance(usual, str | int | float) and not isinstance(usual, bool):
+            assert found, setting
+            assert found[1] == str(usual), setting
+        elif about.otherwise and about.kind is float:
+            assert found, setting
+            assert about.otherwise in found[1], setting
 
 
 def test_tolerances_that_the_table_names_are_those_of_a_run():

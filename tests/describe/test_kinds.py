@@ -293,11 +293,11 @@ def test_every_kind_documents_its_keys(registry):
             assert key in described(kind), f"{name} says nothing about {key}"
 
 
-def test_all_kinds_are_there():
-    assert set(JOINTS) == {
+def test_kinds_that_files_use_stay():
+    assert set(JOINTS) >= {
         "constant-velocity", "coupling", "cylindrical", "distance", "driver", "gear", "knife-edge", "orientation",
         "parallel-axes", "perpendicular", "pin-in-slot", "place", "planar", "point-on-plane", "rack-and-pinion",
         "revolute", "revolute-spherical", "rigid", "rolling", "rolling-disc", "rolling-sphere", "rows", "screw",
         "spherical", "translational", "universal",
     }  # fmt: skip
-    assert set(FORCES) == {"beam", "bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}
+    assert set(FORCES) >= {"beam", "bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}
