@@ -21,23 +21,25 @@ _N, _A, _K = types.int64, types.float64[::1], types.int64[::1]
 APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
 
 #: What the events of a run change, in the order of the function of their formulas: velocities, their new values, values
-#: that are written, entries of the mass matrix of bodies.
+#: that are written, entries of the mass matrix of bodies, rates of rotors, their inertias.
 #: - bodies, first: Velocities of bodies that joints of a tree carry, and the first of these among the numbers that the
 #:   emitted function of bodies sets; 0 where bodies have the velocities of the state.
+#: - rotors: Number of rotors.
 #: - owners, columns (shape (k,)): Event of each velocity; its number in the state, -1 where it is another one.
 #: - writes (shape (2 l,)): (event, place in the state) of each value.
-#: - entries (shape (2 e,)): (row, column) of each entry; diagonal ones only where joints carry bodies.
-CHANGES = record_type("Changes", __name__, ("bodies first", _N), ("owners columns writes entries", _K))
+#: - entries (shape (2 e,)): (row, column) of each entry; diagonal ones only where joints carry bodies or rotors turn.
+CHANGES = record_type("Changes", __name__, ("bodies first rotors", _N), ("owners columns writes entries", _K))
 Changes: Any = CHANGES.constructor
 
 #: Working memory.
 #: - out, still, state, rate, scratch: Of emitted functions; `state` is the state afterwards.
 #: - motion, carried, drift: Numbers of the function of bodies; their velocities by those of the state, and at rest.
+#: - turning, turned (shapes (rotors nv,), (rotors,)): Rates of rotors by velocities of the state, and at rest.
 #: - energy (shape (1,)): Change of the energy [J].
 EFFECT_WORK = record_type(
     "EffectWork",
     __name__,
-    ("out still state rate scratch motion carried drift energy", _A),
+    ("out still state rate scratch motion carried drift turning turned energy", _A),
     ("impulse", IMPULSE),
 )
 EffectWork: Any = EFFECT_WORK.constructor
@@ -48,22 +50,29 @@ EFFECT_MODEL = types.RecordType((LAYOUT, abi.MEASURE, abi.OBSERVE, abi.OBSERVE, 
 def new_effect_work(layout: Any, changes: Any, width: int, nw: int) -> Any:
     """Return working memory for the states of `width` numbers of a model whose scratch has `nw`."""
     k, n = len(changes.owners), layout.nv
-    out = 2 * k + (len(changes.writes) + len(changes.entries)) // 2
-    bodies = changes.bodies
-    sizes = out, width, width, width, nw, changes.first + 2 * bodies, bodies * n, bodies, 1
+    bodies, rotors = changes.bodies, changes.rotors
+    out = 2 * k + (len(changes.writes) + len(changes.entries)) // 2 + 2 * rotors
+    sizes = out, width, width, width, nw, changes.first + 2 * bodies, bodies * n, bodies, rotors * n, rotors, 1
     return EffectWork._make((*(np.zeros(size) for size in sizes), new_impulse(n, layout.m + k)))
 
 
 @exact()
-def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> None:
-    """Write the rows of velocities that get values, and the velocities of bodies by the state's velocities.
+def first_entry(changes: Any) -> int:
+    """Return the place of the first entry of M among the numbers of formulas."""
+    return int(2 * changes.owners.shape[0] + changes.writes.shape[0] // 2)
 
-    Both are linear in v: their coefficients are differences of values at unit velocities and at rest.
+
+@exact()
+def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> None:
+    """Write the rows of velocities that get values, and the velocities of bodies and rotors by the state's velocities.
+
+    All are linear in v: their coefficients are differences of values at unit velocities and at rest.
     """
     layout, _, formulas, bodies, changes = model
     n, nq, m, count = layout.nv, layout.nq, layout.m, changes.owners.shape[0]
     still, out, impulse, motion = work.still, work.out, work.impulse, work.motion
-    plain, k = changes.bodies == 0, m
+    plain, k = changes.bodies == 0 and changes.rotors == 0, m
+    turns = first_entry(changes) + changes.entries.shape[0] // 2
     for i in range(count):
         if chosen[changes.owners[i]] != 0:
             plain = plain and changes.columns[i] >= 0
@@ -94,17 +103,22 @@ def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> 
                 work.drift[b] = motion[changes.first + b]
             else:
                 work.carried[b * n + column] = motion[changes.first + b] - work.drift[b]
+        for r in range(changes.rotors):
+            if column < 0:
+                work.turned[r] = out[turns + r]
+            else:
+                work.turning[r * n + column] = out[turns + r] - work.turned[r]
 
 
 @exact()
 def fill_masses(model: Any, w: Any, work: Any) -> None:
-    """Write M from the entries that stand last in the numbers of formulas."""
+    """Write M, the one that accelerations have: entries of bodies, and J r^T r of a rotor of inertia J and rate r v."""
     layout, _, _, _, changes = model
-    n, mass, entries, carried = layout.nv, work.impulse.mass, changes.entries, work.carried
-    first = work.out.shape[0] - entries.shape[0] // 2
+    n, mass, entries, carried, turning = layout.nv, work.impulse.mass, changes.entries, work.carried, work.turning
+    first = first_entry(changes)
     for j in range(n * n):
         mass[j] = 0.0
-    if changes.bodies == 0:
+    if changes.bodies == 0 and changes.rotors == 0:
         for j in range(n):
             mass[j * n + j] = w[layout.mass + j]
     for e in range(entries.shape[0] // 2):
@@ -118,6 +132,11 @@ def fill_masses(model: Any, w: Any, work: Any) -> None:
                     if row != column:
                         product += carried[column * n + i] * carried[row * n + j]
                     mass[i * n + j] += value * product
+    inertias = first + entries.shape[0] // 2 + changes.rotors
+    for r in range(changes.rotors):
+        for i in range(n):
+            for j in range(n):
+                mass[i * n + j] += work.out[inertias + r] * (turning[r * n + i] * turning[r * n + j])
 
 
 @exact()
@@ -125,7 +144,7 @@ def added_energy(model: Any, v: Any, first: int, work: Any) -> float:
     """Return the change of the kinetic energy."""
     layout, _, _, _, changes = model
     n, mass, after, entries = layout.nv, work.impulse.mass, work.impulse.after, changes.entries
-    energy, masses = 0.0, work.out.shape[0] - entries.shape[0] // 2
+    energy, masses = 0.0, first_entry(changes)
     for i in range(n):
         for j in range(n):
             energy += 0.5 * (after[i] - v[first + i]) * mass[i * n + j] * (after[j] + v[first + j])
@@ -136,6 +155,11 @@ def added_energy(model: Any, v: Any, first: int, work: Any) -> float:
             energy += value * change * work.carried[row * n + j] * work.drift[column]
             if row != column:
                 energy += value * change * work.carried[column * n + j] * work.drift[row]
+    inertias = masses + entries.shape[0] // 2 + changes.rotors
+    for r in range(changes.rotors):
+        for j in range(n):
+            change = after[j] - v[first + j]
+            energy += work.out[inertias + r] * change * work.turning[r * n + j] * work.turned[r]
     return energy
 
 

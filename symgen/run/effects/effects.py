@@ -75,13 +75,16 @@ class Effects:
     effects : mapping of int to Effect
         By number of the event.
     formulas : emitted function
-        Velocities, their new values, values that are written, entries of the mass matrix of bodies.
+        Velocities, their new values, values that are written, entries of the mass matrix of bodies, rates of rotors,
+        their inertias.
     entries : sequence of (int, int)
         Row and column of each of these entries.
     bodies : int
         Number of velocities of bodies that joints of a tree carry, else 0.
     first : int
         Index of these velocities in the output of the emitted function of bodies.
+    rotors : int
+        Number of rotors.
     """
 
     compiled: CompiledModel
@@ -91,6 +94,7 @@ class Effects:
     entries: Sequence[tuple[int, int]]
     bodies: int = 0
     first: int = 0
+    rotors: int = 0
 
     @cached_property
     def changes(self) -> Any:
@@ -102,7 +106,7 @@ class Effects:
         own = {} if self.bodies else {v.name: i for i, v in enumerate(info.velocities)}
         columns = [own.get(name, -1) for effect in self.effects.values() for name in effect.velocities]
         numbers = (np.array(x, dtype=np.int64).ravel() for x in (owners, columns, writes, list(self.entries)))
-        return Changes._make((self.bodies, self.first, *numbers))
+        return Changes._make((self.bodies, self.first, self.rotors, *numbers))
 
     @cached_property
     def model(self) -> tuple[Any, ...]:
