@@ -247,7 +247,8 @@ class Friction(Bounds, frozen=True):
         """Return the events at which its mode is chosen anew.
 
         Where its effort at rest is a number of its own, as several rows share it, a bound that varies may reach that;
-        ``limit`` is then what counts as none.
+        ``limit`` is then what counts as none. A row at rest that is not in force, as joints lock it, is watched by its
+        rate: the joints may move it, as a driver that starts smoothly does.
         """
         held, sign, limit = (number_of(self, number) for number in ("held", "sign", "limit"))
         limit_at_rest, off = sum_of_terms(limit, *carried_bounds(self, beside)), call("sub", ONE, held)
@@ -260,7 +261,9 @@ class Friction(Bounds, frozen=True):
             limit_at_rest = call("add", call("mul", self.static, reaction_of(self)), limit)
         left = call("sub", limit_at_rest, call("abs", effort_in_force(self)))
         resting = call("add", call("mul", held, left), off)
-        moving = call("add", call("mul", sign, rate_of(self)), call("sub", ONE, call("mul", sign, sign)))
+        locked = call("sub", held, call("mul", call("sub", ONE, held), call("abs", rate_of(self))))
+        resting_rate = call("mul", call("sub", ONE, call("mul", sign, sign)), locked)
+        moving = call("add", call("mul", sign, rate_of(self)), resting_rate)
         events = (
             Event(f"{self.name}.{SLIP}", resting, "falling", MODE, (), "effort at rest at its bound"),
             Event(f"{self.name}.{REVERSE}", moving, "falling", MODE, (), "rate of sliding 0"),

@@ -162,7 +162,7 @@ def difference_at(hunt: A, n: int, k: int, i: int) -> float:
     total = 0.0
     for j in range(int(hunt[INSIDE]) + 2):
         if j != i:
-            rise = (value_at(hunt, n, k, j) - value_at(hunt, n, k, i)) / (time_of(hunt, j) - time_of(hunt, i))
+            rise = (value_at(hunt, n, k, j) - value_at(hunt, n, k, i)) / (time_of(hunt, i) - time_of(hunt, j))
             total += hunt[SPREAD + i] / hunt[SPREAD + j] * rise
     return total
 

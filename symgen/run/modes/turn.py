@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.native import types
 from symgen.run.effects.resets import (
@@ -44,6 +45,7 @@ from symgen.run.modes.bounded_rows import (
     OUT_OF_RANGE,
     SAME,
     SHARED,
+    SIGN,
     TOUCHING,
     put_off,
 )
@@ -247,6 +249,11 @@ def forget_modes(modes: Any) -> None:
 # -- the turn ----------------------------------------------------------------------------------------------------------
 
 
+def is_sliding(c: Any, w: Any, i: int) -> bool:
+    """Return whether a coordinate slides."""
+    return bool(w[c.first + MODE_NUMBERS * i + SIGN] != 0.0)
+
+
 @called
 def take_turn(code: int, modes: Any, state: Any) -> int:
     """Do what happens at the events noted by a loop: resets, then impacts and modes.
@@ -278,7 +285,7 @@ def take_turn(code: int, modes: Any, state: Any) -> int:
             chooses = chooses or modes.choosing[k] != 0
             if modes.breaks[k] >= 0:
                 c.broken[modes.breaks[k]] = 1
-            if modes.reverses[k] >= 0:
+            if modes.reverses[k] >= 0 and is_sliding(c, state.w, modes.reverses[k]):  # others begin to move
                 c.stopped[modes.reverses[k]] = 1
             if modes.leaves[k] >= 0:
                 c.left[modes.leaves[k]] = 1

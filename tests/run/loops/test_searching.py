@@ -120,3 +120,22 @@ def test_a_root_of_a_cubic_takes_one_shorter_step_besides_the_last_one():
         assert abs(h - roots[0]) < 1e-15
         attempts.append(tried)
     assert min(attempts) == 3 and np.mean(np.array(attempts) == 3) > 0.5
+
+
+def test_slopes_of_forces_at_inner_points_are_those_of_the_polynomial_through_them():
+    """A force of degree 5 over a step with seven inner points: its slopes, with their signs, at all nine points."""
+    hunt, _ = hunted(lambda t: (t, 1.0))
+    force = np.polynomial.Polynomial([3.0, -10.0, 4.0, 0.5, -2.0, 1.5])
+    step, inner = 0.3, search_records.N_INSIDE
+    times = step * np.sort(np.random.default_rng(2).uniform(0.05, 0.95, inner))
+    places = search_records.PLACES
+    hunt[search_records.WHOLE], hunt[search_records.INSIDE] = step, inner
+    hunt[places : places + inner] = times
+    at = search_records.N_HEAD
+    hunt[at + search_records.OF_FORCES] = 1.0
+    hunt[at + search_records.G_START], hunt[at + search_records.G_END] = force(0.0), force(step)
+    hunt[at + search_records.G_INSIDE : at + search_records.G_INSIDE + inner] = force(times)
+    inside.slopes_of_forces(hunt, 1)
+    slopes = [hunt[at + search_records.D_START], *hunt[at + search_records.D_INSIDE :][:inner]]
+    slopes.append(hunt[at + search_records.D_END])
+    np.testing.assert_allclose(slopes, force.deriv()(np.array([0.0, *times, step])), rtol=1e-8)
