@@ -27,8 +27,9 @@ from symgen.run.effects.locking import DEPENDENT, find_lock, new_lock_work
 from symgen.run.effects.stepping import find_rates, new_step_work, take_step, take_steps
 from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY
-from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant, StartConditions
+from symgen.run.printed import partition
+from symgen.run.printed.exchanged_steps import exchange_steps
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.starting import begin_row, close_row, observe_nothing
 
@@ -160,6 +161,7 @@ class PrintedEvents:
 
 #: Arrays that are no part of a record; states and rates are passed.
 _ALONE = {"y": "", "rate": "", "state": "", "p": "p", "w": "w", "iw": "iw", "chosen": "chosen"}
+_ALONE_IN_EXCHANGE = {"values": "", "happened": "exchange_happened"}
 
 
 def _room_of_steps(name: str) -> str | None:
@@ -170,6 +172,21 @@ def _room_of_steps(name: str) -> str | None:
     if owner == "impact":
         return f"effect_{own.replace('.', '_')}"
     return own.replace("y", "") if owner == "now" else _ALONE.get(name)
+
+
+def _room_of_exchange(name: str) -> str | None:
+    """Return the name of an array of states or events of an importer in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    if owner == "part":
+        return f"partition_{own}"
+    if owner == "now":
+        return own
+    return _ALONE_IN_EXCHANGE[name] if name in _ALONE_IN_EXCHANGE else _room_of_steps(name)
+
+
+def _partitioned(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
+    """Return a `symgen.run.printed.partition.PARTITION_MODEL`."""
+    return layout_of(compiled), compiled_form(compiled.model.geometry), tables
 
 
 def _room_of_lock(name: str) -> str | None:
@@ -222,6 +239,24 @@ class Printed:
         names : collection of str
             Names of those functions that are added.
         """
+        emitted, model, (now, iw, work, impact) = self._steps(compiled, events)
+        (steps, of_effects, _), rate = model, np.zeros(compiled.info.ny)
+        arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
+            "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
+            "take_step": (take_step, (steps, None, None, now, iw, work)),
+            "take_steps": (take_steps, (model, None, None, now, iw, work, impact)),
+            "apply_effects": (apply_effects, (of_effects, None, now, work.chosen, impact)),
+        }
+        for name in names:
+            function, values = arguments[name]
+            own = function is apply_effects  # whose memory has another name elsewhere
+            room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
+            self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+
+    def _steps(
+        self, compiled: CompiledModel, events: PrintedEvents
+    ) -> tuple[dict[int, lang.Function], tuple[Any, ...], tuple[Any, ...]]:
+        """Return emitted functions by their identity, a `stepping.RUN_MODEL`, and the memory of steps and effects."""
         law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
         confirm = getattr(law, "confirm", law.rhs)
         effects = events.effects or Effects(compiled, (), {}, observe_nothing, ())
@@ -238,21 +273,53 @@ class Printed:
             emitted[id(bodies)] = self.emitted["bodies"]
         directions, ends = (np.array(x, dtype=np.int64) for x in (events.directions, events.ends))
         steps = layout, law.rhs, confirm, law.accept, switching, directions
-        of_effects = layout, geometry, formulas, bodies, changes
         now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
         work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
-        iw, rate = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(ny)
-        arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
-            "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
-            "take_step": (take_step, (steps, None, None, now, iw, work)),
-            "take_steps": (take_steps, ((steps, of_effects, ends), None, None, now, iw, work, impact)),
-            "apply_effects": (apply_effects, (of_effects, None, now, work.chosen, impact)),
+        memory = now, np.zeros(abi.N_COUNTERS, dtype=np.int64), work, impact
+        return emitted, (steps, (layout, geometry, formulas, bodies, changes), ends), memory
+
+    def add_partition(self, compiled: CompiledModel, tables: Any) -> None:
+        """Add functions of `symgen.run.printed.partition`: the states of model exchange.
+
+        They are ``choose_states(t, y)``, ``choose_left(t, y)`` where rows have bounds, ``complete_state(t, y)``,
+        ``quality_of_choice(t, y)``, and where there are any states ``read_states(y, values)``,
+        ``write_states(values, y)``.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        tables : PartitionTables
+            What is partitioned.
+        """
+        model = _partitioned(compiled, tables)
+        part, y, w = partition.new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
+        p, emitted = np.zeros(1), {id(model[1]): self.emitted["geometry"]}
+        state, count = (model, None, y, p, w, part), partition.count_states(model[0], tables)
+        arguments: dict[Any, tuple[Any, ...]] = {
+            **dict.fromkeys((partition.choose_states, partition.complete_state, partition.quality_of_choice), state),
+            **dict.fromkeys((partition.choose_left,) if tables.moded else (), state),
+            **dict.fromkeys((partition.read_states, partition.write_states) if count else (), (model, y, part, y)),
         }
-        for name in names:
-            function, values = arguments[name]
-            own = function is apply_effects  # whose memory has another name elsewhere
-            room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
-            self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+        for function, values in arguments.items():
+            entry = source_of(function), meanings_of(function, values, emitted, _room_of_exchange)
+            self.entries[compiled_form(function).py_func.__name__] = entry
+
+    def add_exchanged_steps(self, compiled: CompiledModel, events: PrintedEvents, tables: Any) -> None:
+        """Add ``exchange_run(doing, t)`` of a mechanism without modes; see `symgen.run.printed.exchanged_steps`.
+
+        Parameters
+        ----------
+        compiled, tables
+            As for `add_partition`.
+        events : PrintedEvents
+            The events.
+        """
+        emitted, (steps, effects, ends), (now, iw, work, impact) = self._steps(compiled, events)
+        model = _partitioned(compiled, tables), steps, effects, ends
+        memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, partition.new_partition(steps[0], tables)
+        meanings = meanings_of(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
+        self.entries["exchange_run"] = source_of(exchange_steps), meanings
 
     def add_run(self, run: PrintedRun) -> None:
         """Add ``start_run()`` and ``advance_run(through, h, until)`` of a run with modes."""
@@ -278,13 +345,6 @@ class Printed:
         arguments = (layout, geometry, driven, dependent), None, now, new_lock_work(layout)
         emitted = {id(geometry): self.emitted["geometry"]}
         self.entries["find_lock"] = source_of(find_lock), meanings_of(find_lock, arguments, emitted, _room_of_lock)
-
-    def add_jacobian(self, compiled: CompiledModel) -> None:
-        """Add ``fill_jacobian()``, which writes the dense D to the array ``d``."""
-        layout = layout_of(compiled)
-        arguments = layout, compiled.scratch(), np.zeros(layout.m * layout.nv)
-        meanings = meanings_of(fill_jacobian, arguments, {}, {"w": "w", "rows": "d"}.get)
-        self.entries["fill_jacobian"] = source_of(fill_jacobian), meanings
 
     def add_start(self, assembly: Assembly) -> None:
         """Add ``begin_row(state)`` and ``close_row()``, which make the start consistent; see `starting.py`.
