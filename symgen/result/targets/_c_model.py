@@ -17,15 +17,15 @@ from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render
 from symgen.result.targets._c_names import defined_names, prefix_of
-from symgen.result.targets._c_runs import check_integrator, values_of_run
+from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import checked, checked_function
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
-from symgen.run.effects.locking import DEPENDENT, NEARLY_EXACT
+from symgen.run.effects.locking import DEPENDENT, MOST_NAMED, NEARLY_EXACT
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
-from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.dead_centre import DRIVER, moving_names
 from symgen.run.planning.kept_runs import run_with_modes, whole_run
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import Prepared, prepare
@@ -144,6 +144,9 @@ class CModel:
         scratch = np.zeros(len(start.w))
         for first, size in (info.sections[name] for name in SETTLED if name in info.sections):
             scratch[first : first + size] = start.w[first : first + size]
+        scales = np.zeros(len(start.w))
+        for first, behind in places_of_scales(self.compiled):
+            scales[first:behind] = scratch[first:behind]
         parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
         of_bodies = self.run.assembled.of_bodies[0].info
         drivers = self.drivers
@@ -179,11 +182,11 @@ class CModel:
             "p0": self._defaults(),
             "macros": macros(f"{self.prefix.upper()}_SINGLE"),
             "y0": _list(map(c_number, start.y)),
-            "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
+            **{"w0": cells_of(scratch) or "{0, 0.0}", "scales": cells_of(scales)},
             "driven": self.has_driven_rows,
             "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
             "moving": _list(f'"{name}"' for name in moving_names(info)),
-            **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
+            "most_named": MOST_NAMED,
             "step_status": abi.STEP_STATUS,
             "functions": self.text,
             "confirm": "confirm" in self.functions,
@@ -215,7 +218,8 @@ class CModel:
         """Number of bytes of the memory of a mechanism at most, where numbers have 64 bits and integers 32."""
         info, start = self.compiled.info, self.run.start
         others = {name: room for name, room in self._memory.items() if name not in _OWN}
-        sizes = [("float", 1 + info.ny + len(start.p) + len(start.w)), ("int", len(COUNTERS)), *others.values()]
+        sizes: list[tuple[lang.Scalar, int]] = [("int", 1)]  # whether the motion has begun
+        sizes += [("float", 1 + info.ny + len(start.p) + len(start.w)), ("int", len(COUNTERS)), *others.values()]
         numbers = sum(8 * size if kind == "float" else 8 * -(-size // 2) for kind, size in sizes)
         return numbers + 8 * (1 + len(info.parameters) // 8)
 

@@ -89,7 +89,7 @@ def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
     texts["fmu.c"] = render("c/fmu.c.j2", values)
     if fmi == 3:
         texts["buildDescription.xml"] = render("c/buildDescription.xml.j2", values)
-    description = render(f"c/modelDescription{fmi}.xml.j2", values | _variables(model, values, fmi))
+    description = render("c/modelDescription.xml.j2", values | _variables(model, values, fmi))
     return {"modelDescription.xml": description.encode(), **{f"sources/{n}": t.encode() for n, t in texts.items()}}
 
 

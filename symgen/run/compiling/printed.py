@@ -152,6 +152,17 @@ class PrintedEvents:
         directions = [2 if event.action == RECORD else DIRECTIONS[event.direction] for event in events]
         return cls(directions, [int(event.action == STOP) for event in events], switching, effects)
 
+    def steps(self, compiled: CompiledModel) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """Return a `symgen.run.effects.stepping.RUN_MODEL`, and an instant, counters, memory of steps and of effects."""
+        law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
+        effects = self.effects or Effects(compiled, (), {}, observe_nothing, ())
+        directions, ends = (np.array(x, dtype=np.int64) for x in (self.directions, self.ends))
+        functions = law.rhs, getattr(law, "confirm", law.rhs), law.accept, self.switching or observe_nothing
+        now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
+        work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
+        model = (effects.model[0], *functions, directions), effects.model, ends
+        return model, (now, np.zeros(abi.N_COUNTERS, dtype=np.int64), work, impact)
+
     @property
     def functions(self) -> dict[str, lang.Function]:
         """Emitted functions by their names in the text."""
@@ -239,7 +250,7 @@ class Printed:
         names : collection of str
             Names of those functions that are added.
         """
-        emitted, model, (now, iw, work, impact) = self._steps(compiled, events)
+        emitted, (model, (now, iw, work, impact)) = self._of_steps(compiled, events), events.steps(compiled)
         (steps, of_effects, _), rate = model, np.zeros(compiled.info.ny)
         arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
             "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
@@ -253,30 +264,20 @@ class Printed:
             room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
             self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
 
-    def _steps(
-        self, compiled: CompiledModel, events: PrintedEvents
-    ) -> tuple[dict[int, lang.Function], tuple[Any, ...], tuple[Any, ...]]:
-        """Return emitted functions by their identity, a `stepping.RUN_MODEL`, and the memory of steps and effects."""
-        law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
+    def _of_steps(self, compiled: CompiledModel, events: PrintedEvents) -> dict[int, lang.Function]:
+        """Return the emitted functions of steps by their identity."""
+        law, effects = compiled.law_module, events.effects
         confirm = getattr(law, "confirm", law.rhs)
-        effects = events.effects or Effects(compiled, (), {}, observe_nothing, ())
-        layout, geometry, formulas, bodies, changes = effects.model
-        switching = events.switching or observe_nothing
         emitted = {id(law.rhs): self.emitted["rhs"], id(law.accept): self.emitted["accept"]}
         emitted[id(confirm)] = self.emitted["rhs" if confirm is law.rhs else "confirm"]
-        emitted[id(geometry)] = self.emitted["geometry"]
+        emitted[id(compiled_form(compiled.model.geometry))] = self.emitted["geometry"]
         if events.switching is not None:
-            emitted[id(switching)] = self.emitted[SWITCHING]
-        if events.effects is not None:
-            emitted[id(formulas)] = self.emitted[CHANGED]
-        if effects.bodies:
-            emitted[id(bodies)] = self.emitted["bodies"]
-        directions, ends = (np.array(x, dtype=np.int64) for x in (events.directions, events.ends))
-        steps = layout, law.rhs, confirm, law.accept, switching, directions
-        now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
-        work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
-        memory = now, np.zeros(abi.N_COUNTERS, dtype=np.int64), work, impact
-        return emitted, (steps, (layout, geometry, formulas, bodies, changes), ends), memory
+            emitted[id(events.switching)] = self.emitted[SWITCHING]
+        if effects is not None:
+            emitted[id(compiled_form(effects.formulas))] = self.emitted[CHANGED]
+        if effects is not None and effects.bodies:
+            emitted[id(compiled_form(compiled.model.bodies))] = self.emitted["bodies"]
+        return emitted
 
     def add_partition(self, compiled: CompiledModel, tables: Any) -> None:
         """Add functions of `symgen.run.printed.partition`: the states of model exchange.
@@ -315,7 +316,8 @@ class Printed:
         events : PrintedEvents
             The events.
         """
-        emitted, (steps, effects, ends), (now, iw, work, impact) = self._steps(compiled, events)
+        (steps, effects, ends), (now, iw, work, impact) = events.steps(compiled)
+        emitted = self._of_steps(compiled, events)
         model = _partitioned(compiled, tables), steps, effects, ends
         memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, partition.new_partition(steps[0], tables)
         meanings = meanings_of(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
