@@ -153,7 +153,7 @@ class PrintedEvents:
         return cls(directions, [int(event.action == STOP) for event in events], switching, effects)
 
     def steps(self, compiled: CompiledModel) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
-        """Return a `symgen.run.effects.stepping.RUN_MODEL`, and an instant, counters, memory of steps and of effects."""
+        """Return a `symgen.run.effects.stepping.RUN_MODEL`; an instant, counters, memory of steps and of effects."""
         law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
         effects = self.effects or Effects(compiled, (), {}, observe_nothing, ())
         directions, ends = (np.array(x, dtype=np.int64) for x in (self.directions, self.ends))

@@ -84,7 +84,7 @@ def exchange_steps(
     partition, steps, _, _ = model
     layout, _, _, accept, happens, directions = steps
     if doing == HANDLE:
-        return handle(model, t, now, happened, work, impact)
+        return int(handle(model, t, now, happened, work, impact))
     if doing == COMPLETE:
         if layout.windings > 0:  # counts turns; the correction is rounding and is left
             copy_numbers(now.y, work.y, layout.ny)

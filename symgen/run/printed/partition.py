@@ -33,8 +33,8 @@ _ROUNDS, _CLOSED, _NEARLY = 25, 2 * _EPSILON, 1e4 * _EPSILON
 POOR = 0.4
 
 #: What of a model is partitioned.
-#: - nu, rank_q, rank_v, rest: First number of nu in the scratch; numbers of dependent coordinates and velocities, and of
-#:   states of the file and integrals.
+#: - nu, rank_q, rank_v, rest: First number of nu in the scratch; numbers of dependent coordinates and velocities, and
+#:   of states of the file and integrals.
 #: - moded: 1 where rows have bounds, else 0.
 #: - holonomic: Rows that are functions of positions.
 #: - spins: First Euler parameter and first angular velocity of each body that turns in space.
@@ -225,8 +225,9 @@ def eliminate(part: Any, rows: int, columns: int, rank: int, free: Any, count: i
     for k in range(rank):
         best_row, best_column, best = k, k, 0.0
         for i in range(k, rows):
+            line = row_at[i] * columns
             for j in range(k, choices):
-                size = abs(a[row_at[i] * columns + column_at[j]])
+                size = abs(a[line + column_at[j]])
                 if size > best:
                     best, best_row, best_column = size, i, j
         if not best > _LOST:
@@ -236,12 +237,12 @@ def eliminate(part: Any, rows: int, columns: int, rank: int, free: Any, count: i
         row_at[best_row], column_at[best_column] = row_at[k], column_at[k]
         row_at[k], column_at[k] = row, column
         for i in range(k + 1, rows):
-            other = row_at[i]
-            factor = a[other * columns + column] / a[row * columns + column]
+            line, pivot = row_at[i] * columns, row * columns
+            factor = a[line + column] / a[pivot + column]
             if factor != 0.0:
                 for j in range(k, choices):
-                    a[other * columns + column_at[j]] -= factor * a[row * columns + column_at[j]]
-                b[other] -= factor * b[row]
+                    a[line + column_at[j]] -= factor * a[pivot + column_at[j]]
+                b[row_at[i]] -= factor * b[row]
     return float(least)
 
 

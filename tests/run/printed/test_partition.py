@@ -73,7 +73,7 @@ BALL = {
 
 def test_events_of_an_importer_are_noted_handled_and_end_the_motion():
     mechanism = mechanism_of(BALL)
-    run, tables, model, (p, w, part) = partitioned(mechanism)
+    run, _, model, (p, w, part) = partitioned(mechanism)
     events, y = PrintedEvents.of(mechanism, run.compiled), run.start.y.copy()
     (of_steps, effects, ends), (now, iw, work, impact) = events.steps(run.compiled)
     now = now._replace(y=y, p=p, w=w)
