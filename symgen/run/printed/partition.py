@@ -248,7 +248,7 @@ def eliminate(part: Any, rows: int, columns: int, rank: int, free: Any, count: i
 
 @exact()
 def solve_dependent(part: Any, columns: int, rank: int) -> None:
-    """Set the changes of the columns that have been eliminated; that of free ones is 0."""
+    """Set the changes of the columns that have been eliminated; free columns do not change."""
     a, b, change, row_at, column_at = part.matrix, part.right, part.change, part.row_at, part.column_at
     for j in range(columns):
         change[j] = 0.0
