@@ -283,8 +283,7 @@ class Printed:
         """Add functions of `symgen.run.printed.partition`: the states of model exchange.
 
         They are ``choose_states(t, y)``, ``choose_left(t, y)`` where rows have bounds, ``complete_state(t, y)``,
-        ``quality_of_choice(t, y)``, and where there are any states ``read_states(y, values)``,
-        ``write_states(values, y)``.
+        ``quality_of_choice(t, y)``, ``read_states(y, values)`` and ``write_states(values, y)``.
 
         Parameters
         ----------
@@ -296,11 +295,11 @@ class Printed:
         model = _partitioned(compiled, tables)
         part, y, w = partition.new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
         p, emitted = np.zeros(1), {id(model[1]): self.emitted["geometry"]}
-        state, count = (model, None, y, p, w, part), partition.count_states(model[0], tables)
+        state = model, None, y, p, w, part
         arguments: dict[Any, tuple[Any, ...]] = {
             **dict.fromkeys((partition.choose_states, partition.complete_state, partition.quality_of_choice), state),
             **dict.fromkeys((partition.choose_left,) if tables.moded else (), state),
-            **dict.fromkeys((partition.read_states, partition.write_states) if count else (), (model, y, part, y)),
+            **dict.fromkeys((partition.read_states, partition.write_states), (model, y, part, y)),
         }
         for function, values in arguments.items():
             entry = source_of(function), meanings_of(function, values, emitted, _room_of_exchange)
