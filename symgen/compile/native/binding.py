@@ -76,7 +76,8 @@ class BoundFunctions:
     rooms : dict of str to (str, int)
         Working memory that they use: type of the elements and length.
     with_memory : frozenset
-        Keys of functions that use working memory, or call such functions.
+        Keys of functions that use working memory, or call such functions, and of all that are given: their callers need
+        not know.
     """
 
     functions: dict[str, lang.Function]
@@ -123,7 +124,8 @@ def bind(
     binder.final = True
     functions = {name: binder.built(function) for name, (function, _) in entries.items()}
     functions = {name: msgspec.structs.replace(f, name=name) for name, f in functions.items()}
-    return BoundFunctions(functions, binder.tables, binder.rooms, frozenset(binder.with_memory))
+    with_memory = frozenset((*binder.with_memory, *(f.key for f in functions.values())))
+    return BoundFunctions(functions, binder.tables, binder.rooms, with_memory)
 
 
 def _named(entries: Mapping[str, tuple[lang.Function, Mapping[str, Meaning]]]) -> dict[str, dict[str, Meaning]]:

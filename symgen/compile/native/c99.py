@@ -7,6 +7,7 @@ bits. Operations have the order of the source. Integers of emitted code are indi
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
@@ -306,8 +307,9 @@ class _BoundPrinter(CPrinter):
         f, own = self.function, self.names[self.function.key]
         used, body = _names(f.body), self.lines(f.body)
         heads = [f"{self.memory} *model"] if f.key in self.bound.with_memory else []
+        unused = ["(void)model;"] if heads and not any(re.search(r"\bmodel\b", line) for line in body) else []
         heads += map(self._parameter, f.parameters)
-        lines = [f"static {self.types[f.returned]} {own}({', '.join(heads) or 'void'}) {{"]
+        lines = [f"static {self.types[f.returned]} {own}({', '.join(heads) or 'void'}) {{", *unused]
         lines += [f"(void){self.word(p.name)};" for p in f.parameters if p.name not in used]
         return "\n".join(map(broken_line, [*lines, *self._locals(used), *self.views, *body, "}"]))
 

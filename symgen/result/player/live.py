@@ -20,7 +20,7 @@ from symgen.run.compiling.printed_run import FINDER
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
 from symgen.run.modes.transition_log import OF_LOG
-from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.dead_centre import DRIVER, moving_names
 from symgen.run.planning.kept_runs import run_with_modes
 from symgen.run.planning.start_lines import (
     derived_lines,
@@ -281,7 +281,6 @@ def _spec(
         "rows": [int(row.unit == "m") for row in info.rows],
         "drivers": [row.joint if row.joint in drivers else "" for row in info.rows],
         "moving": moving_names(info),
-        **{"most_named": MOST_NAMED, "counts": COUNTS},
         "jacobian": [list(entry) for entry in info.jacobian],
         "at": sections,
         "status": {"length": abi.LENGTH, "step": abi.STEP_STATUS},

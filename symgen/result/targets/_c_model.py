@@ -16,19 +16,16 @@ from symgen.compile.native.c99_words import broken_line, c_limit, c_number, macr
 from symgen.compile.native.formula_lines import C, NotInLines
 from symgen.compile.native.read import Foreign
 from symgen.derive.emit.module import render
-from symgen.describe.parts.events import RESET, STOP
 from symgen.result.targets._c_names import defined_names, prefix_of
-from symgen.result.targets._c_runs import check_integrator, values_of_run
+from symgen.result.targets._c_runs import cells_of, check_integrator, places_of_scales, values_of_run
 from symgen.run.compiling.checked import checked, checked_function
-from symgen.run.compiling.events import DIRECTIONS
 from symgen.run.compiling.printed import Printed, PrintedEvents
 from symgen.run.compiling.printed_run import PrintedRun
 from symgen.run.compiling.side import compile_side
-from symgen.run.effects.locking import DEPENDENT, NEARLY_EXACT
+from symgen.run.effects.locking import DEPENDENT, MOST_NAMED, NEARLY_EXACT
 from symgen.run.effects.stepping import FAILED
 from symgen.run.layout import abi
-from symgen.run.layout.model_arrays import lengths_of
-from symgen.run.planning.dead_centre import COUNTS, DRIVER, MOST_NAMED, moving_names
+from symgen.run.planning.dead_centre import DRIVER, moving_names
 from symgen.run.planning.kept_runs import run_with_modes, whole_run
 from symgen.run.planning.plan import Purpose
 from symgen.run.planning.prepare import Prepared, prepare
@@ -39,6 +36,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
+from symgen.run.printed.partition import tables_of
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity
@@ -143,10 +141,12 @@ class CModel:
         """
         start, info, law = self.run.start, self.compiled.info, self.compiled.law
         mechanism, defaults = self.mechanism, self.mechanism.defaults
-        acting = [i for i, event in enumerate(mechanism.events) if event.action in (STOP, RESET)]
         scratch = np.zeros(len(start.w))
         for first, size in (info.sections[name] for name in SETTLED if name in info.sections):
             scratch[first : first + size] = start.w[first : first + size]
+        scales = np.zeros(len(start.w))
+        for first, behind in places_of_scales(self.compiled):
+            scales[first:behind] = scratch[first:behind]
         parameters = {q.name: float(x) for q, x in zip(info.parameters, start.p, strict=False)}
         of_bodies = self.run.assembled.of_bodies[0].info
         drivers = self.drivers
@@ -165,9 +165,6 @@ class CModel:
             "whole": self.printed_run is not None,
             "named": self.named,
             "adaptive": self.run.spec.adaptive,
-            "acting": acting,
-            "directions": [DIRECTIONS[mechanism.events[i].direction] for i in acting],
-            "stopping": [i for i in acting if mechanism.events[i].action == STOP],
             "failed": FAILED,
             "effects": self._resets,
             "foresees": self.foresees,
@@ -185,18 +182,12 @@ class CModel:
             "p0": self._defaults(),
             "macros": macros(f"{self.prefix.upper()}_SINGLE"),
             "y0": _list(map(c_number, start.y)),
-            "w0": _list(f"{{{i}, {c_number(scratch[i])}}}" for i in np.flatnonzero(scratch)) or "{-1, 0.0}",
+            **{"w0": cells_of(scratch) or "{0, 0.0}", "scales": cells_of(scales)},
             "driven": self.has_driven_rows,
             "driver_of": _list(f'"{row.joint if row.joint in drivers else ""}"' for row in info.rows) or '""',
             "moving": _list(f'"{name}"' for name in moving_names(info)),
-            **{"most_named": MOST_NAMED, "counts": c_number(COUNTS)},
-            "row_lengths": _list(int(row.unit == "m") for row in info.rows),
-            "angular": _list(int(q.unit != "m/s") for q in info.velocities),
-            "lengths": _list(int(x) for x in lengths_of(info)),
-            "at": {
-                **{name: info.sections[name][0] for name in ("residual", "nu")},
-                **{"length": abi.LENGTH, "step": abi.STEP_STATUS},
-            },
+            "most_named": MOST_NAMED,
+            "step_status": abi.STEP_STATUS,
             "functions": self.text,
             "confirm": "confirm" in self.functions,
             "move": "move" in self.functions,
@@ -227,7 +218,8 @@ class CModel:
         """Number of bytes of the memory of a mechanism at most, where numbers have 64 bits and integers 32."""
         info, start = self.compiled.info, self.run.start
         others = {name: room for name, room in self._memory.items() if name not in _OWN}
-        sizes = [("float", 1 + info.ny + len(start.p) + len(start.w)), ("int", len(COUNTERS)), *others.values()]
+        sizes: list[tuple[lang.Scalar, int]] = [("int", 1)]  # whether the motion has begun
+        sizes += [("float", 1 + info.ny + len(start.p) + len(start.w)), ("int", len(COUNTERS)), *others.values()]
         numbers = sum(8 * size if kind == "float" else 8 * -(-size // 2) for kind, size in sizes)
         return numbers + 8 * (1 + len(info.parameters) // 8)
 
@@ -275,6 +267,11 @@ class CModel:
         """Whether an importer may integrate: in FMUs without a named integrator."""
         return self.target == "fmu" and not self.named
 
+    @cached_property
+    def partition(self) -> Any:
+        """What is partitioned for model exchange, see `symgen.run.printed.partition`."""
+        return tables_of(self.compiled, self.run.start.w, bool(self.mechanism.bounded))
+
     @property
     def has_driven_rows(self) -> bool:
         """Whether rows of drivers are among the rows; in joint coordinates drivers may need none."""
@@ -300,8 +297,10 @@ class CModel:
             printed.add_steps(self.compiled, self.events, ("find_rates", "take_step", "take_steps", *further))
         if self.has_driven_rows:
             printed.add_lock(self.compiled, self.drivers, NEARLY_EXACT if self.named else DEPENDENT)
-        if self.target == "fmu" and self.compiled.info.m:
-            printed.add_jacobian(self.compiled)
+        if self.exchanges:
+            printed.add_partition(self.compiled, self.partition)
+            if self.printed_run is None:
+                printed.add_exchanged_steps(self.compiled, self.events, self.partition)
         return printed.bound()
 
     @property

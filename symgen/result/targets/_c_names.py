@@ -40,7 +40,8 @@ _PRECISION = re.compile(r"(f|l|f32x?|f64x?|f128)$")
 #: Functions and macros with arguments, arrays without a size, types.
 _DEFINED = re.compile(r"\b([A-Za-z]\w*) ?\(|\b([A-Za-z]\w*)\[\]|^(?:typedef [^;{]*\b|\} )(\w+);", re.MULTILINE)
 _PREFIX = re.compile(r"\{\{ (prefix|upper) \}\}")
-_NO_CODE = re.compile(r"\{[%#{].*?[%#}]\}|/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
+#: Text that names nothing; what is exported gets a prefix.
+_NO_CODE = re.compile(r"EXPORT\([A-Z]\w*\)|\{[%#{].*?[%#}]\}|/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
 
 
 def prefix_of(name: str, functions: str) -> str:

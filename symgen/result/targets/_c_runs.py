@@ -65,21 +65,13 @@ def values_of_run(mechanism: Mechanism, run: PrintedRun, used: Collection[str], 
         "end": kept_run.END_TIME,
         "integrator": run.integrator.name,
         "between": _time_between(mechanism),
-        "scales": ", ".join(f"{{{first}, {behind}}}" for first, behind in _scales(run.compiled)),
         **values_of_ends(run),
         "initial": [
-            {"name": name, "numbers": _cells(name, array)}
+            {"name": name, "numbers": cells_of(array)}
             for name, array in run.memory.items()
             if name in used and name not in own and np.any(array)
         ],
     }
-
-
-def _scales(compiled: CompiledModel) -> list[tuple[int, int]]:
-    """Return the first places of scales in the scratch, and those behind them."""
-    alone = ((place, place + 1) for place in (abi.LENGTH, abi.SPEED, abi.MEAN_MASS))
-    sections = (compiled.info.sections[name] for name in ("gauge", "row_weight"))
-    return [*alone, *((first, first + size) for first, size in sections if size)]
 
 
 def _time_between(mechanism: Mechanism) -> str:
@@ -88,6 +80,13 @@ def _time_between(mechanism: Mechanism) -> str:
     return f"until/{DEFAULT_OUTPUTS - 1}" if every is None else c_number(every)
 
 
-def _cells(name: str, array: Any) -> str:
+def places_of_scales(compiled: CompiledModel) -> list[tuple[int, int]]:
+    """Return the first places of scales in the scratch, and the ends of their sections."""
+    alone = ((place, place + 1) for place in (abi.LENGTH, abi.SPEED, abi.MEAN_MASS))
+    sections = (compiled.info.sections[name] for name in ("gauge", "row_weight"))
+    return [*alone, *((first, first + size) for first, size in sections if size)]
+
+
+def cells_of(array: Any) -> str:
     """Return places and numbers of an array that are not 0."""
     return broken_line(", ".join(f"{{{i}, {c_number(float(array[i]))}}}" for i in np.flatnonzero(array)))

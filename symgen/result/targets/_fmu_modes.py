@@ -6,58 +6,52 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native.c99_words import broken_line
 from symgen.run.printed import exchanged_run
+from symgen.run.printed.partition import POOR, count_states
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from symgen.result.targets._c_model import CModel
 
 
 def indicator_names(model: CModel) -> tuple[str, ...]:
-    """Return the names of the switching functions of a run: events, margins of modes, comparisons in formulas."""
-    run = model.printed_run
-    watched = None if run is None or not model.mechanism.bounded else run.watched
-    if watched is None:
-        return tuple(event.name for event in model.mechanism.events)
-    return (*watched.names, *(f"comparison_{i}" for i in range(1, len(watched.switches) + 1)))
+    """Return the names of event indicators: events, margins of modes, comparisons in formulas, the choice of states."""
+    if not model.exchanges:
+        return ()
+    run, names = model.printed_run, tuple(event.name for event in model.mechanism.events)
+    if run is not None and run.watched is not None:
+        names = (*run.watched.names, *(f"comparison_{i}" for i in range(1, len(run.watched.switches) + 1)))
+    return (*names, "choice_of_states")
 
 
-def values_of_exchange(model: CModel, holonomic: Sequence[int]) -> dict[str, Any]:
-    """Return the values of templates for model exchange, and for the modes in it.
-
-    Parameters
-    ----------
-    model : CModel
-        The mechanism.
-    holonomic : sequence of int
-        Its rows that are functions of positions.
-    """
+def values_of_exchange(model: CModel) -> dict[str, Any]:
+    """Return the values of templates for model exchange, and for the modes in it."""
     has_modes = model.exchanges and bool(model.mechanism.bounded)
-    flags = {"exchanges": model.exchanges, "exchange_modes": has_modes}
-    if not has_modes:
-        return {"now": "f->t", **flags}
-    info = model.compiled.info
-    asked = {name.lower(): getattr(exchanged_run, name) for name in ("COMPLETE", "HANDLE", "GO_ON", "ASK")}
-    answers = {name.lower(): getattr(exchanged_run, name) for name in ("HAPPENED", "OVER", "STUCK")}
-    outputs, run = [output.name for output in model.mechanism.outputs], model.printed_run
-    watched = None if run is None else run.watched
-    rows = () if watched is None or watched.bounded is None else watched.bounded.names
-    positions = [*holonomic, *(-1 for _ in info.spins)]
-    return {
+    flags = {"exchanges": model.exchanges, "exchange_modes": has_modes, "now": "f->t", "states": 0}
+    flags["indicator_count"] = len(indicator_names(model))
+    if not model.exchanges:
+        return flags
+    values = {
         **flags,
-        "now": "evaluation_time(f)",
-        "functions_of_modes": len(indicator_names(model)),
-        "switches": _numbers(layout_of(model.compiled).switches.tolist()),
-        "velocity_rows": _numbers(range(info.m)),
-        "position_rows": _numbers(positions or (-1,)),
-        "asked": asked,
-        "answers": answers,
-        "next": exchanged_run.NEXT,
-        "behind": exchanged_run.BEHIND,
-        "rests": exchanged_run.RESTS,
-        "mode_outputs": _numbers(outputs.index(f"{row}.mode") for row in rows),
+        **{name: int(getattr(model.partition, name)) for name in ("rank_q", "rank_v", "rest")},
+        "states": count_states(layout_of(model.compiled), model.partition),
+        "poor": POOR,
+        "asked": {name.lower(): getattr(exchanged_run, name) for name in ("COMPLETE", "HANDLE", "GO_ON", "ASK")},
+        "answers": {name.lower(): getattr(exchanged_run, name) for name in ("QUIET", "HAPPENED", "OVER", "STUCK")},
     }
+    if has_modes:
+        outputs, run = [output.name for output in model.mechanism.outputs], model.printed_run
+        watched = None if run is None else run.watched
+        rows = () if watched is None or watched.bounded is None else watched.bounded.names
+        values |= {
+            "now": "evaluation_time(f)",
+            "next": exchanged_run.NEXT,
+            "behind": exchanged_run.BEHIND,
+            "rests": exchanged_run.RESTS,
+            "mode_outputs": _numbers(outputs.index(f"{row}.mode") for row in rows),
+        }
+    return values
 
 
 def _numbers(numbers: Iterable[int]) -> str:

@@ -16,8 +16,6 @@ from typing import Any
 from uuid import NAMESPACE_OID, uuid5
 
 import msgspec
-import numpy as np
-from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.files import check_path, write_all
@@ -39,8 +37,6 @@ _PLATFORMS = {
 }
 _CROSS = "x86_64-w64-mingw32-gcc"
 _OPTIONS = ("-std=c99", "-O2", "-shared", "-s")
-#: Smallest singular value that counts for the rank of rows, relative to the largest.
-_RANK = 1e-9
 
 
 @dataclass
@@ -82,8 +78,7 @@ def _write(request: Request) -> Package:
 def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
     """Return the text files of an FMU of a version of the interface by their names in it."""
     texts = sources(model.values)
-    values = model.values | _partition(model)
-    values |= values_of_exchange(model, values["holonomic"])
+    values = model.values | values_of_exchange(model)
     values |= {
         "fmi": fmi,
         "guid": f"{{{uuid5(NAMESPACE_OID, ' '.join([*texts.values(), str(fmi), __version__]))}}}",
@@ -94,34 +89,13 @@ def fmu_files(model: CModel, fmi: int) -> dict[str, bytes]:
     texts["fmu.c"] = render("c/fmu.c.j2", values)
     if fmi == 3:
         texts["buildDescription.xml"] = render("c/buildDescription.xml.j2", values)
-    description = render(f"c/modelDescription{fmi}.xml.j2", values | _variables(model, values, fmi))
+    description = render("c/modelDescription.xml.j2", values | _variables(model, values, fmi))
     return {"modelDescription.xml": description.encode(), **{f"sources/{n}": t.encode() for n, t in texts.items()}}
-
-
-def _partition(model: CModel) -> dict[str, Any]:
-    """Return the numbers of dependent coordinates and velocities at the start, with their rows and indices."""
-    compiled, info = model.compiled, model.compiled.info
-    rows = compiled.jacobian(model.run.start.w)
-    holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
-    rows[list(info.switchable)] = 0.0  # states of an importer are those that are independent in all modes
-    return {
-        "holonomic": holonomic,
-        "spins": [f"{{{first}, {turning}}}" for first, turning in info.spins],
-        "rank_q": _rank(rows[holonomic]) + len(info.spins),
-        "rank_v": _rank(rows),
-        "rest": len(info.states) + info.integrals,
-        "windings": info.windings,
-    }
-
-
-def _rank(rows: NDArray[np.float64]) -> int:
-    sizes = np.linalg.svd(rows, compute_uv=False) if rows.size else np.zeros(0)
-    return int(np.sum(sizes > _RANK * sizes.max(initial=0.0)))
 
 
 def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, Any]:
     """Return the variables of the model description and of its structure."""
-    mechanism, info = model.mechanism, model.compiled.info
+    mechanism = model.mechanism
     formulas = {p.name for p in mechanism.parameters if p.formula is not None}
     parameters, following = list[ModelVariable](), list[ModelVariable]()
     for i, parameter in enumerate(values["parameters"]):
@@ -140,14 +114,11 @@ def _variables(model: CModel, values: Mapping[str, Any], fmi: int) -> dict[str, 
         name = f"output.{output.name}" if output.name in names else output.name
         variability = "discrete" if output.name in modes else "continuous"
         outputs.append(ModelVariable(name, _OUTPUT + i, "output", variability, unit=output.unit))
-    count = info.nq - values["rank_q"] + info.nv - values["rank_v"] + values["rest"]
-    if not values["exchanges"]:  # co-simulation alone: no states of an importing tool, and no indicators
-        count = 0
+    count = values["states"]
     what = "independent coordinate or velocity, state or integral"
     states = [ModelVariable(f"state.{i + 1}", _STATE + i, "local", description=what) for i in range(count)]
     rates = [ModelVariable(f"der({s.name})", _RATE + i, "local", derivative=s) for i, s in enumerate(states)]
-    exchanged = fmi == 3 and values["exchanges"]
-    marks = [*(f"event.{name}" for name in indicator_names(model)), "event.choice_of_states"] if exchanged else []
+    marks = [f"event.{name}" for name in indicator_names(model)] if fmi == 3 else []
     indicators = [ModelVariable(name, _EVENT + i, "local") for i, name in enumerate(marks)]
     variables = [*parameters, *outputs, *states, *rates, *indicators]
     for i, variable in enumerate(variables, 1):

@@ -27,8 +27,9 @@ from symgen.run.effects.locking import DEPENDENT, find_lock, new_lock_work
 from symgen.run.effects.stepping import find_rates, new_step_work, take_step, take_steps
 from symgen.run.layout import abi
 from symgen.run.layout.ensemble_abi import N_SUMMARY
-from symgen.run.layout.scales import fill_jacobian
 from symgen.run.layout.start_records import Instant, StartConditions
+from symgen.run.printed import partition
+from symgen.run.printed.exchanged_steps import exchange_steps
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.starting import begin_row, close_row, observe_nothing
 
@@ -151,6 +152,17 @@ class PrintedEvents:
         directions = [2 if event.action == RECORD else DIRECTIONS[event.direction] for event in events]
         return cls(directions, [int(event.action == STOP) for event in events], switching, effects)
 
+    def steps(self, compiled: CompiledModel) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """Return a `symgen.run.effects.stepping.RUN_MODEL`; an instant, counters, memory of steps and of effects."""
+        law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
+        effects = self.effects or Effects(compiled, (), {}, observe_nothing, ())
+        directions, ends = (np.array(x, dtype=np.int64) for x in (self.directions, self.ends))
+        functions = law.rhs, getattr(law, "confirm", law.rhs), law.accept, self.switching or observe_nothing
+        now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
+        work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
+        model = (effects.model[0], *functions, directions), effects.model, ends
+        return model, (now, np.zeros(abi.N_COUNTERS, dtype=np.int64), work, impact)
+
     @property
     def functions(self) -> dict[str, lang.Function]:
         """Emitted functions by their names in the text."""
@@ -160,6 +172,7 @@ class PrintedEvents:
 
 #: Arrays that are no part of a record; states and rates are passed.
 _ALONE = {"y": "", "rate": "", "state": "", "p": "p", "w": "w", "iw": "iw", "chosen": "chosen"}
+_ALONE_IN_EXCHANGE = {"values": "", "happened": "exchange_happened"}
 
 
 def _room_of_steps(name: str) -> str | None:
@@ -170,6 +183,21 @@ def _room_of_steps(name: str) -> str | None:
     if owner == "impact":
         return f"effect_{own.replace('.', '_')}"
     return own.replace("y", "") if owner == "now" else _ALONE.get(name)
+
+
+def _room_of_exchange(name: str) -> str | None:
+    """Return the name of an array of states or events of an importer in the memory; see `Naming`."""
+    owner, _, own = name.partition(".")
+    if owner == "part":
+        return f"partition_{own}"
+    if owner == "now":
+        return own
+    return _ALONE_IN_EXCHANGE[name] if name in _ALONE_IN_EXCHANGE else _room_of_steps(name)
+
+
+def _partitioned(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
+    """Return a `symgen.run.printed.partition.PARTITION_MODEL`."""
+    return layout_of(compiled), compiled_form(compiled.model.geometry), tables
 
 
 def _room_of_lock(name: str) -> str | None:
@@ -222,30 +250,12 @@ class Printed:
         names : collection of str
             Names of those functions that are added.
         """
-        law, scratch, ny = compiled.law_module, compiled.scratch(), compiled.info.ny
-        confirm = getattr(law, "confirm", law.rhs)
-        effects = events.effects or Effects(compiled, (), {}, observe_nothing, ())
-        layout, geometry, formulas, bodies, changes = effects.model
-        switching = events.switching or observe_nothing
-        emitted = {id(law.rhs): self.emitted["rhs"], id(law.accept): self.emitted["accept"]}
-        emitted[id(confirm)] = self.emitted["rhs" if confirm is law.rhs else "confirm"]
-        emitted[id(geometry)] = self.emitted["geometry"]
-        if events.switching is not None:
-            emitted[id(switching)] = self.emitted[SWITCHING]
-        if events.effects is not None:
-            emitted[id(formulas)] = self.emitted[CHANGED]
-        if effects.bodies:
-            emitted[id(bodies)] = self.emitted["bodies"]
-        directions, ends = (np.array(x, dtype=np.int64) for x in (events.directions, events.ends))
-        steps = layout, law.rhs, confirm, law.accept, switching, directions
-        of_effects = layout, geometry, formulas, bodies, changes
-        now = Instant(np.zeros(ny), compiled.parameter_array(defaultdict(float), {}), scratch)
-        work, impact = new_step_work(ny, len(scratch), len(directions)), effects.memory(ny, len(scratch))
-        iw, rate = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(ny)
+        emitted, (model, (now, iw, work, impact)) = self._of_steps(compiled, events), events.steps(compiled)
+        (steps, of_effects, _), rate = model, np.zeros(compiled.info.ny)
         arguments: dict[str, tuple[Any, tuple[Any, ...]]] = {
             "find_rates": (find_rates, (steps, None, rate, now.p, now.w, iw, rate)),
             "take_step": (take_step, (steps, None, None, now, iw, work)),
-            "take_steps": (take_steps, ((steps, of_effects, ends), None, None, now, iw, work, impact)),
+            "take_steps": (take_steps, (model, None, None, now, iw, work, impact)),
             "apply_effects": (apply_effects, (of_effects, None, now, work.chosen, impact)),
         }
         for name in names:
@@ -253,6 +263,64 @@ class Printed:
             own = function is apply_effects  # whose memory has another name elsewhere
             room = (lambda name: _room_of_steps(name.replace("work.", "impact."))) if own else _room_of_steps
             self.entries[name] = source_of(function), meanings_of(function, values, emitted, room)
+
+    def _of_steps(self, compiled: CompiledModel, events: PrintedEvents) -> dict[int, lang.Function]:
+        """Return the emitted functions of steps by their identity."""
+        law, effects = compiled.law_module, events.effects
+        confirm = getattr(law, "confirm", law.rhs)
+        emitted = {id(law.rhs): self.emitted["rhs"], id(law.accept): self.emitted["accept"]}
+        emitted[id(confirm)] = self.emitted["rhs" if confirm is law.rhs else "confirm"]
+        emitted[id(compiled_form(compiled.model.geometry))] = self.emitted["geometry"]
+        if events.switching is not None:
+            emitted[id(events.switching)] = self.emitted[SWITCHING]
+        if effects is not None:
+            emitted[id(compiled_form(effects.formulas))] = self.emitted[CHANGED]
+        if effects is not None and effects.bodies:
+            emitted[id(compiled_form(compiled.model.bodies))] = self.emitted["bodies"]
+        return emitted
+
+    def add_partition(self, compiled: CompiledModel, tables: Any) -> None:
+        """Add functions of `symgen.run.printed.partition`: the states of model exchange.
+
+        They are ``choose_states(t, y)``, ``choose_left(t, y)`` where rows have bounds, ``complete_state(t, y)``,
+        ``quality_of_choice(t, y)``, ``read_states(y, values)`` and ``write_states(values, y)``.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        tables : PartitionTables
+            What is partitioned.
+        """
+        model = _partitioned(compiled, tables)
+        part, y, w = partition.new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
+        p, emitted = np.zeros(1), {id(model[1]): self.emitted["geometry"]}
+        state = model, None, y, p, w, part
+        arguments: dict[Any, tuple[Any, ...]] = {
+            **dict.fromkeys((partition.choose_states, partition.complete_state, partition.quality_of_choice), state),
+            **dict.fromkeys((partition.choose_left,) if tables.moded else (), state),
+            **dict.fromkeys((partition.read_states, partition.write_states), (model, y, part, y)),
+        }
+        for function, values in arguments.items():
+            entry = source_of(function), meanings_of(function, values, emitted, _room_of_exchange)
+            self.entries[compiled_form(function).py_func.__name__] = entry
+
+    def add_exchanged_steps(self, compiled: CompiledModel, events: PrintedEvents, tables: Any) -> None:
+        """Add ``exchange_run(doing, t)`` of a mechanism without modes; see `symgen.run.printed.exchanged_steps`.
+
+        Parameters
+        ----------
+        compiled, tables
+            As for `add_partition`.
+        events : PrintedEvents
+            The events.
+        """
+        (steps, effects, ends), (now, iw, work, impact) = events.steps(compiled)
+        emitted = self._of_steps(compiled, events)
+        model = _partitioned(compiled, tables), steps, effects, ends
+        memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, partition.new_partition(steps[0], tables)
+        meanings = meanings_of(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
+        self.entries["exchange_run"] = source_of(exchange_steps), meanings
 
     def add_run(self, run: PrintedRun) -> None:
         """Add ``start_run()`` and ``advance_run(through, h, until)`` of a run with modes."""
@@ -278,13 +346,6 @@ class Printed:
         arguments = (layout, geometry, driven, dependent), None, now, new_lock_work(layout)
         emitted = {id(geometry): self.emitted["geometry"]}
         self.entries["find_lock"] = source_of(find_lock), meanings_of(find_lock, arguments, emitted, _room_of_lock)
-
-    def add_jacobian(self, compiled: CompiledModel) -> None:
-        """Add ``fill_jacobian()``, which writes the dense D to the array ``d``."""
-        layout = layout_of(compiled)
-        arguments = layout, compiled.scratch(), np.zeros(layout.m * layout.nv)
-        meanings = meanings_of(fill_jacobian, arguments, {}, {"w": "w", "rows": "d"}.get)
-        self.entries["fill_jacobian"] = source_of(fill_jacobian), meanings
 
     def add_start(self, assembly: Assembly) -> None:
         """Add ``begin_row(state)`` and ``close_row()``, which make the start consistent; see `starting.py`.

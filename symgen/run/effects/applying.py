@@ -63,6 +63,12 @@ def first_entry(changes: Any) -> int:
 
 
 @exact()
+def first_turn(changes: Any) -> int:
+    """Return the place of the first rate of a rotor among these numbers."""
+    return int(first_entry(changes) + changes.entries.shape[0] // 2)
+
+
+@exact()
 def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> None:
     """Write the rows of velocities that get values, and the velocities of bodies and rotors by the state's velocities.
 
@@ -72,7 +78,6 @@ def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> 
     n, nq, m, count = layout.nv, layout.nq, layout.m, changes.owners.shape[0]
     still, out, impulse, motion = work.still, work.out, work.impulse, work.motion
     plain, k = changes.bodies == 0 and changes.rotors == 0, m
-    turns = first_entry(changes) + changes.entries.shape[0] // 2
     for i in range(count):
         if chosen[changes.owners[i]] != 0:
             plain = plain and changes.columns[i] >= 0
@@ -105,9 +110,9 @@ def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> 
                 work.carried[b * n + column] = motion[changes.first + b] - work.drift[b]
         for r in range(changes.rotors):
             if column < 0:
-                work.turned[r] = out[turns + r]
+                work.turned[r] = out[first_turn(changes) + r]
             else:
-                work.turning[r * n + column] = out[turns + r] - work.turned[r]
+                work.turning[r * n + column] = out[first_turn(changes) + r] - work.turned[r]
 
 
 @exact()

@@ -22,6 +22,8 @@ SINE, HOLDS, ROUNDS = 1e-2, 3e-5, 8
 #: Square of that sine where rows depend on each other always: steps that halve up to a dead centre do not come so near
 #: to it, those with error control come nearer.
 DEPENDENT, NEARLY_EXACT = 1e-12, 1e-24
+#: Most coordinates that are named, and their least share of the largest one.
+MOST_NAMED, COUNTS = 3, 0.3
 #: Layout, ``geometry``, 1 for each row of a driver, else 0, and that square.
 LOCK_MODEL = types.RecordType((LAYOUT, abi.MEASURE, _K, types.float64))
 #: Working memory, and what is found.
@@ -29,14 +31,33 @@ LOCK_MODEL = types.RecordType((LAYOUT, abi.MEASURE, _K, types.float64))
 #:   combination that vanishes, before and after an iteration.
 #: - jumps (shape (nv,)): How far coordinates would jump, relative to each other.
 #: - drivers (shape (m,)): 1 for each row of a driver that can go no further, else 0.
-LOCK_WORK = record_type("LockWork", __name__, ("numbers scale factors sums jumps", _A), ("drivers", _K))
+#: - named (shape (MOST_NAMED,)): Velocities of the coordinates that would jump farthest, by falling jumps, then -1.
+LOCK_WORK = record_type("LockWork", __name__, ("numbers scale factors sums jumps", _A), ("drivers named", _K))
 LockWork: Any = LOCK_WORK.constructor
 
 
 def new_lock_work(layout: Any) -> Any:
     """Return working memory."""
     m, n = layout.m, layout.nv
-    return LockWork(*map(np.zeros, (m * (n + m) + m, m, m, m, n)), np.zeros(m, dtype=np.int64))
+    integers = (np.zeros(size, dtype=np.int64) for size in (m, MOST_NAMED))
+    return LockWork(*map(np.zeros, (m * (n + m) + m, m, m, m, n)), *integers)
+
+
+@exact()
+def name_jumps(jumps: Any, count: int, named: Any) -> None:
+    """Write the places of the largest jumps."""
+    for k in range(MOST_NAMED):
+        best = -1
+        for j in range(count):
+            is_new = True
+            for i in range(k):
+                is_new = is_new and named[i] != j
+            if is_new and (best < 0 or jumps[j] > jumps[best]):
+                best = j
+        counts = (
+            best >= 0 and (k == 0 or named[k - 1] >= 0) and jumps[best] > COUNTS * jumps[best if k == 0 else named[0]]
+        )
+        named[k] = best if counts else -1
 
 
 @exact(types.boolean(LOCK_MODEL, types.float64, INSTANT, LOCK_WORK))
@@ -97,4 +118,5 @@ def find_lock(model: Any, t: float, now: Any, work: Any) -> bool:
         locked = locked or holds
     for j in range(n):
         jumps[j] = abs(jumps[j])
+    name_jumps(jumps, n, work.named)
     return locked and size * SINE * SINE > usual * usual

@@ -123,6 +123,13 @@ def restore(now: Any, iw: Any, work: Any) -> int:
 
 
 @exact()
+def passes(direction: int, before: float, after: float) -> bool:
+    """Whether a switching function passes 0 as its event has it; see `STEP_MODEL` for directions."""
+    rises, falls = before < 0.0 and after >= 0.0, before > 0.0 and after <= 0.0
+    return (rises and (direction == 0 or direction == 1)) or (falls and (direction == 0 or direction == -1))
+
+
+@exact()
 def attempt(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> int:
     """Make a step; return the number of events in it, -1 where it fails."""
     _, _, _, _, happens, directions = model
@@ -132,10 +139,7 @@ def attempt(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> int
     if directions.shape[0] > 0:
         happens(t + h, now.y, now.p, now.w, work.middle, work.after)
     for k in range(directions.shape[0]):
-        before, after, direction = work.before[k], work.after[k], directions[k]
-        rises, falls = before < 0.0 and after >= 0.0, before > 0.0 and after <= 0.0
-        meant = (rises and (direction == 0 or direction == 1)) or (falls and (direction == 0 or direction == -1))
-        work.chosen[k] = 1 if meant else 0
+        work.chosen[k] = 1 if passes(directions[k], work.before[k], work.after[k]) else 0
         count += work.chosen[k]
     return int(count)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.run.effects.locking import COUNTS, MOST_NAMED
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import velocity_of
 from symgen.run.layout.probe import Ready
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-#: Most coordinates that are named, and their least share of the largest one.
-MOST_NAMED, COUNTS = 3, 0.3
 #: Rows below this share of the largest one do not hold.
 _HOLDS = 1e-9**0.5
 #: Kind of the joints that drive.

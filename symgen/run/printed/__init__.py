@@ -2,5 +2,5 @@
 
 In: loops, and a compiled model.
 Out: loops that hold a whole run.
-Imports: nothing; `rows` and rooms below; no description.
+Imports: NumPy; `rows` and rooms below; no description.
 """

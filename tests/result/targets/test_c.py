@@ -317,3 +317,42 @@ def test_a_program_holds_joints_that_may_be_off(tmp_path):
     switched = with_switchable(whole, whole.joints[-1].name)
     rows = [rows_of(compiled(written(x, tmp_path / n)), "0.5")[1] for x, n in ((switched, "a"), (whole, "b"))]
     np.testing.assert_allclose(rows[0][-1], rows[1][-1], rtol=1e-9, atol=1e-9)
+
+
+IMPATIENT = """
+#include "{prefix}.h"
+#include <stdio.h>
+#include <stdlib.h>
+static {prefix} model;
+static void steps(void) {{
+    int event = 7;
+    const int step = {prefix}_step(&model, 1e-3), advance = {prefix}_advance(&model, 0.1, 1e-3, &event);
+    printf("%d %d %d %g %s\\n", step, advance, event, (double)model.t, {prefix}_refusal(step));
+}}
+int main(int count, char **words) {{
+    {prefix}_init(&model);
+    steps();
+    if (count > 1) {prefix}_set(&model, atoi(words[1]), 1000);
+    printf("%d\\n", {prefix}_start(&model));
+    steps();
+    return 0;
+}}
+"""
+
+
+@pytest.mark.slow_cases("wiper-None", "pendulum-dop853")
+@pytest.mark.parametrize(("name", "integrator"), [("belt-oscillator", None), ("wiper", None), ("pendulum", "dop853")])
+def test_a_step_before_the_start_is_refused(name, integrator, tmp_path):
+    """With friction it would go on in modes that nothing has chosen."""
+    mechanism = load(name).mechanism
+    folder = written(mechanism, tmp_path, **({"integrator": integrator} if integrator else {}))
+    prefix = next(folder.glob("*.h")).stem
+    (folder / "main.c").write_text(IMPATIENT.format(prefix=prefix))
+    lines = subprocess.run([compiled(folder)], capture_output=True, text=True, check=True).stdout.splitlines()
+    modes = " and chooses the modes" if name == "belt-oscillator" else ""
+    sentence = f"the motion has not begun: {prefix}_start comes before the first step; it closes the joints{modes}"
+    assert lines == [f"2 2 -1 0 {sentence}", "0", "0 0 -1 0.1 "]
+    if name == "wiper":  # whose crank is longer than its rod
+        place = [p.name for p in mechanism.parameters].index("crank_length")
+        ran = subprocess.run([folder / "sim", str(place)], capture_output=True, text=True, check=True)
+        assert ran.stdout.splitlines()[1:] == ["1", lines[0]]

@@ -14,7 +14,6 @@ from symgen.result.targets import Request
 from symgen.result.targets._c_model import CModel, sources
 from symgen.result.targets._c_names import prefix_of
 from symgen.result.targets._fmu_modes import values_of_exchange
-from symgen.result.targets.fmu import _partition
 
 #: Of the emitted functions and their variables, of the templates, of keywords, of the library.
 NAMES = """
@@ -62,8 +61,7 @@ def model(tmp_path_factory):
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_code_of_every_name_compiles(fmi, model, tmp_path):
     """Derived once: only the names that the mechanism gives differ."""
-    common, partition = model.values, _partition(model)
-    partition |= values_of_exchange(model, partition["holonomic"])
+    common = model.values | values_of_exchange(model)
     at = {"at_column": 1, "at_output": 2, "at_state": 3, "at_rate": 4, "at_event": 5, "at_time": 6}
     for name in NAMES:
         prefix = prefix_of(name, model.text)
@@ -71,7 +69,7 @@ def test_code_of_every_name_compiles(fmi, model, tmp_path):
         folder = tmp_path / name
         folder.mkdir()
         files = sources(values) | {"main.c": render("c/main.c.j2", values)}
-        fmu = render("c/fmu.c.j2", {**values, **partition, **at, "fmi": fmi, "guid": "", "version": ""})
+        fmu = render("c/fmu.c.j2", {**values, **at, "fmi": fmi, "guid": "", "version": ""})
         assert not {"main.c", "fmu.c"} & {*sources(values)}
         for file, text in (files | {"fmu.c": fmu}).items():
             (folder / file).write_text(text)

@@ -124,9 +124,7 @@ function makeLive(spec, code) {
   function sentence(t, y, at_t) {
     if (!code.find_lock || !code.find_lock(memory, t, y)) return `the motion cannot be continued ${at_t}`;
     const drivers = [...new Set(spec.drivers.filter((name, i) => memory.lock_drivers[i]))];
-    const jumps = memory.lock_jumps, most = Math.max(...jumps);
-    const order = Array.from(jumps.keys()).sort((i, j) => jumps[j] - jumps[i]).filter((j) => jumps[j] > spec.counts * most);
-    const names = order.slice(0, spec.most_named).map((j) => spec.moving[j]).join(", ");
+    const names = Array.from(memory.lock_named).filter((j) => j >= 0).map((j) => spec.moving[j]).join(", ");
     return `dead centre ${at_t}: ${drivers.map((name) => `'${name}'`).join(" and ")} can go no further; ${names} would have to jump`;
   }
 

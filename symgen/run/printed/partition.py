@@ -1,0 +1,445 @@
+"""Coordinate partitioning: independent coordinates and velocities, the states of model exchange, and what follows.
+
+The others follow from the constraints by Newton's method with pivots of all rows and columns. Rows with bounds count
+where modes put them into force: some of the independent ones follow from these rows too, and the rest is left.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.compile.loopcode.exact import exact
+from symgen.compile.native import types
+from symgen.run.layout import abi
+from symgen.run.layout.scales import fill_jacobian
+from symgen.run.layout.start_records import LAYOUT, record_type
+from symgen.run.starts.assembler import layout_of
+
+if TYPE_CHECKING:
+    from symgen.run.layout.compiled import CompiledModel
+
+_F, _N, _A, _K = types.float64, types.int64, types.float64[::1], types.int64[::1]
+
+#: Smallest singular value that counts for the rank of rows, relative to the largest.
+_RANK = 1e-9
+#: Rounding of numbers of order 1; pivots below the second are rounding, and those of rows in force below the third.
+_EPSILON, _LOST, _DEPENDENT = 2.2e-16, 50 * 2.2e-16, 1e-9
+#: Newton's method: most iterations, gaps that are closed, gaps that may be left if they no longer fall.
+_ROUNDS, _CLOSED, _NEARLY = 25, 2 * _EPSILON, 1e4 * _EPSILON
+#: Another choice of coordinates is made where this one is by this factor worse than where it was made.
+POOR = 0.4
+
+#: What of a model is partitioned.
+#: - nu, rank_q, rank_v, rest: First number of nu in the scratch; numbers of dependent coordinates and velocities, and
+#:   of states of the file and integrals.
+#: - moded: 1 where rows have bounds, else 0.
+#: - holonomic: Rows that are functions of positions.
+#: - spins: First Euler parameter and first angular velocity of each body that turns in space.
+#: - measured: 1 for rows in metres, else 0.
+#: - metres, angular: 1 for coordinates in metres, and for velocities of angles, else 0.
+#: - of_positions: Places of the modes of rows of positions, -1 where a row is always in force.
+PARTITION_TABLES = record_type(
+    "PartitionTables",
+    __name__,
+    ("nu rank_q rank_v rest moded", _N),
+    ("holonomic spins measured metres angular of_positions", _K),
+)
+PartitionTables: Any = PARTITION_TABLES.constructor
+#: Layout, ``geometry`` and these tables.
+PARTITION_MODEL = types.RecordType((LAYOUT, abi.MEASURE, PARTITION_TABLES))
+#: The choice, and working memory.
+#: - matrix, right, change: Rows of an elimination, what they are to become, changes of their columns.
+#: - best: Smallest pivots of positions and velocities where they were chosen, then of those that rows in force hold.
+#: - d: The dense D.
+#: - free_q, free_v, left_q, left_v: Places of independent coordinates and velocities, and of those that rows in force
+#:   leave independent.
+#: - held: Numbers of coordinates and velocities that rows in force take.
+#: - row_at, column_at, is_free, taken: Of an elimination.
+PARTITION = record_type(
+    "Partition",
+    __name__,
+    ("matrix right change best d", _A),
+    ("free_q free_v left_q left_v held row_at column_at is_free taken", _K),
+)
+Partition: Any = PARTITION.constructor
+
+
+def tables_of(compiled: CompiledModel, w: Any, is_moded: bool) -> Any:
+    """Return what is partitioned of a model, with the ranks of its rows at the scratch of a start."""
+    info, rows, switches = compiled.info, compiled.jacobian(w), layout_of(compiled).switches
+    holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
+    rows[list(info.switchable)] = 0.0  # states of an importer are those that are independent in all modes
+    ranks = _rank(rows[holonomic]) + len(info.spins), _rank(rows)
+    arrays = (
+        holonomic,
+        info.spins,
+        [row.unit == "m" for row in info.rows],
+        [q.unit == "m" for q in info.coordinates],
+        [q.unit != "m/s" for q in info.velocities],
+        [*(switches[row] for row in holonomic), *(-1 for _ in info.spins)],
+    )
+    numbers = info.sections["nu"][0], *ranks, len(info.states) + info.integrals, int(is_moded)
+    return PartitionTables._make((*numbers, *(np.array(x, dtype=np.int64).ravel() for x in arrays)))
+
+
+def _rank(rows: Any) -> int:
+    sizes = np.linalg.svd(rows, compute_uv=False) if rows.size else np.zeros(0)
+    return int(np.sum(sizes > _RANK * sizes.max(initial=0.0)))
+
+
+def count_states(layout: Any, tables: Any) -> int:
+    """Return the number of independent numbers of a state."""
+    return int(layout.nq - tables.rank_q + layout.nv - tables.rank_v + tables.rest)
+
+
+def new_partition(layout: Any, tables: Any) -> Any:
+    """Return working memory."""
+    rows = max(layout.m, len(tables.holonomic) + len(tables.spins) // 2) + 1
+    columns = max(layout.nq, layout.nv)
+    sizes = rows * columns, rows, columns, 4, layout.m * layout.nv
+    numbers = layout.nq, layout.nv, layout.nq, layout.nv, 2, rows, columns, columns, rows
+    return Partition._make((*map(np.zeros, sizes), *(np.zeros(size, dtype=np.int64) for size in numbers)))
+
+
+# -- rows --------------------------------------------------------------------------------------------------------------
+
+
+@exact()
+def counts(switch: int, w: Any, is_imposed: bool) -> bool:
+    """Whether a row counts: one with bounds does where it is in force, and imposed."""
+    return switch < 0 or (is_imposed and w[switch] != 0.0)
+
+
+@exact()
+def fill_position_row(layout: Any, tables: Any, y: Any, row: int, part: Any, first: int) -> None:
+    """Write a row of D as one of changes of coordinates: omega = 2 G e' in body axes."""
+    spins, matrix, d = tables.spins, part.matrix, part.d
+    q, v, count = 0, row * layout.nv, spins.shape[0] // 2
+    for s in range(count + 1):
+        end = spins[2 * s] if s < count else layout.nq
+        while q < end:
+            matrix[first + q] = d[v]
+            q += 1
+            v += 1
+        if s < count:
+            a, b, c = d[v], d[v + 1], d[v + 2]
+            matrix[first + q] = -2.0 * (a * y[q + 1] + b * y[q + 2] + c * y[q + 3])
+            matrix[first + q + 1] = 2.0 * (a * y[q] - b * y[q + 3] + c * y[q + 2])
+            matrix[first + q + 2] = 2.0 * (a * y[q + 3] + b * y[q] - c * y[q + 1])
+            matrix[first + q + 3] = 2.0 * (-a * y[q + 2] + b * y[q + 1] + c * y[q])
+            q += 4
+            v += 3
+
+
+@exact()
+def position_rows(model: Any, t: float, y: Any, p: Any, w: Any, part: Any, is_imposed: bool) -> float:
+    """Write rows of positions, as changes of coordinates in lengths, and what closes the joints; return the gap."""
+    layout, geometry, tables = model
+    nq, count, spins, matrix, right = layout.nq, tables.holonomic.shape[0], tables.spins, part.matrix, part.right
+    length, largest, rows = w[abi.LENGTH], 0.0, count + tables.spins.shape[0] // 2
+    geometry(t, y, p, w)
+    fill_jacobian(layout, w, part.d)
+    for i in range(rows * nq):
+        matrix[i] = 0.0
+    for i in range(count):
+        row = tables.holonomic[i]
+        right[i] = 0.0
+        if counts(tables.of_positions[i], w, is_imposed):
+            fill_position_row(layout, tables, y, row, part, i * nq)
+            right[i] = -w[layout.residual + row]
+            size = abs(right[i]) * (1.0 / length if tables.measured[row] != 0 else 1.0)
+            if not size <= largest:
+                largest = size
+    for i in range(count, rows):
+        e = spins[2 * (i - count)]
+        right[i] = (1.0 - y[e] * y[e] - y[e + 1] * y[e + 1] - y[e + 2] * y[e + 2] - y[e + 3] * y[e + 3]) / 2.0
+        for k in range(4):
+            matrix[i * nq + e + k] = y[e + k]
+        if abs(right[i]) > largest:
+            largest = abs(right[i])
+    for i in range(rows):
+        for j in range(nq):
+            matrix[i * nq + j] *= length if tables.metres[j] != 0 else 1.0
+    return largest
+
+
+@exact()
+def velocity_rows(model: Any, y: Any, w: Any, part: Any, is_imposed: bool) -> None:
+    """Write rows of velocities, D v = nu, as rows of changes of v."""
+    layout, _, tables = model
+    nq, nv, matrix, right, d, length = layout.nq, layout.nv, part.matrix, part.right, part.d, w[abi.LENGTH]
+    for i in range(layout.m):
+        right[i] = 0.0
+        for k in range(nv):
+            matrix[i * nv + k] = 0.0
+        if counts(layout.switches[i], w, is_imposed):
+            right[i] = w[tables.nu + i]
+            for k in range(nv):
+                right[i] -= d[i * nv + k] * y[nq + k]
+                matrix[i * nv + k] = d[i * nv + k] * (1.0 if tables.angular[k] != 0 else length)
+
+
+# -- elimination -------------------------------------------------------------------------------------------------------
+
+
+@exact()
+def normalise(part: Any, rows: int, columns: int) -> None:
+    """Divide each row by its largest entry."""
+    a, b = part.matrix, part.right
+    for i in range(rows):
+        largest = 0.0
+        for j in range(columns):
+            if abs(a[i * columns + j]) > largest:
+                largest = abs(a[i * columns + j])
+        if largest > 0.0:
+            for j in range(columns):
+                a[i * columns + j] /= largest
+            b[i] /= largest
+
+
+@exact()
+def eliminate(part: Any, rows: int, columns: int, rank: int, free: Any, count: int) -> float:
+    """Eliminate `rank` columns with the largest pivots, none of them one of the `count` free ones.
+
+    Returns
+    -------
+    float
+        The smallest pivot, rows having a largest entry of 1; 0 where there are too few.
+    """
+    a, b, row_at, column_at, is_free = part.matrix, part.right, part.row_at, part.column_at, part.is_free
+    least, choices = 1.0, 0
+    normalise(part, rows, columns)
+    for i in range(rows):
+        row_at[i] = i
+    for j in range(columns):
+        is_free[j] = 0
+    for k in range(count):
+        is_free[free[k]] = 1
+    for j in range(columns):
+        if is_free[j] == 0:
+            column_at[choices] = j
+            choices += 1
+    for k in range(rank):
+        best_row, best_column, best = k, k, 0.0
+        for i in range(k, rows):
+            line = row_at[i] * columns
+            for j in range(k, choices):
+                size = abs(a[line + column_at[j]])
+                if size > best:
+                    best, best_row, best_column = size, i, j
+        if not best > _LOST:
+            return 0.0
+        least = best if best < least else least
+        row, column = row_at[best_row], column_at[best_column]
+        row_at[best_row], column_at[best_column] = row_at[k], column_at[k]
+        row_at[k], column_at[k] = row, column
+        for i in range(k + 1, rows):
+            line, pivot = row_at[i] * columns, row * columns
+            factor = a[line + column] / a[pivot + column]
+            if factor != 0.0:
+                for j in range(k, choices):
+                    a[line + column_at[j]] -= factor * a[pivot + column_at[j]]
+                b[row_at[i]] -= factor * b[row]
+    return float(least)
+
+
+@exact()
+def solve_dependent(part: Any, columns: int, rank: int) -> None:
+    """Set the changes of the columns that have been eliminated; free columns do not change."""
+    a, b, change, row_at, column_at = part.matrix, part.right, part.change, part.row_at, part.column_at
+    for j in range(columns):
+        change[j] = 0.0
+    for k in range(rank - 1, -1, -1):
+        total = b[row_at[k]]
+        for j in range(k + 1, rank):
+            total -= a[row_at[k] * columns + column_at[j]] * change[column_at[j]]
+        change[column_at[k]] = total / a[row_at[k] * columns + column_at[k]]
+
+
+@exact()
+def keep_others(part: Any, columns: int, rank: int, free: Any, left: Any) -> None:
+    """Write the columns that have not been eliminated to both lists, in their order."""
+    for j in range(columns):
+        part.is_free[j] = 1
+    for k in range(rank):
+        part.is_free[part.column_at[k]] = 0
+    count = 0
+    for j in range(columns):
+        if part.is_free[j] != 0:
+            free[count] = left[count] = j
+            count += 1
+
+
+@exact()
+def choose_within(
+    part: Any, rows: int, columns: int, rank: int, switches: Any, free: Any, free_count: int, left: Any, side: int
+) -> None:
+    """Choose which of the independent columns `free` follow from rows in force too; `left` receives the others.
+
+    Pivots of the rows in force come after the `rank` pivots of the others, whose `switches` are -1.
+    """
+    a, row_taken, column_taken = part.matrix, part.taken, part.column_at
+    least, count, left_count = 1.0, 0, 0
+    normalise(part, rows, columns)
+    for i in range(rows):
+        row_taken[i] = 0
+    for j in range(columns):
+        part.is_free[j] = column_taken[j] = 0
+    for k in range(free_count):
+        part.is_free[free[k]] = 1
+    for k in range(rank + free_count):
+        best_row, best_column, best = -1, -1, _LOST if k < rank else _DEPENDENT
+        for i in range(rows):
+            if row_taken[i] == 0 and (k >= rank or switches[i] < 0):
+                for j in range(columns):
+                    size = abs(a[i * columns + j])
+                    meant = column_taken[j] == 0 and (part.is_free[j] != 0) == (k >= rank)
+                    if meant and size > best:
+                        best, best_row, best_column = size, i, j
+        if best_row < 0 and k >= rank:
+            break
+        if best_row >= 0:
+            row_taken[best_row] = column_taken[best_column] = 1
+            if k >= rank:
+                count += 1
+                least = best if best < least else least
+            for i in range(rows):
+                factor = a[i * columns + best_column] / a[best_row * columns + best_column]
+                if row_taken[i] == 0 and factor != 0.0:
+                    for j in range(columns):
+                        a[i * columns + j] -= factor * a[best_row * columns + j]
+    for k in range(free_count):
+        if column_taken[free[k]] == 0:
+            left[left_count] = free[k]
+            left_count += 1
+    part.held[side], part.best[2 + side] = count, least
+
+
+# -- the choice --------------------------------------------------------------------------------------------------------
+
+
+@exact(types.int64(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
+def choose_states(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> int:
+    """Choose independent coordinates and velocities at a state."""
+    layout, _, tables = model
+    rows = tables.holonomic.shape[0] + tables.spins.shape[0] // 2
+    position_rows(model, t, y, p, w, part, False)
+    part.best[0] = eliminate(part, rows, layout.nq, tables.rank_q, part.free_q, 0)
+    if part.best[0] > 0.0:
+        keep_others(part, layout.nq, tables.rank_q, part.free_q, part.left_q)
+    velocity_rows(model, y, w, part, False)
+    part.best[1] = eliminate(part, layout.m, layout.nv, tables.rank_v, part.free_v, 0)
+    if part.best[1] > 0.0:
+        keep_others(part, layout.nv, tables.rank_v, part.free_v, part.left_v)
+    part.held[0] = part.held[1] = 0
+    return 0
+
+
+@exact(types.int64(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
+def choose_left(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> int:
+    """Choose the coordinates and velocities that rows in force leave independent, at a state."""
+    layout, _, tables = model
+    rows, free_q, free_v = tables.of_positions.shape[0], layout.nq - tables.rank_q, layout.nv - tables.rank_v
+    switches = tables.of_positions, layout.switches
+    position_rows(model, t, y, p, w, part, True)
+    choose_within(part, rows, layout.nq, tables.rank_q, switches[0], part.free_q, free_q, part.left_q, 0)
+    velocity_rows(model, y, w, part, True)
+    choose_within(part, layout.m, layout.nv, tables.rank_v, switches[1], part.free_v, free_v, part.left_v, 1)
+    return 0
+
+
+@exact()
+def eliminate_positions(model: Any, part: Any, free: Any, held: int) -> float:
+    """Eliminate the dependent coordinates, `held` of them by rows in force; return the smallest pivot."""
+    layout, _, tables = model
+    rows, rank = tables.holonomic.shape[0] + tables.spins.shape[0] // 2, tables.rank_q + held
+    return float(eliminate(part, rows, layout.nq, rank, free, layout.nq - rank))
+
+
+@exact()
+def eliminate_velocities(model: Any, part: Any, free: Any, held: int) -> float:
+    """Eliminate the dependent velocities, `held` of them by rows in force; return the smallest pivot."""
+    layout, _, tables = model
+    rank = tables.rank_v + held
+    return float(eliminate(part, layout.m, layout.nv, rank, free, layout.nv - rank))
+
+
+@exact(types.boolean(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
+def complete_state(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> bool:
+    """Complete a state from the independent coordinates and velocities that it holds; return whether that succeeds."""
+    layout, _, tables = model
+    nq, nv, length, before = layout.nq, layout.nv, w[abi.LENGTH], math.inf
+    for k in range(_ROUNDS):
+        gap = position_rows(model, t, y, p, w, part, True)
+        if gap <= _CLOSED or (k > 1 and gap < _NEARLY and gap > before / 4.0):
+            break
+        if not gap < math.inf or k == _ROUNDS - 1:
+            return False
+        before = gap
+        if eliminate_positions(model, part, part.left_q, part.held[0]) == 0.0:
+            return False
+        solve_dependent(part, nq, tables.rank_q + part.held[0])
+        for j in range(nq):
+            y[j] += part.change[j] * (length if tables.metres[j] != 0 else 1.0)
+    for _ in range(2 if layout.m > 0 else 0):
+        velocity_rows(model, y, w, part, True)
+        if eliminate_velocities(model, part, part.left_v, part.held[1]) == 0.0:
+            return False
+        solve_dependent(part, nv, tables.rank_v + part.held[1])
+        for j in range(nv):
+            y[nq + j] += part.change[j] * (1.0 if tables.angular[j] != 0 else length)
+    return True
+
+
+@exact(types.float64(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
+def quality_of_choice(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> float:
+    """Return the quality of a choice at a state over that where it was made; at 0 the others are undetermined."""
+    _, _, tables = model
+    position_rows(model, t, y, p, w, part, False)
+    q = eliminate_positions(model, part, part.free_q, 0) / part.best[0]
+    velocity_rows(model, y, w, part, False)
+    v = eliminate_velocities(model, part, part.free_v, 0) / part.best[1]
+    least = q if q < v else v
+    if tables.moded != 0:
+        within = 1.0  # where no row with bounds is in force
+        if part.held[0] + part.held[1] > 0:
+            position_rows(model, t, y, p, w, part, True)
+            q = eliminate_positions(model, part, part.left_q, part.held[0])
+            q /= part.best[0] if part.best[0] < part.best[2] else part.best[2]
+            velocity_rows(model, y, w, part, True)
+            v = eliminate_velocities(model, part, part.left_v, part.held[1])
+            v /= part.best[1] if part.best[1] < part.best[3] else part.best[3]
+            within = q if q < v else v
+        least = least if least < within else within
+    return float(least)
+
+
+@exact(types.int64(PARTITION_MODEL, _A, PARTITION, _A))
+def read_states(model: Any, y: Any, part: Any, values: Any) -> int:
+    """Write the independent numbers of a state, or of its rates."""
+    layout, _, tables = model
+    nq, free_q, free_v = layout.nq, layout.nq - tables.rank_q, layout.nv - tables.rank_v
+    for i in range(free_q):
+        values[i] = y[part.free_q[i]]
+    for i in range(free_v):
+        values[free_q + i] = y[nq + part.free_v[i]]
+    for i in range(tables.rest):
+        values[free_q + free_v + i] = y[nq + layout.nv + 1 + i]
+    return 0
+
+
+@exact(types.int64(PARTITION_MODEL, _A, PARTITION, _A))
+def write_states(model: Any, values: Any, part: Any, y: Any) -> int:
+    """Set the independent numbers of a state."""
+    layout, _, tables = model
+    nq, free_q, free_v = layout.nq, layout.nq - tables.rank_q, layout.nv - tables.rank_v
+    for i in range(free_q):
+        y[part.free_q[i]] = values[i]
+    for i in range(free_v):
+        y[nq + part.free_v[i]] = values[free_q + i]
+    for i in range(tables.rest):
+        y[nq + layout.nv + 1 + i] = values[free_q + free_v + i]
+    return 0
