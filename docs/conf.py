@@ -59,6 +59,7 @@ NAVIGATION = {
     ),
     "Development": (
         "docs/architecture",
+        "docs/first-run",
         "docs/internals",
         "docs/glossary",
         "docs/extending",
