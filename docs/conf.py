@@ -62,6 +62,7 @@ NAVIGATION = {
         "docs/first-run",
         "docs/internals",
         "docs/glossary",
+        "docs/late-names",
         "docs/extending",
         "CONTRIBUTING",
         "docs/decisions/README",
