@@ -8,42 +8,16 @@ from __future__ import annotations
 
 import argparse
 import ast
-import json
-import os
-import subprocess
 import sys
-import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
+from benchmarks.first_run import trace
+
 ROOT = Path(__file__).resolve().parent.parent
 #: Beginnings of the docstrings of functions that do nothing where a run has nothing of a kind.
 _NOTHING = "Do nothing", "Mark the place"
-#: Counts the functions of symgen that a process enters, and their lines.
-_COUNTED = """
-import atexit, json, os, sys, threading
-entered = {}
-def see(frame, event, argument):
-    code = frame.f_code
-    if event == "call" and "symgen" in code.co_filename and code not in entered:
-        lines = [line for _, _, line in code.co_lines() if line]
-        entered[code] = max(lines) - min(lines) + 1 if lines else 0
-    return None
-threading.setprofile(see)
-sys.setprofile(see)
-root = os.environ["COUNTED_ROOT"]
-def tell():
-    sys.setprofile(None)
-    functions = (c for c in entered if c.co_filename.startswith(root) and c.co_flags & 1 and c.co_name[0] != "<")
-    mine = {c: entered[c] for c in functions}
-    files = {m.__file__ for m in list(sys.modules.values()) if (getattr(m, "__file__", "") or "").startswith(root)}
-    print("COUNTED", json.dumps([len(files), len(mine), sum(mine.values())]), file=sys.stderr)
-atexit.register(tell)
-from symgen.cli import main
-sys.argv = ["symgen", "run", "four-bar"]
-main()
-"""
 
 
 def modules(package: Path) -> dict[str, ast.Module]:
@@ -155,15 +129,8 @@ def counts(root: Path) -> dict[str, object]:
 
 def first_run(root: Path) -> list[int]:
     """Return the modules that a first run imports, the functions that it enters, and their lines."""
-    with tempfile.TemporaryDirectory() as cache:
-        environment = {**os.environ, "SYMGEN_CACHE_DIR": cache, "PYTHONPATH": str(root)}
-        environment["COUNTED_ROOT"] = str(root / "symgen")
-        done = subprocess.run(
-            [sys.executable, "-c", _COUNTED], capture_output=True, text=True, cwd=cache, env=environment, check=True
-        )
-    line = next(line for line in done.stderr.splitlines() if line.startswith("COUNTED"))
-    numbers: list[int] = json.loads(line.removeprefix("COUNTED"))
-    return numbers
+    files, entered = trace(root)
+    return [files, len(entered), sum(function.lines for function in entered)]
 
 
 def main() -> None:

@@ -59,8 +59,10 @@ NAVIGATION = {
     ),
     "Development": (
         "docs/architecture",
+        "docs/first-run",
         "docs/internals",
         "docs/glossary",
+        "docs/late-names",
         "docs/extending",
         "CONTRIBUTING",
         "docs/decisions/README",

@@ -66,7 +66,7 @@ def _plain(value: Any) -> dict[str, Any]:
 def code_identity() -> str:
     """Return a digest of the computing code: the version, the emitted form, the whole package and plugins."""
     from symgen.base.ir.program import FORMAT
-    from symgen.run.compiling.pipeline import generator_digest
+    from symgen.run.compiling.folders import generator_digest
 
     return combined_digest(__version__, str(FORMAT), generator_digest(), package_digest(), *stamps())
 

@@ -2,6 +2,7 @@
 
 import copy
 import re
+from dataclasses import replace
 from typing import Any
 
 import msgspec
@@ -17,9 +18,9 @@ from symgen.derive.formulate.formulate import formulate
 from symgen.derive.lower.model import lower_model
 from symgen.describe.facts.repeats import without_repeats
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.looped import compile_looped
 from symgen.run.compiling.method_choice import choose_method
-from symgen.run.compiling.pipeline import generator_digest, model_info
+from symgen.run.compiling.pipeline import compile_model
+from symgen.run.compiling.straight import model_info
 
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")
@@ -32,7 +33,7 @@ def infos(mechanism: Mechanism) -> list[dict[str, Any]]:
     """What results and reports learn of a mechanism from its straight and from its looped code."""
     equations = formulate(mechanism)
     method = choose_method("lagrange")
-    looped = compile_looped(mechanism, method, generator_digest())
+    looped = compile_model(mechanism, replace(method, shape="looped"))
     straight, found = model_info(lower_model(equations, ""), equations), []
     for info in (straight, looped.info):
         found.append({name: value for name, value in msgspec.to_builtins(info).items() if name not in OWN})

@@ -21,9 +21,9 @@ from symgen.derive.lower.looped.law import is_loopable, refuse_dense
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import MultiplierMethod
 from symgen.run.compiling.choices import choose_shape
-from symgen.run.compiling.looped import generate_looped
+from symgen.run.compiling.looped import LoopedStages
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
-from symgen.run.compiling.pipeline import compile_model, generator_digest
+from symgen.run.compiling.pipeline import compile_model, generate_in_stages
 from symgen.run.planning import automatic
 from symgen.run.planning.prepare import make_plan
 from symgen.run.starts import decisions
@@ -89,9 +89,9 @@ def test_panels_hold_a_factor(seed):
 
 
 def test_kernels_do_not_know_their_mechanism():
-    choices = [choose_method("lagrange", implicit=True)]
+    choices = (choose_method("lagrange", implicit=True),)
     few, many = (
-        generate_looped(load(name).mechanism, choices, generator_digest()) for name in ("four-bar", "n-four-bar:7")
+        generate_in_stages(LoopedStages(load(name).mechanism, choices)).modules for name in ("four-bar", "n-four-bar:7")
     )
     common = few.keys() & many.keys() - {"mechanism"}
     assert {"machine", "model", "law_lagrange"} <= common

@@ -7,7 +7,7 @@ import pytest
 from benchmarks import meeting
 from symgen.describe.files.load import parse_toml
 from symgen.describe.files.schema import schema
-from symgen.run.compiling.pipeline import generator_digest
+from symgen.run.compiling.folders import generator_digest
 
 #: A table takes minutes: at each state of the sources another one of so many parts is computed again.
 TURNS = 48

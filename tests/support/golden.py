@@ -12,9 +12,9 @@ from symgen.describe.files.load import load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.run.compiling.choices import on_tree
 from symgen.run.compiling.closing import at_start
-from symgen.run.compiling.looped import generate_looped
+from symgen.run.compiling.looped import LoopedStages
 from symgen.run.compiling.method_choice import MethodChoice, choose_method
-from symgen.run.compiling.pipeline import generate
+from symgen.run.compiling.pipeline import generate, generate_in_stages
 
 MODELS = (
     *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),
@@ -98,7 +98,11 @@ def emitted(model: str, whole: bool = True) -> dict[str, str]:
 @cache
 def emitted_looped(model: str, whole: bool = True) -> dict[str, str]:
     """Return stem -> source of looped modules."""
-    made = generate_looped(load_mechanism(model), looped_choices(model), GENERATOR, whole)
+    return _looped(model, tuple(looped_choices(model)), whole)
+
+
+def _looped(model: str, choices: tuple[MethodChoice, ...], whole: bool) -> dict[str, str]:
+    made = generate_in_stages(LoopedStages(load_mechanism(model), choices, whole, GENERATOR)).modules
     return {stem: source for stem, (source, _) in made.items() if source}
 
 
@@ -129,5 +133,4 @@ SHOWN = {
 def shown() -> dict[str, dict[str, str]]:
     """Return the modules that are checked in, by folder."""
     found = {name: {stem: everything()[name]()[stem] for stem in stems} for name, stems in SHOWN.items()}
-    looped = generate_looped(load_mechanism("four-bar"), [choose_method("direct-correction")], GENERATOR, True)
-    return found | {"four_bar_looped": {stem: source for stem, (source, _) in looped.items() if source}}
+    return found | {"four_bar_looped": _looped("four-bar", (choose_method("direct-correction"),), True)}

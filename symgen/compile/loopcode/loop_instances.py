@@ -35,6 +35,22 @@ def viewing(function: Function) -> Function:
     return function
 
 
+class Meanings(dict[str, Any]):
+    """Meanings of global names for `Instances`, and when they hold; ``docs/late-names.md`` lists all of them.
+
+    Parameters
+    ----------
+    when : str
+        The runs that have these meanings, in words.
+    **names
+        Functions and constants by the names that they replace.
+    """
+
+    def __init__(self, when: str, **names: Any) -> None:
+        super().__init__(names)
+        self.when = when
+
+
 def part(copy: python.FunctionType, original: Any) -> Any:
     """Return a part of a loop, compiled for processors."""
     return copy if interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))

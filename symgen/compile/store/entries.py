@@ -188,15 +188,31 @@ class Entries:
             the form for `put`.
         """
         stems = tuple(stems)
-        described = self._whole(folder, stems)
-        if len(described) < len(stems):
-            with self.building(folder):
-                described = self._whole(folder, stems)  # another process may have made them while this one waited
-                modules = make(described.__contains__) if len(described) < len(stems) else {}
-                for stem, (source, metadata) in modules.items():
+        with self.completing(folder, stems) as described:
+            if len(described) < len(stems):
+                for stem, (source, metadata) in make(described.__contains__).items():
                     self.put(folder, stem, source, metadata)
                     described[stem] = dict(metadata)
         return described
+
+    @contextmanager
+    def completing(self, folder: str, stems: Iterable[str]) -> Iterator[Described]:
+        """Yield the descriptions of those modules that exist; where one is missing, other processes wait.
+
+        Parameters
+        ----------
+        folder : str
+            As for `path`. Not to be nested for one folder.
+        stems : iterable of str
+            The modules.
+        """
+        stems = tuple(stems)
+        described = self._whole(folder, stems)
+        if len(described) == len(stems):
+            yield described
+        else:
+            with self.building(folder):
+                yield self._whole(folder, stems)  # another process may have made them while this one waited
 
     def _whole(self, folder: str, stems: Iterable[str]) -> Described:
         """Return the descriptions of those modules that exist with all their own modules."""

@@ -29,8 +29,9 @@ from symgen.describe.formulas.start import described_start
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.parts.topology import state_names
 from symgen.describe.remembered import remembered
+from symgen.run.compiling.folders import folder_of
 from symgen.run.compiling.method_choice import MethodChoice
-from symgen.run.compiling.pipeline import folder_of, generate
+from symgen.run.compiling.straight import StraightStages
 from symgen.run.layout.compiled import ModelInfo
 
 if TYPE_CHECKING:
@@ -109,9 +110,12 @@ def free_velocities(mechanism: Mechanism) -> tuple[int, ...]:
 
 def _model(mechanism: Mechanism) -> tuple[ModelInfo, Any]:
     """Return description and module of a mechanism's own functions, emitted where the cache does not have them."""
-    store, folder = Entries(), folder_of(mechanism)
-    metadata = store.descriptions(folder, ("model",), lambda _: generate(mechanism, ()).modules)["model"]
-    return msgspec.convert(metadata, ModelInfo), load_module(store.path(folder, "model").parent / "model.py")
+    stages = StraightStages(mechanism, ())
+    with stages.store.completing(stages.folder, stages.stems) as stages.described:
+        if not stages.described:
+            stages.keep(stages.emit(stages.lower(stages.formulate())))
+    metadata, path = stages.described["model"], stages.store.path(stages.folder, "model")
+    return msgspec.convert(metadata, ModelInfo), load_module(path)
 
 
 def _constraints(mechanism: Mechanism, info: ModelInfo, model: Any) -> Array:

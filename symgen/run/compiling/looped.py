@@ -1,9 +1,9 @@
-"""From a mechanism to a compiled model in the looped shape.
+"""The stages of looped code: kernels of elements, laws and generic code, and tables for one mechanism.
 
-    mechanism --instances--> kernels --tables--> compiled model
+    mechanism --formulate--> elements --lower--> kernels and laws --emit--> source --compile--> code with tables
 
 Kernels, laws and generic code are in one folder of the cache that all mechanisms share; what belongs to a mechanism
-alone are tables. SymPy and Jinja2 are imported only for kernels that no mechanism has used before.
+alone are tables. Elements are derived only for kernels that no mechanism has used before.
 """
 
 from __future__ import annotations
@@ -12,17 +12,16 @@ import itertools
 import json
 import re
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType, SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, final
 
 import msgspec
 
-from symgen.base.ir.program import FORMAT
 from symgen.base.vocabulary.infos import LawInfo
-from symgen.compile.store.entries import Entries, Modules, folder_name
+from symgen.compile.store.entries import Modules
 from symgen.compile.store.modules import load_module
 from symgen.derive.lower.law import refuse_bounded_rows
 from symgen.derive.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
@@ -36,24 +35,19 @@ from symgen.derive.lower.record import BEHIND
 from symgen.derive.lower.record_form import record_form
 from symgen.describe.bounds.by_reaction import held_by_reactions
 from symgen.describe.mechanism import Mechanism
+from symgen.run.compiling.folders import generator_digest, shared_folder
 from symgen.run.compiling.looped_model import LoopedModel, describe_model, diagonal, hoisting
+from symgen.run.compiling.method_choice import MethodChoice
+from symgen.run.compiling.stages import Generated, Stages
 
 if TYPE_CHECKING:
-    from symgen.run.compiling.method_choice import MethodChoice
+    from symgen.derive.formulate.elements import Element
+    from symgen.derive.lower.looped.forms import FormProgram
+    from symgen.derive.lower.looped.kernels import KernelProgram
+    from symgen.derive.lower.looped.law import LoopedLaw
 
 #: Modules other than kernels and laws.
 _MACHINE, _MODEL, _ROTORS = "machine", "model", "rotors"
-
-
-def shared_folder(generator: str) -> str:
-    """Return the name of the folder that all mechanisms share.
-
-    Parameters
-    ----------
-    generator : str
-        Digest of everything that shapes emitted code.
-    """
-    return folder_name("looped", generator, FORMAT)
 
 
 def kernel_stems(elements: Sequence[Instance]) -> list[str]:
@@ -129,53 +123,6 @@ class Needs:
         """Whether M couples bodies, which other generic code is for."""
         return any(instance.kind == "rotor" for instance in self.instances)
 
-    def missing(self, exists: Callable[[str], bool], generator: str, whole: bool = False) -> Modules:
-        """Derive and emit kernels, the law and the generic code, with metadata, except those that exist.
-
-        Parameters
-        ----------
-        exists : callable
-            Whether a module need not be emitted.
-        generator : str
-            Digest for the headers.
-        whole : bool
-            Whether the law is one module.
-        """
-        from symgen.derive.emit.kernel_modules import emit_form, emit_kernel
-        from symgen.derive.emit.looped import emit_looped_law, emit_machine, emit_rotors, emit_shared_model
-        from symgen.derive.lower.looped.kernels import lower_kernel
-        from symgen.derive.lower.looped.law import lower_looped
-
-        generator, method, options = generator[:16], self.choice.method, self.choice.options
-        modules: dict[str, tuple[str, dict[str, Any]]] = {}
-        if not exists(_MACHINE):
-            modules[_MACHINE] = emit_machine(generator), {}
-        if not exists(_MODEL):
-            modules[_MODEL] = emit_shared_model(generator), {}
-        if self.has_rotors and not exists(_ROTORS):
-            modules[_ROTORS] = emit_rotors(generator), {}
-        if not exists(self.law):
-            law = lower_looped(method, options)
-            sources = emit_looped_law(law, generator, method.summary, method.reference, whole, self.has_drags)
-            *shared, _ = sources
-            modules |= {name: (source, {}) for name, source in sources.items()}
-            info = msgspec.structs.replace(law.info, modules=tuple(shared))
-            modules[self.law] = sources[self.law], info.to_dict()
-        for name, instance in self.elements.items():
-            form = self.forms.get(name)
-            if exists(name) and (form is None or exists(form)):
-                continue
-            from symgen.derive.formulate.elements import derive_element
-
-            element = derive_element(instance.abstract)
-            kernel = lower_kernel(element, instance)
-            if not exists(name):
-                modules[name] = emit_kernel(kernel, generator), msgspec.to_builtins(kernel.info)
-            if form is not None and not exists(form):
-                part = lower_form(element, instance, method, options, form)
-                modules[form] = emit_form(part, kernel.info, generator, self.shifted), msgspec.to_builtins(part.info)
-        return modules
-
     def laid_out(self, metadata: Mapping[str, Mapping[str, Any]]) -> tuple[LoopedShape, IndexTables, LawInfo]:
         """Return the mechanism's indices, its tables and the law's facts for these, from all metadata."""
         choice = self.choice
@@ -190,57 +137,172 @@ class Needs:
         return shape, tables, msgspec.structs.replace(law, parameter_offset=first, modules=(), **sizes)
 
 
-def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -> LoopedModel:
-    """Return the compiled model of `mechanism` in the looped shape, from the cache as far as possible.
+class LoopedPrograms(NamedTuple):
+    """Kernels of elements with the parts of descriptor forms, and laws, by their modules."""
+
+    kernels: Mapping[str, KernelProgram]
+    forms: Mapping[str, FormProgram]
+    laws: Mapping[str, LoopedLaw]
+
+
+@final
+class LoopedStages(Stages[Mapping[str, "Element"], LoopedPrograms]):
+    """The stages of looped code.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        A validated mechanism.
-    choice : MethodChoice
-        The method with its structural options, and whether it is for an implicit integrator.
-    generator : str
-        Digest of everything that shapes emitted code.
+    mechanism, choices, whole
+        As of `symgen.run.compiling.pipeline.generate`.
+    heading : str, optional
+        What headers say instead of the digest of everything that shapes emitted code.
 
     Raises
     ------
     InputError
-        If the method needs dense algebra, or finds no multipliers where efforts depend on reactions.
+        If a method needs dense algebra, or finds no multipliers where efforts depend on reactions.
     """
-    _refuse(mechanism, choice)
-    began, took = time.perf_counter(), 0.0
-    store, folder, needs = Entries(), shared_folder(generator), Needs(mechanism, choice, instances(mechanism))
 
-    def make(exists: Callable[[str], bool]) -> Modules:
-        nonlocal took
-        emitting = time.perf_counter()
-        modules = needs.missing(exists, generator)
-        took = time.perf_counter() - emitting
+    def __init__(
+        self, mechanism: Mechanism, choices: tuple[MethodChoice, ...], whole: bool = False, heading: str = ""
+    ) -> None:
+        self.began, self.heading = time.perf_counter(), (heading or generator_digest())[:16]
+        super().__init__(mechanism, choices, shared_folder(), whole)
+        for choice in choices:
+            _refuse(mechanism, choice)
+        elements = instances(mechanism)
+        self.needs = tuple(Needs(mechanism, choice, elements) for choice in choices)
+
+    @property
+    def stems(self) -> tuple[str, ...]:
+        """Generic code, laws, kernels and their parts of descriptor forms."""
+        return tuple(dict.fromkeys(stem for needs in self.needs for stem in needs.modules))
+
+    def formulate(self) -> Mapping[str, Element]:
+        """Return the derived elements of those kernels that do not exist, or not with all their forms."""
+        missing = {
+            stem: instance
+            for needs in self.needs
+            for stem, instance in needs.elements.items()
+            if {stem, needs.forms.get(stem, stem)} - self.described.keys()
+        }
+        if not missing:
+            return {}
+        from symgen.derive.formulate.elements import derive_element
+
+        with self.emitting():
+            return {stem: derive_element(instance.abstract) for stem, instance in missing.items()}
+
+    def lower(self, equations: Mapping[str, Element]) -> LoopedPrograms:
+        """Return the programs of these elements, and of those laws that do not exist."""
+        from symgen.derive.lower.looped.kernels import lower_kernel
+        from symgen.derive.lower.looped.law import lower_looped
+
+        kernels: dict[str, KernelProgram] = {}
+        forms: dict[str, FormProgram] = {}
+        laws: dict[str, LoopedLaw] = {}
+        with self.emitting():
+            for needs in self.needs:
+                method, options = needs.choice.method, needs.choice.options
+                if needs.law not in self.described and needs.law not in laws:
+                    laws[needs.law] = lower_looped(method, options)
+                for stem, element in equations.items():
+                    instance, form = needs.elements[stem], needs.forms.get(stem)
+                    if stem not in kernels:
+                        kernels[stem] = lower_kernel(element, instance)
+                    if form is not None and form not in self.described and form not in forms:
+                        forms[form] = lower_form(element, instance, method, options, form)
+        return LoopedPrograms(kernels, forms, laws)
+
+    def emit(self, programs: LoopedPrograms) -> Modules:
+        """Return the sources of those modules that do not exist."""
+        from symgen.derive.emit.looped import emit_machine, emit_rotors, emit_shared_model
+
+        modules = dict[str, tuple[str, Mapping[str, Any]]]()
+        rotors = any(needs.has_rotors for needs in self.needs)
+        generic = {_MACHINE: emit_machine, _MODEL: emit_shared_model} | ({_ROTORS: emit_rotors} if rotors else {})
+        with self.emitting():
+            for stem, emit in generic.items():
+                if stem not in self.described:
+                    modules[stem] = emit(self.heading), {}
+            for needs in self.needs:
+                if needs.law in programs.laws and needs.law not in modules:
+                    modules |= self._law(needs, programs.laws[needs.law])
+                for stem, kernel in programs.kernels.items():
+                    modules |= self._kernel(needs, stem, kernel, programs, modules)
         return modules
 
-    metadata = store.descriptions(folder, needs.modules, make)
-    shape, tables, law = needs.laid_out(metadata)
-    path = store.path(folder, _MODEL).parent
-    kernels = {stem: load_module(path / f"{stem}.py") for stem in (*needs.elements, *needs.forms.values())}
-    machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
-    info, law_module = describe_model(mechanism, shape, tables), load_module(path / f"{needs.law}.py")
-    functions = _gathered(model, "geometry", "spread", "measure", "observe", "move", "turn")
-    functions.masses, functions.prepare = diagonal(shape, tables), hoisting(mechanism, shape, tables, kernels)
-    if choice.implicit:
-        law_module = _gathered(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread")
-        law_module.residual, law_module.tangent = model.residual, model.tangent
-    return LoopedModel(
-        info=info,
-        law=law,
-        model=functions,
-        law_module=law_module,
-        derive_seconds=time.perf_counter() - began - took,
-        emit_seconds=took,
-        tables=tables,
-        kernels=kernels,
-        machine=machine,
-        generic=load_module(path / f"{_ROTORS}.py") if needs.has_rotors else machine,
-    )
+    def _law(self, needs: Needs, law: LoopedLaw) -> Modules:
+        """Return the sources of a law, those that other laws share first."""
+        from symgen.derive.emit.looped import emit_looped_law
+
+        method = needs.choice.method
+        words = method.summary, method.reference
+        sources = emit_looped_law(law, self.heading, *words, self.whole, needs.has_drags)
+        *shared, _ = sources
+        info = msgspec.structs.replace(law.info, modules=tuple(shared))
+        return {stem: (source, {}) for stem, source in sources.items()} | {
+            needs.law: (sources[needs.law], info.to_dict())
+        }
+
+    def _kernel(
+        self, needs: Needs, stem: str, kernel: KernelProgram, programs: LoopedPrograms, emitted: Modules
+    ) -> Modules:
+        """Return the sources of a kernel and of its form for one method, without those that exist."""
+        from symgen.derive.emit.kernel_modules import emit_form, emit_kernel
+
+        modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
+        form = needs.forms.get(stem)
+        if stem not in self.described and stem not in emitted:
+            modules[stem] = emit_kernel(kernel, self.heading), msgspec.to_builtins(kernel.info)
+        if form is not None and form in programs.forms and form not in emitted:
+            part = programs.forms[form]
+            source = emit_form(part, kernel.info, self.heading, needs.shifted)
+            modules[form] = source, msgspec.to_builtins(part.info)
+        return modules
+
+    def compile(self, sources: Modules) -> LoopedModel:
+        """Return the compiled model with the one law of `choices`, and with the tables of the mechanism."""
+        self.keep(sources)
+        (needs,), mechanism = self.needs, self.mechanism
+        shape, tables, law = needs.laid_out(self.described)
+        path = self.store.path(self.folder, _MODEL).parent
+        kernels = {stem: load_module(path / f"{stem}.py") for stem in (*needs.elements, *needs.forms.values())}
+        machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
+        info, law_module = describe_model(mechanism, shape, tables), load_module(path / f"{needs.law}.py")
+        functions = _gathered(model, "geometry", "spread", "measure", "observe", "move", "turn")
+        functions.masses, functions.prepare = diagonal(shape, tables), hoisting(mechanism, shape, tables, kernels)
+        if needs.choice.implicit:
+            law_module = _gathered(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread")
+            law_module.residual, law_module.tangent = model.residual, model.tangent
+        return LoopedModel(
+            info=info,
+            law=law,
+            model=functions,
+            law_module=law_module,
+            derive_seconds=time.perf_counter() - self.began - self.emit_seconds,
+            emit_seconds=self.emit_seconds,
+            tables=tables,
+            kernels=kernels,
+            machine=machine,
+            generic=load_module(path / f"{_ROTORS}.py") if needs.has_rotors else machine,
+        )
+
+    def collect(self, sources: Modules) -> Generated:
+        """Return the sources, and as ``mechanism``, which has no source, the tables for every law.
+
+        As whole modules, kernels have readable names; see `numbered`.
+        """
+        modules, tables = dict(sources), dict[str, Any]()
+        for needs in self.needs:
+            _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
+            tables[f"{needs.law}_implicit" if needs.choice.implicit else needs.law] = {
+                "numbers": list(built.numbers),
+                "functions": [f"{stem}.{name}" for stem, name in built.functions],
+                "sections": dict(built.sections),
+            }
+        modules["mechanism"] = "", tables
+        named = _readable(modules) if self.whole else modules
+        return Generated(self.folder, named, 0.0, time.perf_counter() - self.began)
 
 
 def _refuse(mechanism: Mechanism, choice: MethodChoice) -> None:
@@ -255,46 +317,16 @@ def _gathered(module: ModuleType, *names: str) -> Any:
     return SimpleNamespace(**{name: getattr(module, name) for name in names if hasattr(module, name)})
 
 
-def generate_looped(
-    mechanism: Mechanism, choices: Sequence[MethodChoice], generator: str, whole: bool = False
-) -> Modules:
-    """Return the source of everything that a mechanism and some methods need, with metadata, by file stem.
+#: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
+_STEM = re.compile(
+    r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|drag|rotor|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII
+)
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A validated mechanism.
-    choices : sequence of MethodChoice
-        Methods with their structural options, and whether they are for implicit integrators.
-    generator : str
-        Digest of everything that shapes emitted code.
-    whole : bool
-        Whether each law is one module, and kernels have readable names; see `numbered`.
 
-    Returns
-    -------
-    mapping
-        Generic code, kernels and laws, which are the same for all mechanisms; the metadata of ``mechanism``, which has
-        no source, are the tables for every law.
-    """
+def _readable(modules: Modules) -> Modules:
+    """Return modules under readable names, which import each other from one folder."""
     from symgen.derive.emit.whole import absolute
 
-    modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
-    tables: dict[str, Any] = {}
-    elements = instances(mechanism)
-    for choice in choices:
-        _refuse(mechanism, choice)
-        needs = Needs(mechanism, choice, elements)
-        modules |= needs.missing(modules.__contains__, generator, whole)
-        _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
-        tables[f"{needs.law}_implicit" if choice.implicit else needs.law] = {
-            "numbers": list(built.numbers),
-            "functions": [f"{stem}.{name}" for stem, name in built.functions],
-            "sections": dict(built.sections),
-        }
-    modules["mechanism"] = "", tables
-    if not whole:
-        return modules
     names = numbered(modules)
 
     def named(text: str) -> str:
@@ -304,12 +336,6 @@ def generate_looped(
         names.get(stem, stem): (absolute(named(source)), json.loads(named(json.dumps(metadata))))
         for stem, (source, metadata) in modules.items()
     }
-
-
-#: Stem of a kernel, or of its part of a descriptor form, with the digest of its content.
-_STEM = re.compile(
-    r"\b(?:form_[0-9a-f]{8}_)?((?:body|joint|bound|drag|rotor|force|state)_\w+?)_[0-9a-f]{16}\b", re.ASCII
-)
 
 
 def numbered(stems: Iterable[str]) -> dict[str, str]:

@@ -28,7 +28,7 @@ from symgen.derive.lower.windings import Beside, winding_order
 from symgen.describe.formulas.formula_text import to_text
 from symgen.describe.formulas.readings import integrals
 from symgen.describe.mechanism import Mechanism
-from symgen.run.compiling.pipeline import folder_of, generator_digest
+from symgen.run.compiling.folders import folder_of, generator_digest
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
 

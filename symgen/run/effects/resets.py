@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.compile.loopcode.loop_instances import Meanings
 from symgen.compile.native import types
 from symgen.run.effects.accumulation import PAST, accumulation, add_resets, latest_events
 from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
@@ -191,5 +192,4 @@ def apply_resets(last: int, effects: Any, state: Any) -> int:
     return int(change_nothing(last, effects, state))
 
 
-#: Meanings of names where single runs read the effects.
-KEEPING: dict[str, Any] = {"keep_before": store_before, "keep_after": store_after}
+KEEPING = Meanings("single runs, which read the effects", keep_before=store_before, keep_after=store_after)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.bare import bare, part
-from symgen.compile.loopcode.loop_instances import called, compiled_loop
+from symgen.compile.loopcode.loop_instances import Meanings, called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
 from symgen.run.layout import abi
@@ -215,17 +215,17 @@ def notes_at(n: int, width: int, nw: int) -> int:
     )
 
 
-#: Meanings of the names of the frame.
-MEANINGS: dict[str, Any] = {
-    **{"EVENTS": True, "opened": opened, "ModelSystem": EventSystem},
-    **{
-        "located": located,
-        "prepare_search": prepare_search,
-        "step_to_point": step_to_point,
-        "correct": correct,
-        "is_astray": is_astray,
-    },
-}
+MEANINGS = Meanings(
+    "runs with events or switches",
+    EVENTS=True,
+    opened=opened,
+    ModelSystem=EventSystem,
+    located=located,
+    prepare_search=prepare_search,
+    step_to_point=step_to_point,
+    correct=correct,
+    is_astray=is_astray,
+)
 _loops: dict[Any, Any] = {}
 
 

@@ -11,7 +11,7 @@ import math
 from typing import Any
 
 from symgen.base.ir.program import MODE_NUMBERS
-from symgen.compile.loopcode.loop_instances import called
+from symgen.compile.loopcode.loop_instances import Meanings, called
 from symgen.compile.native import types
 from symgen.run.effects.resets import (
     OF_EFFECTS,
@@ -99,7 +99,7 @@ def refuse_fault(code: int, which: float, first: float, second: float, modes: An
 
 
 @called
-def refuse(code: int, modes: Any, state: Any) -> int:
+def refuse_modes(code: int, modes: Any, state: Any) -> int:
     """Keep why there are no modes, and at which rows; return `NO_MODES`."""
     c, first, second = modes.choice, math.nan, math.nan
     code = find_fault(c, state.w) if code == OUT_OF_RANGE else code
@@ -217,7 +217,7 @@ def choose_here(modes: Any, state: Any) -> int:
             clear_flags(c)
             code = take_chosen(modes, state)
     if code != SAME:
-        return int(refuse(code, modes, state))
+        return int(refuse_modes(code, modes, state))
     if not starts:  # a start has modes, and no change of them
         log_changes(t, c, state.w, modes.transitions)
     return int(abi.DONE)
@@ -316,8 +316,12 @@ def change_state(last: int, effects: Any, state: Any) -> int:
     return int(change_nothing(last, effects, state))
 
 
-#: Meanings of names where gaps strike or events change a run with rows with bounds; where bounds depend on reactions.
-STRIKING: dict[str, Any] = {"meet_impacts": strike_gaps, "gather_impacts": rest_gaps, "change_state": apply_resets}
-PRESSED: dict[str, Any] = {"choose_modes": choose_pressed}
+STRIKING = Meanings(
+    "runs with bounded rows, of which gaps strike or events change the state",
+    meet_impacts=strike_gaps,
+    gather_impacts=rest_gaps,
+    change_state=apply_resets,
+)
+PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
 FURTHER = {"effects": OF_EFFECTS, "modes": OF_MODES}

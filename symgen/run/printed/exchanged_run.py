@@ -11,7 +11,7 @@ import math
 from typing import Any
 
 from symgen.compile.loopcode.bare import part
-from symgen.compile.loopcode.loop_instances import called, compiled_loop
+from symgen.compile.loopcode.loop_instances import Meanings, called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
 from symgen.run.layout import abi
@@ -310,11 +310,15 @@ def rest_low_gaps(t: float, modes: Any, state: Any) -> int:
 
 
 _loops: dict[Any, tuple[Any, Any]] = {}
-_RESTING = {
-    **{"gather_impacts": rest_low_gaps, "forget_rests": forget_rests_of_gaps},
-    **{"note_rests": note_rests_of_gaps, "next_rest": next_rest_of_gaps, "rest_lost_gaps": rest_gaps_in_flight},
-}
-_SEAMED = {"next_time": next_seam, "pass_seams": pass_due_seams}
+_RESTING = Meanings(
+    "FMUs for model exchange with gaps",
+    gather_impacts=rest_low_gaps,
+    forget_rests=forget_rests_of_gaps,
+    note_rests=note_rests_of_gaps,
+    next_rest=next_rest_of_gaps,
+    rest_lost_gaps=rest_gaps_in_flight,
+)
+_SEAMED = Meanings("FMUs for model exchange with inputs that jump", next_time=next_seam, pass_seams=pass_due_seams)
 
 
 def exchanged_run(loop: Any, traits: Traits) -> tuple[Any, Any]:

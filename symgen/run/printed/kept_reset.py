@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from symgen.compile.loopcode.loop_instances import compiled_loop, viewing
+from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, viewing
 from symgen.compile.native import types
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.layout.start_records import Instant
@@ -63,7 +63,7 @@ def reset_run(event: int, t: float, y: Any, model: Any, state: Any) -> int:
     return 0 if code == APPLIED else 1
 
 
-_MODED = {"effects_alone": effects_beside_modes, "leave_alone": open_chosen}
+_MODED = Meanings("resets of FMUs with bounded rows", effects_alone=effects_beside_modes, leave_alone=open_chosen)
 _loops: dict[Any, Any] = {}
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from symgen.compile.loopcode.loop_instances import compiled_loop, viewing
+from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, viewing
 from symgen.compile.native import types
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
@@ -296,15 +296,19 @@ def integrate(*arguments: Any) -> int:
 
 
 _loops: dict[Any, KeptLoops] = {}
-#: Meanings of names here where rows have bounds, and between seams.
-_OF_ROWS: dict[str, Any] = {"assume_step": assume_first_step, "let_go": let_rows_go}
-_OF_ROWS_BETWEEN_SEAMS: dict[str, Any] = {
-    **{"begin_at_seams": row_events.begin_row_between_seams, "take_change": row_events.choose_after_change}
-}
-_SEAMED = {
-    **{"return_before_seams": forget_later_seams, "system_of_steps": system_between_seams},
-    "integrate": between_seams,
-}
+_KEPT = Meanings("printed runs", store=show, _MAX_PASSAGES=1, integrate=frame.integrate)
+_OF_ROWS = Meanings("printed runs with bounded rows", assume_step=assume_first_step, let_go=let_rows_go)
+_OF_ROWS_BETWEEN_SEAMS = Meanings(
+    "printed runs with bounded rows and inputs that jump",
+    begin_at_seams=row_events.begin_row_between_seams,
+    take_change=row_events.choose_after_change,
+)
+_SEAMED = Meanings(
+    "printed runs with inputs that jump",
+    return_before_seams=forget_later_seams,
+    system_of_steps=system_between_seams,
+    integrate=between_seams,
+)
 
 
 class Traits(NamedTuple):
@@ -326,7 +330,7 @@ class Traits(NamedTuple):
     @property
     def meanings(self) -> dict[str, Any]:
         """Meanings of names in this module and in the frame."""
-        meanings = {"store": show, "_MAX_PASSAGES": 1, "integrate": frame.integrate}
+        meanings: dict[str, Any] = dict(_KEPT)
         if self.events:
             meanings |= MEANINGS | rows.EVENTS
         if self.modes:

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 from numba import config, cuda, float64, int64, types
 
-from symgen.compile.loopcode.loop_instances import Instances, viewing
+from symgen.compile.loopcode.loop_instances import Instances, Meanings, viewing
 from symgen.compile.loopcode.vectors import PLAIN
 from symgen.compile.native import types as native
 from symgen.run.layout import abi
@@ -146,6 +146,11 @@ class ForgivingMath:
         return forgiving
 
 
+#: Meanings of names in all functions on a device, and in the frame.
+_ON_DEVICE = Meanings("sweeps on a CUDA device", bare=bare_value, part=cut, **PLAIN)
+_FRAME = Meanings("sweeps on a CUDA device", watch=watch_passages, rows_fell=never)
+
+
 def on_device(function: Any, **meanings: Any) -> Any:
     """Return a function of the runtime and its callees as device functions.
 
@@ -156,7 +161,7 @@ def on_device(function: Any, **meanings: Any) -> Any:
     **meanings
         Further meanings of global names on the device: helpers, and sizes.
     """
-    common: dict[str, Any] = {"bare": bare_value, "part": cut, **PLAIN, **meanings}
+    common: dict[str, Any] = {**_ON_DEVICE, **meanings}
     if simulated():
         common["math"] = ForgivingMath()
     return Instances(common, _compiled, everything=True).of(function)
@@ -231,7 +236,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     parts: dict[str, Any] = explicit.ADAPTIVE_PARTS if need.adaptive else explicit.CONSTANT_PARTS
     one_passage = on_device(watch.watch, _N_PASSAGE=0)
     watched = on_device(watch_passages, watch_states=one_passage)
-    integrate = on_device(frame.integrate, **parts, watch=watched, rows_fell=never)
+    integrate = on_device(frame.integrate, **{**parts, **_FRAME, "watch": watched})
     begin_run, pick = on_device(rows.begin_run), on_device(row_results.pick)
     summarise = on_device(row_results.summarise, _MAX_PASSAGES=1)  # only the narrowest passage is kept
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)

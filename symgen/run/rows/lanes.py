@@ -17,7 +17,7 @@ from typing import Any
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import LANE_COUNTERS, LANES, lane_bases
 from symgen.compile.loopcode.bare import bare, part
-from symgen.compile.loopcode.loop_instances import Instances, compiled_loop
+from symgen.compile.loopcode.loop_instances import Instances, Meanings, compiled_loop
 from symgen.compile.loopcode.vectors import combine, copied
 from symgen.compile.native import types
 from symgen.run.layout import abi
@@ -203,19 +203,24 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[k * width + abi.N_STATUS * _L + i] = w[_WINDING + i]
 
 
-_MEANINGS: dict[str, Any] = {
-    **{"opened": opened, "evaluate": evaluate, "correct": correct, "note_step": note_step, "store": store},
-    **{
-        "largest_turn": largest_turn,
-        "settle_scales": settle_lanes,
-        "remember_rank": remember_rank,
-        "begin": begin,
-        "keep_maxima": keep_maxima,
-        "watch": watch,
-    },
+_MEANINGS = Meanings(
+    "sweeps in vector lanes",
+    opened=opened,
+    evaluate=evaluate,
+    correct=correct,
+    note_step=note_step,
+    store=store,
+    largest_turn=largest_turn,
+    settle_scales=settle_lanes,
+    remember_rank=remember_rank,
+    begin=begin,
+    keep_maxima=keep_maxima,
+    watch=watch,
     # emitted code for lanes writes whole vectors, which are read as such
-    **{"rows_fell": never, "attempt": explicit.attempt_constant, "follow": combine},
-}
+    rows_fell=never,
+    attempt=explicit.attempt_constant,
+    follow=combine,
+)
 
 
 # -- groups of rows ----------------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from symgen.compile.loopcode.bare import bare
-from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
+from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, signature_of
 from symgen.compile.native import types
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
@@ -188,22 +188,33 @@ def observe_no_coordinate(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any)
 
 #: Sizes of a model, and the functions called at outputs.
 OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
-#: Meanings of names here, where rows have events, effects, modes, and constraints that may jump.
-EVENTS = {"forget": row_events.forget_functions, "take_notes": row_events.take_notes_of_events}
-EFFECTS = {
-    **{"forget": row_events.forget_past, "happen": row_events.happen_with_resets},
-    **{"keep_ends": row_events.keep_ends_of_resets, "store_after": row_events.store_after_effects},
-}
-MODES = {
-    **{"forget": row_events.forget_past_modes, "begin_choice": row_events.begin_row_in_modes},
-    **{"happen": row_events.happen_with_modes, "keep_ends": row_events.keep_ends_of_modes},
-    "store_after": row_events.store_after_effects,
-}
-MODES_BETWEEN_SEAMS = {
-    **{"begin_choice": row_events.begin_row_between_seams, "take_change": row_events.choose_after_change}
-}
-_EXAMINED = {"resumed": row_events.resumed_after_examination, "waits": row_events.waits_for_examination}
-SEAMED = {"take_row": take_seams, "hold": hold_between_seams}
+EVENTS = Meanings("sweeps with events", forget=row_events.forget_functions, take_notes=row_events.take_notes_of_events)
+EFFECTS = Meanings(
+    "sweeps of which events change the state",
+    forget=row_events.forget_past,
+    happen=row_events.happen_with_resets,
+    keep_ends=row_events.keep_ends_of_resets,
+    store_after=row_events.store_after_effects,
+)
+MODES = Meanings(
+    "sweeps with bounded rows",
+    forget=row_events.forget_past_modes,
+    begin_choice=row_events.begin_row_in_modes,
+    happen=row_events.happen_with_modes,
+    keep_ends=row_events.keep_ends_of_modes,
+    store_after=row_events.store_after_effects,
+)
+MODES_BETWEEN_SEAMS = Meanings(
+    "sweeps with bounded rows and inputs that jump",
+    begin_choice=row_events.begin_row_between_seams,
+    take_change=row_events.choose_after_change,
+)
+_EXAMINED = Meanings(
+    "sweeps with constraints that may jump",
+    resumed=row_events.resumed_after_examination,
+    waits=row_events.waits_for_examination,
+)
+SEAMED = Meanings("sweeps with inputs that jump", take_row=take_seams, hold=hold_between_seams)
 _loops: dict[Any, Any] = {}
 
 

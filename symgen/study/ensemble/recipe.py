@@ -26,7 +26,7 @@ from symgen.describe.facts.sides import SidedJoint
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.parts.events import in_words
 from symgen.result.signals import Signal
-from symgen.run.compiling.pipeline import load_compiled
+from symgen.run.compiling.straight import load_compiled
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.ensemble_abi import SIDE

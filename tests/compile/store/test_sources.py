@@ -9,7 +9,7 @@ import pytest
 
 import symgen
 from symgen.compile.store import sources
-from symgen.run.compiling import pipeline
+from symgen.run.compiling import folders
 from symgen.run.effects import stepping
 from symgen.run.loops import frame
 from symgen.study import journal
@@ -63,7 +63,7 @@ def identities():
     return {
         "rows": recipe.run_code_identity(),
         "cells": journal.code_identity(),
-        "code": pipeline.generator_digest.__wrapped__(),
+        "code": folders.generator_digest.__wrapped__(),
         "stepping": sources.reached_digest(*sources.LOOPS),
         "compiler": sources.reached_digest(*sources.COMPILER),
     }

@@ -8,7 +8,7 @@ from symgen.api import load
 from symgen.derive.formulate import formulate as stage
 from symgen.derive.methods import METHODS
 from symgen.derive.methods._base import EXPLICIT_FORMS
-from symgen.run.compiling import pipeline
+from symgen.run.compiling import straight
 from symgen.run.compiling.method_choice import choose_method
 from symgen.run.compiling.pipeline import generate
 
@@ -49,10 +49,10 @@ def test_equations_are_derived_once(monkeypatch):
 def test_nothing_of_a_mechanism_that_is_gone_is_kept():
     mechanism = load("pendulum").mechanism
     generate(mechanism, (choose_method("lagrange"),))
-    assert pipeline._latest
+    assert straight._latest
     del mechanism
     gc.collect()
-    assert not pipeline._latest
+    assert not straight._latest
 
 
 def test_what_fails_halfway_is_derived_anew(monkeypatch):
@@ -68,5 +68,5 @@ def test_what_fails_halfway_is_derived_anew(monkeypatch):
     with monkeypatch.context() as patch, pytest.raises(RuntimeError, match="halfway"):
         patch.setattr(law, "lower_law", fails)
         generate(mechanism, (choose_method("lagrange"),))
-    assert not pipeline._latest
+    assert not straight._latest
     assert generate(mechanism, (choose_method("ggl"),)).modules == expected.modules

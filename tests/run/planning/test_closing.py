@@ -12,8 +12,9 @@ from symgen.base.ir.program import BY_PIVOTS
 from symgen.run.compiling import closing
 from symgen.run.compiling.choices import on_tree
 from symgen.run.compiling.closing import at_start, free_velocities
+from symgen.run.compiling.folders import folder_of
 from symgen.run.compiling.method_choice import choose_method
-from symgen.run.compiling.pipeline import compile_model, folder_of
+from symgen.run.compiling.pipeline import compile_model
 from symgen.run.layout import abi
 from symgen.run.layout.abi import N_COUNTERS
 from symgen.run.layout.probe import Ready
