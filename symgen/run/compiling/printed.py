@@ -124,7 +124,7 @@ class PrintedEvents:
     Attributes
     ----------
     directions, ends : sequence of int
-        Of each event, as in `symgen.run.effects.stepping.STEP_MODEL`; 1 for each event that ends runs, else 0. Empty
+        Of each event, as in `symgen.run.effects.stepping.StepModel`; 1 for each event that ends runs, else 0. Empty
         where all events are only recorded.
     switching : emitted function, optional
         Switching functions of all events.

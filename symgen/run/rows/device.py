@@ -23,10 +23,11 @@ from numba import config, cuda, float64, int64, types
 from symgen.compile.loopcode.loop_instances import Instances, viewing
 from symgen.compile.loopcode.vectors import PLAIN
 from symgen.compile.native import types as native
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
-from symgen.run.layout.records import SIZES, SPAN, Kept, Observed, Outputs, State
+from symgen.run.layout.records import SIZES, SPAN, Kept, Observed, Outputs, Run, Sizes, State
 from symgen.run.layout.redundancy import never
 from symgen.run.layout.scheme_records import TABLEAU
 from symgen.run.loops import frame, watch
@@ -100,12 +101,12 @@ def bare_value(value: Any) -> Any:
 
 
 @viewing
-def cut(array: Any, first: int, size: int) -> Any:
+def cut(array: Array, first: int, size: int) -> Any:
     """Replace `symgen.compile.loopcode.bare.part`."""
     return array[first : first + size]
 
 
-def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
+def watch_passages(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Watch as on a processor; keep only the present passage and the narrowest one."""
     code, passages = watch_states(sizes, run, y, t), run.passages
     if (
@@ -117,12 +118,12 @@ def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
     return code
 
 
-def watch_states(sizes: Any, run: Any, y: Any, t: float) -> int:
+def watch_states(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Stand for `symgen.run.loops.watch.watch` with a table of one event."""
     return 0
 
 
-def confirm_nothing(t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
+def confirm_nothing(t: float, y: Array, p: Array, w: Array, iw: Integers, ydot: Array) -> int:
     """Replace ``confirm`` in a law whose ``rhs`` never requires it."""
     return 0
 

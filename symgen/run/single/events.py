@@ -52,7 +52,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     sizes_of_tables = [len(switch.points) for switch in watched.switches]
     columns[searching.POINTS, events:] = sizes_of_tables
     columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
-    return event_loop.EventState(*state, hunt)
+    return event_loop.EventState._make((*state, hunt))
 
 
 #: Kinds of margins by the last words of their names.
