@@ -109,7 +109,7 @@ def signature_from(function: Callable[..., Any]) -> types.Signature:
     return types.Signature(number, tuple(type_of(hints[x], names) for x in code.co_varnames[: code.co_argcount]))
 
 
-def type_of(hint: Any, names: Mapping[str, Any] | None = None) -> types.Kind:
+def type_of(hint: object, names: Mapping[str, Any] | None = None) -> types.Kind:
     """Return the type that an annotation means.
 
     Parameters
@@ -135,7 +135,7 @@ def type_of(hint: Any, names: Mapping[str, Any] | None = None) -> types.Kind:
     return kind
 
 
-def _named(hint: Any, names: Mapping[str, Any]) -> Any:
+def _named(hint: object, names: Mapping[str, Any]) -> Any:
     """Return the meaning of an annotation that is text: a name in most cases, for which nothing has to be compiled."""
     if not isinstance(hint, str):
         return hint
@@ -147,7 +147,7 @@ def _named(hint: Any, names: Mapping[str, Any]) -> Any:
     return eval(hint, dict(names))  # the text of an annotation in a module of our own
 
 
-def _composed(hint: Any) -> types.Kind:
+def _composed(hint: object) -> types.Kind:
     """Return the type of an annotation that is made of others."""
     origin, arguments = get_origin(hint), get_args(hint)
     if origin is Annotated:

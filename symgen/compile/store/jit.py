@@ -127,7 +127,7 @@ class MachineFunction(ABC):
             self._callers[arguments] = caller(*self.code(arguments))
         return self._callers[arguments]
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments: object) -> Any:
         """Call the machine code for the types of the arguments."""
         return self.caller(tuple(map(kind_of, arguments)))(*arguments)
 
@@ -202,7 +202,7 @@ class RuntimeFunction(MachineFunction):
 
     def __init__(
         self,
-        function: Any,
+        function: object,
         inlined: bool = False,
         contracted: bool = True,
         signature: types.Signature | None = None,
@@ -218,7 +218,7 @@ class RuntimeFunction(MachineFunction):
         """Types of a loop, None of a part."""
         return signature_from(self.py_func) if self._entry else self._signature
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments: object) -> Any:
         """Call the machine code."""
         if self.signature is None:
             return super().__call__(*arguments)
@@ -351,7 +351,7 @@ def _environment() -> str:
     return "\n".join((_FORMAT, llvmlite.__version__))
 
 
-def _meaning(value: Any) -> str:
+def _meaning(value: object) -> str:
     """Return the meaning of a global name: the identity of a function, or the number."""
     function = getattr(value, "py_func", value)
     if hasattr(function, "__qualname__"):

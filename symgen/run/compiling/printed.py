@@ -45,7 +45,7 @@ Naming = Callable[[str], str | None]
 
 
 @lru_cache(maxsize=512)
-def source_of(function: Any) -> lang.Function:
+def source_of(function: object) -> lang.Function:
     """Return a function of the runtime, whose callees are functions of their own; it is read once a process.
 
     Raises
@@ -60,7 +60,7 @@ def source_of(function: Any) -> lang.Function:
 
 
 def meanings_of(
-    function: Any, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
+    function: object, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
 ) -> dict[str, Meaning]:
     """Return the meanings of a function's parameters for the arguments of a call.
 

@@ -13,7 +13,7 @@ from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
-from symgen.compile.store.jit import jit
+from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import ModelSystem, Outputs, Span, State, System
@@ -204,7 +204,7 @@ def unobserved(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) 
 _loops: dict[Any, Any] = {}
 
 
-def ahead_of(loop: Any) -> Any:
+def ahead_of(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one step by step, made at the first use.
 
     Parameters

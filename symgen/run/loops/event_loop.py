@@ -18,6 +18,7 @@ from symgen.compile.loopcode.loop_instances import called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout.records import OUTPUTS, SPAN, ModelSystem, Run, Sizes, Span, State
 from symgen.run.loops import frame
@@ -254,7 +255,7 @@ MEANINGS: dict[str, Any] = {
 _loops: dict[Any, Any] = {}
 
 
-def with_events(loop: Any) -> Any:
+def with_events(loop: RuntimeFunction | None) -> Any:
     """Return the same loop with events, built at the first use.
 
     Parameters

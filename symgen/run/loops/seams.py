@@ -16,7 +16,7 @@ from symgen.compile.loopcode.bare import bare
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
-from symgen.compile.store.jit import jit
+from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Outputs, Span, State, System
@@ -215,7 +215,7 @@ def between_seams(model: System, scheme: Record, span: Span, state: State, outpu
 _loops: dict[Any, Any] = {}
 
 
-def with_seams(loop: Any) -> Any:
+def with_seams(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one for each part of a run, made at the first use.
 
     Parameters
@@ -238,7 +238,7 @@ def with_seams(loop: Any) -> Any:
 def with_table(
     compiled: CompiledModel,
     system: tuple[Any, ...],
-    loop: Any,
+    loop: RuntimeFunction,
     adaptive: bool,
     rows: Sequence[Sequence[Seam]],
     alone: bool = True,

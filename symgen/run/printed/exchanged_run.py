@@ -15,6 +15,7 @@ from symgen.compile.loopcode.loop_instances import called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout.records import CHUNK, SPAN, RowChunk, Span, System
 from symgen.run.loops import search_records as records
@@ -338,7 +339,7 @@ _RESTING = {
 _SEAMED = {"next_time": next_seam, "pass_seams": pass_due_seams}
 
 
-def exchanged_run(loop: Any, traits: Traits) -> tuple[Any, Any]:
+def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
     """Return `indicate_run` and `exchange_run` for a scheme, made at the first use; parameters as for `kept_run`."""
     key = loop, traits
     if key not in _loops:

@@ -10,6 +10,7 @@ from typing import Any
 from symgen.compile.loopcode.loop_instances import compiled_loop, viewing
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.effects.resets import OfEffects
 from symgen.run.layout.records import State
@@ -72,7 +73,7 @@ _MODED = {"effects_alone": effects_beside_modes, "leave_alone": open_chosen}
 _loops: dict[Any, Any] = {}
 
 
-def kept_reset(loop: Any, traits: Traits) -> Any:
+def kept_reset(loop: RuntimeFunction, traits: Traits) -> Any:
     """Return `reset_run` for a scheme, made at the first use; parameters as for `kept_run`."""
     key = loop, traits
     if key not in _loops:

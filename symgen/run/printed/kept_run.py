@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from symgen.compile.loopcode.loop_instances import compiled_loop, viewing
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import CHUNK, SPAN, STATE, RowChunk, Sizes, Span, State, System
@@ -331,7 +332,7 @@ def advance_run(
     return FAILED if code != abi.DONE else ENDED if ended else REACHED
 
 
-def integrate(*arguments: Any) -> int:
+def integrate(*arguments: object) -> int:
     """Mark the place of the loop, which `kept_run` inserts: it is never called."""
     raise NotImplementedError
 
@@ -404,7 +405,7 @@ class KeptLoops(NamedTuple):
     steps: Any
 
 
-def kept_run(loop: Any, traits: Traits) -> KeptLoops:
+def kept_run(loop: RuntimeFunction, traits: Traits) -> KeptLoops:
     """Return the functions around the loop of a scheme, made at the first use.
 
     Parameters
@@ -429,7 +430,7 @@ def kept_run(loop: Any, traits: Traits) -> KeptLoops:
     return _loops[key]
 
 
-def recipe_of(loop: Any, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
+def recipe_of(loop: RuntimeFunction, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
     """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and the model.
 
     Parameters are those of `kept_run`.

@@ -12,7 +12,7 @@ from symgen.compile.loopcode.bare import bare
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, type_of
-from symgen.compile.store.jit import jit
+from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
 from symgen.run.layout.records import (
     CHUNK,
@@ -190,7 +190,7 @@ def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, stat
 # -- loops -------------------------------------------------------------------------------------------------------------
 
 
-def integrate(*arguments: Any) -> int:
+def integrate(*arguments: object) -> int:
     """Mark the place of the loop over one run, which `instances` and `on_device` insert."""
     raise NotImplementedError
 
@@ -222,7 +222,7 @@ _loops: dict[Any, Any] = {}
 
 
 def over_rows(
-    loop: Any,
+    loop: RuntimeFunction,
     events: bool = False,
     seams: bool = False,
     effects: bool = False,

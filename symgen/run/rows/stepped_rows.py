@@ -12,6 +12,7 @@ from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import OUTPUTS, SPAN, STATE, Outputs, Span, State, System
@@ -149,7 +150,7 @@ _FORMULAS = types.RecordType((abi.RHS, abi.RHS, abi.OBSERVE, types.int64))
 _loops: dict[Any, Any] = {}
 
 
-def over_stepped(loop: Any) -> Any:
+def over_stepped(loop: RuntimeFunction) -> Any:
     """Return the compiled function around the loop of single runs, made at the first use."""
     if loop not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}_stepped"

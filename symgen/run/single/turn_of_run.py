@@ -22,7 +22,7 @@ from symgen.describe.bounds.modes import HIT, MODE, REST
 from symgen.describe.parts.events import RESET, STOP
 from symgen.run.effects.accumulation import Past, add_resets
 from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES
-from symgen.run.effects.resets import KEEPING, OfEffects
+from symgen.run.effects.resets import KEEPING, KeptEffect, OfEffects
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.loops.event_loop import EVENT_STATE, EventState
@@ -252,7 +252,7 @@ class TurnOfRun:
                 event = replace(event, left=float(strikes.left[row]))
             happened.append(event)
 
-    def _impact(self, numbers: Sequence[int], kept: Any) -> Impact:
+    def _impact(self, numbers: Sequence[int], kept: KeptEffect) -> Impact:
         """Return what some events have changed."""
         return self.effects.impact(numbers, kept.v, kept.impulses, float(kept.energy[0]))
 
