@@ -140,8 +140,8 @@ def meanings() -> dict[str, list[Meaning]]:
         for name, value in names.items():
             found.setdefault(name, []).append(_meaning(binder, value))
     schemes = [(recipe[0], names) for recipe, names in frame.RECIPES.values()]
-    for module, names in sorted(schemes, key=lambda scheme: scheme[0]):
-        for name, value in names.items():
+    for module, own in sorted(schemes, key=lambda scheme: scheme[0]):
+        for name, value in own.items():
             meaning = _meaning(file_of(module), value)
             if meaning not in found.setdefault(name, []):
                 found[name].append(meaning)
@@ -164,7 +164,7 @@ def users() -> dict[str, list[types.FunctionType]]:
     for names in (*dictionaries().values(), *(names for _, names in frame.RECIPES.values())):
         for name, value in names.items():
             bound.setdefault(name, []).append(value)
-    waiting = [getattr(root, "py_func", root) for root in ROOTS]
+    waiting: list[Any] = [getattr(root, "py_func", root) for root in ROOTS]
     reached = set(waiting)
     while waiting:
         new = set(_callees(waiting.pop(), bound)) - reached

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import re
-from typing import Any
 
 #: Maximum length of a text in a comment.
 LONGEST = 200
@@ -67,7 +66,7 @@ def latex_text(text: str) -> str:
     return "".join(_IN_LATEX.get(c, c if c.isprintable() and ord(c) < 128 else f"[U+{ord(c):04X}]") for c in text)
 
 
-def script_json(data: Any) -> str:
+def script_json(data: object) -> str:
     """Return data as JSON for scripts: it cannot end the element that it stands in."""
     text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")

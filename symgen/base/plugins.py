@@ -84,7 +84,7 @@ def in_sentences(function: F) -> F:
     """Return a function that raises an error inside a plugin as its sentence, with the error as the cause."""
 
     @wraps(function)
-    def entry(*values: Any, **keywords: Any) -> Any:
+    def entry(*values: object, **keywords: object) -> Any:
         try:
             return function(*values, **keywords)
         except SymgenError:

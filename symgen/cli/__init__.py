@@ -300,7 +300,7 @@ def _forget_stdout() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def write_json(value: Any) -> None:
+def write_json(value: object) -> None:
     """Write a value as JSON to standard output; nan and infinity are refused."""
     import json
 

@@ -107,7 +107,7 @@ class _Range:
     text: str
 
 
-def _in_si(name: str, value: Any, model: str) -> Any:
+def _in_si(name: str, value: object, model: str) -> Any:
     """Return the value of an option with its numbers in SI units."""
     if not isinstance(value, _Range):
         return numbers_in_si(f"--{name}", value, (model,))

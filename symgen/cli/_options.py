@@ -65,7 +65,7 @@ def _in_units_of_file(function: F) -> F:
     """Return a command that has its typed numbers in SI units."""
 
     @wraps(function)
-    def command(*args: Any, **values: Any) -> Any:
+    def command(*args: object, **values: object) -> Any:
         for name in sorted(TYPED & values.keys()):
             values[name] = numbers_in_si(flag(name), values[name], _models(values))
         return function(*args, **values)
@@ -79,7 +79,7 @@ def _models(values: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(values["models"]) if "models" in values else (named,) if isinstance(named, str) else ()
 
 
-def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
+def numbers_in_si(option: str, numbers: object, models: Sequence[str]) -> Any:
     """Return numbers by name in SI units: as typed, parameters are in the unit of the file.
 
     Parameters
@@ -110,7 +110,7 @@ def numbers_in_si(option: str, numbers: Any, models: Sequence[str]) -> Any:
     return found[0] if found else {name: float(x) for name, x in numbers.items()}
 
 
-def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
+def _option(name: str, text: str | None, otherwise: object) -> Callable[[F], F]:
     setting, usual = about(name), default(name)
     words = otherwise if isinstance(otherwise, str) and otherwise.startswith("(") else setting.otherwise
     value = usual if otherwise is None or words is otherwise else otherwise

@@ -71,7 +71,7 @@ def study_files(row: str) -> Callable[[F], F]:
 
     def decorate(function: F) -> F:
         @wraps(function)
-        def command(*, output: str | None, csv: str | None, units: bool, resume: str | None, **further: Any) -> Any:
+        def command(*, output: str | None, csv: str | None, units: bool, resume: str | None, **further: object) -> Any:
             rows, report = output_file("--csv", csv), _report_file(output)
             if rows is not None and rows.suffix.lower() != ".csv":
                 raise InputError("--csv", "a file ending in .csv", f"'{csv}'")

@@ -55,7 +55,7 @@ def contract(result: Result) -> dict[str, Any]:
     return facts
 
 
-def json_value(value: Any) -> Any:
+def json_value(value: object) -> Any:
     """Return `value` with every number that JSON cannot express replaced by None."""
     if isinstance(value, Mapping):
         return {key: json_value(item) for key, item in value.items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -119,7 +119,7 @@ class Evaluated:
         """Return the directions of the rates of these states."""
         return self.gathered(lambda x: x.model.shadow(x.rates[0], "y"))
 
-    def function(self, function: Any, length: int) -> Array:
+    def function(self, function: object, length: int) -> Array:
         """Return the directions of a function of the motion of bodies, shape (k, length, n)."""
         return self.gathered(lambda x: x.observed(function, length)[1])
 

@@ -39,7 +39,7 @@ Outcome = dict[str, Any]
 # -- the key of a cell -------------------------------------------------------------------------------------------------
 
 
-def cell_key(**parts: Any) -> str:
+def cell_key(**parts: object) -> str:
     """Return the digest of everything that determines a cell, 32 hexadecimal digits.
 
     Parameters
@@ -57,7 +57,7 @@ def cell_key(**parts: Any) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _plain(value: Any) -> dict[str, Any]:
+def _plain(value: object) -> dict[str, Any]:
     if isinstance(value, Mapping):
         return dict(value)
     raise TypeError(f"a cell's key cannot hold a {type(value).__name__}")
@@ -238,7 +238,7 @@ def _parsed(line: bytes) -> tuple[str, Outcome] | None:
         return None
 
 
-def _shown(value: Any) -> Any:
+def _shown(value: object) -> Any:
     """Return an outcome with printable texts, as symgen writes them: a journal may come from somebody else."""
     if isinstance(value, str):
         return printable(value)

@@ -235,7 +235,7 @@ class Shares:
 
 
 @in_sentences
-def _computed_there(compute: Callable[[Any], Outcome | None], task: Any) -> Outcome | None:
+def _computed_there(compute: Callable[[Any], Outcome | None], task: object) -> Outcome | None:
     """Compute a cell in another process: errors leave it without the lines that they passed."""
     return compute(task)
 

@@ -52,7 +52,7 @@ class ArrayFunction:
 
     if TYPE_CHECKING:
 
-        def __call__(self, *arrays: Any, p: Any = None, out: Array | None = None) -> Any:
+        def __call__(self, *arrays: object, p: object = None, out: Array | None = None) -> Any:
             """Evaluate."""
 
     def __repr__(self) -> str:
@@ -67,7 +67,7 @@ class _Converted:
         self.function, self.default, self.values = function, default, values
         self.block: EntrySlots | None = None
 
-    def __call__(self, *given: Any, **named: Any) -> Any:
+    def __call__(self, *given: object, **named: object) -> Any:
         function = self.function
         names = [_NAMES[x] for x in function.arguments]
         numbers, out = self._bound(names, given, named)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +61,7 @@ class Frame:
         """``J' v`` of (q, v): the rate of `velocity`, of its components, where v' is 0 [m/s^2, rad/s^2]."""
         return self._function("jacobian_rate", ("q", "v"))
 
-    def reduced_jacobian(self, q: Any, independent: Sequence[str] = (), p: Any = None) -> Array:
+    def reduced_jacobian(self, q: object, independent: Sequence[str] = (), p: object = None) -> Array:
         """Return J over independent velocities, with loops closed; see `Functions.reduction`."""
         along = self.functions.reduction(q, independent, p)[1]
         own = self.jacobian(q) if p is None else self.jacobian(q, p)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -248,7 +248,7 @@ class Functions:
             rows,
         )
 
-    def reduction(self, q: Any, independent: Sequence[str] = (), p: Any = None) -> tuple[tuple[str, ...], Array]:
+    def reduction(self, q: object, independent: Sequence[str] = (), p: object = None) -> tuple[tuple[str, ...], Array]:
         """Return names of independent velocities, and T of v = T u for these u, shape (nv, number of u).
 
         Parameters
@@ -353,7 +353,7 @@ class Functions:
         name: str,
         vectors: Sequence[str],
         sizes: Sequence[int],
-        kernel: Any,
+        kernel: object,
         shape: tuple[int, ...],
         actuators: tuple[str, ...] = (),
     ) -> ArrayFunction:

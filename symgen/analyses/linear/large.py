@@ -256,7 +256,7 @@ def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[flo
     return []
 
 
-def _regular(stiffness: Any, rows: Any) -> Solver:
+def _regular(stiffness: object, rows: object) -> Solver:
     solution = solver(stiffness, rows)
     if solution is None:
         raise AnalysisError("the stiffness is singular: something can move without a force")

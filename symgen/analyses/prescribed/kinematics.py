@@ -302,7 +302,7 @@ def default_times(mechanism: Mechanism) -> Array:
     return multiples(step, until, output_size(mechanism))
 
 
-def checked_times(where: str, value: Any) -> Array:
+def checked_times(where: str, value: object) -> Array:
     """Return increasing finite times.
 
     Raises

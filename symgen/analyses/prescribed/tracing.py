@@ -230,7 +230,7 @@ class Tracer:
     def _status_row(self) -> Array:
         return np.empty((1, abi.N_STATUS + self.info.windings))
 
-    def _cross(self, code: int, rows: Any) -> bool:
+    def _cross(self, code: int, rows: object) -> bool:
         """Go over a singular position ahead, on the branch that continues the motion; return whether there is one."""
         before, clock = self._taken(), self.clock.copy()
         elapsed = abs(clock[f.TRIED] - clock[f.TIME])
@@ -248,7 +248,7 @@ class Tracer:
             self._back_to(before)
         return False
 
-    def _over(self, middle: float, width: float, rows: Any) -> bool:
+    def _over(self, middle: float, width: float, rows: object) -> bool:
         """Go over a singular position near `middle` from states before it to states behind it, `width` apart [s]."""
         nodes = list[tuple[Array, ...]]()
         for k in range(1, NODES + 1):

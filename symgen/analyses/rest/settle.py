@@ -363,7 +363,7 @@ def _length(statics: DenseStatics | Sparse, motion: Any, change: Array) -> float
 
 
 def _newton(
-    statics: DenseStatics | Sparse, motion: Any, solve: Solver | None, right: tuple[Array, Array], near: float
+    statics: DenseStatics | Sparse, motion: object, solve: Solver | None, right: tuple[Array, Array], near: float
 ) -> tuple[Array, Array] | None:
     """Return the step of Newton's method, or as much of it as a step may be long, where it is shorter than `near`."""
     if solve is None:

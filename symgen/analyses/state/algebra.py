@@ -245,7 +245,7 @@ def solver(stiffness: Any, rows: Any) -> Solver | None:
     return solve
 
 
-def json_form(value: Any) -> Any:
+def json_form(value: object) -> Any:
     """Return a result as JSON can express it: fields that a result shows, pairs of numbers for complex ones."""
     if is_dataclass(value):
         return {f.name: json_form(getattr(value, f.name)) for f in fields(value) if f.repr}

@@ -33,7 +33,7 @@ class Direction(msgspec.Struct, frozen=True):
     vector: tuple[Expr, ...]
 
 
-def parts(value: Any) -> Iterator[Any]:
+def parts(value: object) -> Iterator[Any]:
     """Yield a value of the vocabulary and everything inside it."""
     yield value
     if isinstance(value, msgspec.Struct):

@@ -102,7 +102,7 @@ class _Handler(BaseHTTPRequestHandler):
     server_version, sys_version = "symgen", ""
     timeout = 60.0
 
-    def log_message(self, format: str, *args: Any) -> None:
+    def log_message(self, format: str, *args: object) -> None:
         """Log nothing: the address has a secret."""
 
     def do_GET(self) -> None:

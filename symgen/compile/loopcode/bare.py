@@ -6,21 +6,25 @@ only addresses and lengths. Their readers recognise these two functions by name.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypeVar
 
+from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.native.compiler import interpreted
-from symgen.compile.native.pieces import Piece
+from symgen.compile.native.pieces import piece_of
+
+_Value = TypeVar("_Value")
+_Array = TypeVar("_Array", Array, Integers)
 
 
-def _bare(value: Any) -> Any:
+def _bare(value: _Value) -> _Value:
     """Return the same array, or record of arrays and numbers; the caller owns its memory."""
     return value
 
 
-def _part(array: Any, first: int, size: int) -> Any:
+def _part(array: _Array, first: int, size: int) -> _Array:
     """Return `size` elements of a one-dimensional array from index `first` on, unchecked."""
     return array[first : first + size]
 
 
-bare: Any = _bare if interpreted() else Piece("bare", _bare)
-part: Any = _part if interpreted() else Piece("part", _part)
+bare = _bare if interpreted() else piece_of("bare", _bare)
+part = _part if interpreted() else piece_of("part", _part)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Record
 from symgen.compile.native.calls import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, slot_values, slots, trampoline
 from symgen.compile.store.jit import MachineFunction, object_file
 
@@ -46,7 +47,7 @@ class ArgumentBlock:
             self._fill(which)
 
     @classmethod
-    def of(cls, function: Any, signature: types.Signature | None, arguments: tuple[Any, ...]) -> Self | None:
+    def of(cls, function: object, signature: types.Signature | None, arguments: tuple[Any, ...]) -> Self | None:
         """Return the block of a function, or None if it is not compiled here or takes other arguments."""
         if not isinstance(function, MachineFunction) or signature is None:
             return None
@@ -87,11 +88,11 @@ class LoopEntry(ArgumentBlock):
         """Copy one array into another of its size at every entry."""
         self._block[[COPY, SOURCE, BYTES]] = target.ctypes.data, source.ctypes.data, source.nbytes
 
-    def has(self, scheme: Any, span: Any) -> bool:
+    def has(self, scheme: Record, span: Record) -> bool:
         """Whether the block holds a scheme and a span."""
         return self._scheme is scheme and self._span is span
 
-    def take(self, scheme: Any, span: Any) -> None:
+    def take(self, scheme: Record, span: Record) -> None:
         """Put another scheme, whose arrays may be at other addresses, and another span into the block."""
         if self._scheme is not scheme:
             self._scheme = self._arguments[self._which_scheme] = scheme
@@ -99,7 +100,7 @@ class LoopEntry(ArgumentBlock):
         self._span = self._arguments[self._which_span] = span
         self._fill(self._which_span)
 
-    def take_state(self, state: Any) -> None:
+    def take_state(self, state: Record) -> None:
         """Put another state into the block."""
         which = len(self._arguments) + _STATE
         self._arguments[which] = state
@@ -113,7 +114,7 @@ class LoopEntry(ArgumentBlock):
         return int(self._ints[RESULT])
 
 
-def loop_entry(loop: Any, arguments: tuple[Any, ...]) -> LoopEntry | None:
+def loop_entry(loop: object, arguments: tuple[Any, ...]) -> LoopEntry | None:
     """Return the entry of a loop, or None if only an ordinary call is possible.
 
     Parameters

@@ -6,15 +6,17 @@ of a row of a sweep.
 
 from __future__ import annotations
 
-import types
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from types import FunctionType
+from typing import Any, TypeVar, cast
 
+from symgen.compile.native.annotations import Array
 from symgen.compile.native.compiler import interpreted
 from symgen.compile.native.pieces import Piece
-from symgen.compile.native.types import Signature
 from symgen.compile.store.jit import RuntimeFunction
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 class Exact:
@@ -26,18 +28,14 @@ class Exact:
         The source; its callees may be `Exact` as well.
     """
 
-    def __init__(self, function: Callable[..., Any], signature: Signature | None, once: bool) -> None:
-        self.py_func, self._signature, self._once = function, signature, once
+    def __init__(self, function: FunctionType, entry: bool, once: bool) -> None:
+        self.py_func, self._entry, self._once = function, entry, once
 
     @cached_property
-    def compiled(self) -> Any:
-        """The compiled function; without a signature, it is for calls from compiled code."""
+    def compiled(self) -> RuntimeFunction:
+        """The compiled function; other than an entry, it is for calls from compiled code."""
         return RuntimeFunction(
-            self.py_func,
-            inlined=self._signature is None,
-            contracted=False,
-            signature=self._signature,
-            once=self._once,
+            self.py_func, inlined=not self._entry, contracted=False, entry=self._entry, once=self._once
         )
 
     @cached_property
@@ -45,29 +43,41 @@ class Exact:
         """The function and its callees as plain Python; functions passed as arguments stay as they are."""
         names = dict(self.py_func.__globals__)
         names |= {name: plain_form(names[name]) for name in self.py_func.__code__.co_names if name in names}
-        return types.FunctionType(self.py_func.__code__, names, self.py_func.__name__)
+        return FunctionType(self.py_func.__code__, names, self.py_func.__name__)
 
 
-def exact(signature: Signature | None = None, once: bool = False) -> Callable[[Callable[..., Any]], Any]:
+def exact(*, entry: bool = False, once: bool = False) -> Callable[[_Function], _Function]:
     """Return a decorator that makes a function `Exact`; without compilation, it stays plain Python.
 
-    A function called `once` a run is compiled in less time; its bits are the same.
+    Parameters
+    ----------
+    entry : bool
+        Whether it is called from Python, or by its address, with arguments of the annotated types.
+    once : bool
+        Whether it is called about once a run: it is compiled in less time; its bits are the same.
     """
-    return lambda function: function if interpreted() else Exact(function, signature, once)
+    if interpreted():
+        return lambda function: function
+
+    def decorate(function: _Function) -> _Function:
+        made: Any = Exact(cast("FunctionType", function), entry, once)
+        return cast("_Function", made)
+
+    return decorate
 
 
-def plain_form(function: Any) -> Any:
+def plain_form(function: object) -> Any:
     """Return an exact function, or one in LLVM's language, as plain Python, any other unchanged."""
     return function.plain if isinstance(function, Exact | Piece) else function
 
 
-def compiled_form(function: Any) -> Any:
+def compiled_form(function: object) -> Any:
     """Return an exact function compiled, any other unchanged."""
     return function.compiled if isinstance(function, Exact) else function
 
 
 @exact()
-def copy_numbers(source: Any, copy: Any, count: int) -> None:
+def copy_numbers(source: Array, copy: Array, count: int) -> None:
     """Copy the first numbers of an array."""
     for i in range(count):
         copy[i] = source[i]

@@ -51,7 +51,7 @@ class Meanings(dict[str, Any]):
         self.when = when
 
 
-def part(copy: python.FunctionType, original: Any) -> Any:
+def part(copy: python.FunctionType, original: object) -> Any:
     """Return a part of a loop, compiled for processors."""
     return copy if interpreted() else RuntimeFunction(copy, inlined=not hasattr(original, "called"))
 
@@ -77,7 +77,7 @@ def compiled_loop(module: str, name: str, function: Any, signature: Any, once: b
     return jit(signature, once=once)(copy)
 
 
-def signature_of(loop: Any) -> Any:
+def signature_of(loop: object) -> Any:
     """Return the types of a compiled loop; empty without compilation."""
     return getattr(loop, "signature", types.int64())
 
@@ -99,7 +99,7 @@ class Instances:
         self.meanings, self.compiled, self.everything = meanings, compiled, everything
         self.instances: dict[Any, Any] = {}
 
-    def of(self, function: Any) -> Any:
+    def of(self, function: object) -> Any:
         """Return the instance of a plain or compiled function, made once from its Python source."""
         plain = getattr(function, "py_func", function)
         if plain not in self.instances:
@@ -134,7 +134,7 @@ class Instances:
             return self.of(value)
         return value
 
-    def changes(self, value: Any, visited: set[Any]) -> bool:
+    def changes(self, value: object, visited: set[Any]) -> bool:
         """Whether the meanings affect a compiled function or one of its callees."""
         plain = getattr(value, "py_func", None)
         if plain is None or plain in visited:

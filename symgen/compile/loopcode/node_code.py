@@ -5,8 +5,6 @@ Each takes a builder and the arguments, arrays as addresses, and returns the res
 
 from __future__ import annotations
 
-from typing import Any
-
 from llvmlite import ir
 
 from symgen.compile.loopcode.nodes import CORRECTIONS, DOUBLED, INTEGRALS, PLACES, POINTS, TERMS
@@ -26,42 +24,51 @@ from symgen.compile.loopcode.vector_code import (
 from symgen.compile.native.types import NODES
 
 
-def _at(builder: Any, data: Any, index: Any) -> Any:
+def _at(builder: ir.IRBuilder, data: ir.Value, index: ir.Value) -> ir.Value:
     """Return an element of an array."""
     return builder.load(builder.gep(data, [index]))
 
 
-def _eight(builder: Any, index: Any) -> Any:
+def _eight(builder: ir.IRBuilder, index: ir.Value) -> ir.Value:
     return builder.mul(index, I64(NODES))
 
 
-def _vectors(builder: Any, data: Any, begin: int) -> list[Any]:
+def _vectors(builder: ir.IRBuilder, data: ir.Value, begin: int) -> list[ir.Value]:
     """Return rows of a table, kept in registers."""
     return [load(builder, data, I64(begin + NODES * p)) for p in range(POINTS)]
 
 
-def _sum(builder: Any, factors: list[Any], vectors: list[Any]) -> Any:
+def _sum(builder: ir.IRBuilder, factors: list[ir.Value], vectors: list[ir.Value]) -> ir.Value:
     """Return the sum of products of factors and vectors."""
-    total: Any = None
+    total: ir.Value = None
     for factor, vector in zip(factors, vectors, strict=True):
         total = builder.fmul(vector, factor) if total is None else added(builder, vector, factor, total)
     return total
 
 
-def _rates(builder: Any, i: Any, first: Any, rates: Any) -> list[Any]:
+def _rates(builder: ir.IRBuilder, i: ir.Value, first: ir.Value, rates: ir.Value) -> list[ir.Value]:
     """Return the rates of an element at the start and at the nodes, as vectors of equal numbers."""
     numbers = [_at(builder, first, i)]
     numbers += [_at(builder, rates, builder.add(_eight(builder, i), I64(p))) for p in range(NODES)]
     return [spread(builder, number) for number in numbers]
 
 
-def _coordinate(builder: Any, rows: Any, c: Any) -> Any:
+def _coordinate(builder: ir.IRBuilder, rows: ir.Value, c: ir.Value) -> ir.Value:
     """Return the coordinate whose rate is an unknown element, and whether it exists."""
     q = _at(builder, rows, builder.add(c, _at(builder, rows, I64(0))))
     return q, builder.icmp_signed(">=", q, I64(0))
 
 
-def place(builder: Any, h: Any, rows: Any, y: Any, first: Any, rates: Any, table: Any, out: Any) -> None:
+def place(
+    builder: ir.IRBuilder,
+    h: ir.Value,
+    rows: ir.Value,
+    y: ir.Value,
+    first: ir.Value,
+    rates: ir.Value,
+    table: ir.Value,
+    out: ir.Value,
+) -> None:
     """Write `symgen.compile.loopcode.nodes.place`."""
     h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
     places = load(builder, table, I64(PLACES))
@@ -78,12 +85,20 @@ def place(builder: Any, h: Any, rows: Any, y: Any, first: Any, rates: Any, table
             store(builder, moved, out, _eight(builder, q))
 
 
-def _each_row(builder: Any, rows: Any) -> Any:
+def _each_row(builder: ir.IRBuilder, rows: ir.Value) -> ir.Value:
     """Return a loop over the unknown rates; its variable counts them."""
     return each_of(builder, I64(1), builder.add(_at(builder, rows, I64(0)), I64(1)), 1)
 
 
-def extrapolate(builder: Any, rows: Any, degree: Any, ratio: Any, places: Any, coefficients: Any, out: Any) -> None:
+def extrapolate(
+    builder: ir.IRBuilder,
+    rows: ir.Value,
+    degree: ir.Value,
+    ratio: ir.Value,
+    places: ir.Value,
+    coefficients: ir.Value,
+    out: ir.Value,
+) -> None:
     """Write `symgen.compile.loopcode.nodes.extrapolate`."""
     one = ir.Constant(VECTOR, [1.0] * NODES)
     twice = spread(builder, builder.fmul(ratio, ir.Constant(ir.DoubleType(), 2.0)))
@@ -103,7 +118,9 @@ def extrapolate(builder: Any, rows: Any, degree: Any, ratio: Any, places: Any, c
         store(builder, _sum(builder, factors, polynomials), out, _eight(builder, i))
 
 
-def distance(builder: Any, rows: Any, weights: Any, share: Any, rates: Any, before: Any) -> Any:
+def distance(
+    builder: ir.IRBuilder, rows: ir.Value, weights: ir.Value, share: ir.Value, rates: ir.Value, before: ir.Value
+) -> ir.Value:
     """Write `symgen.compile.loopcode.nodes.distance`."""
     total = variable(builder, ZERO)
     with _each_row(builder, rows) as c:
@@ -115,7 +132,16 @@ def distance(builder: Any, rows: Any, weights: Any, share: Any, rates: Any, befo
     return folded(builder, builder.fmul(builder.load(total), load(builder, share, I64(0))), builder.fadd)
 
 
-def expand(builder: Any, rows: Any, weights: Any, first: Any, rates: Any, table: Any, out: Any, squares: Any) -> None:
+def expand(
+    builder: ir.IRBuilder,
+    rows: ir.Value,
+    weights: ir.Value,
+    first: ir.Value,
+    rates: ir.Value,
+    table: ir.Value,
+    out: ir.Value,
+    squares: ir.Value,
+) -> None:
     """Write `symgen.compile.loopcode.nodes.expand`."""
     sums = [variable(builder, ZERO) for _ in range(2)]
     halves = [
@@ -133,7 +159,9 @@ def expand(builder: Any, rows: Any, weights: Any, first: Any, rates: Any, table:
         store(builder, builder.load(sum_of_squares), squares, I64(half * NODES))
 
 
-def refine(builder: Any, rows: Any, table: Any, coefficients: Any, more: Any, out: Any) -> None:
+def refine(
+    builder: ir.IRBuilder, rows: ir.Value, table: ir.Value, coefficients: ir.Value, more: ir.Value, out: ir.Value
+) -> None:
     """Write `symgen.compile.loopcode.nodes.refine`."""
     polynomials, minus = _vectors(builder, table, 0), ir.Constant(VECTOR, [-1.0] * NODES)
     undefined = ir.Constant(VECTOR, ir.Undefined)
@@ -155,12 +183,12 @@ def refine(builder: Any, rows: Any, table: Any, coefficients: Any, more: Any, ou
             store(builder, total, out, at)
 
 
-def _numbers(builder: Any, data: Any, first: Any, start: int, stop: int) -> list[Any]:
+def _numbers(builder: ir.IRBuilder, data: ir.Value, first: ir.Value, start: int, stop: int) -> list[ir.Value]:
     """Return elements of an array behind its index `first`, as vectors of equal numbers."""
     return [spread(builder, _at(builder, data, builder.add(first, I64(k)))) for k in range(start, stop)]
 
 
-def integrate_legendre(builder: Any, terms: Any, x: Any, once: Any, twice: Any) -> None:
+def integrate_legendre(builder: ir.IRBuilder, terms: ir.Value, x: ir.Value, once: ir.Value, twice: ir.Value) -> None:
     """Write `symgen.compile.loopcode.nodes.integrate_legendre`: for the polynomials of a step, and for more."""
     place = load(builder, x, I64(0))
     z = added(builder, _all(2.0), place, _all(-1.0))
@@ -185,19 +213,28 @@ def integrate_legendre(builder: Any, terms: Any, x: Any, once: Any, twice: Any) 
         up_to(TERMS)
 
 
-def _all(number: float) -> Any:
+def _all(number: float) -> ir.Value:
     return ir.Constant(VECTOR, [number] * NODES)
 
 
 def sum_up(
-    builder: Any, h: Any, terms: Any, x: Any, rows: Any, y: Any, coefficients: Any, once: Any, twice: Any, out: Any
+    builder: ir.IRBuilder,
+    h: ir.Value,
+    terms: ir.Value,
+    x: ir.Value,
+    rows: ir.Value,
+    y: ir.Value,
+    coefficients: ir.Value,
+    once: ir.Value,
+    twice: ir.Value,
+    out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.nodes.sum_up`."""
     h_all, h_square = spread(builder, h), spread(builder, builder.fmul(h, h))
     way = builder.fmul(h_all, load(builder, x, I64(0)))
     tables = [[load(builder, table, I64(k * NODES)) for k in range(POINTS)] for table in (once, twice)]
 
-    def series(which: int, first: Any) -> Any:
+    def series(which: int, first: ir.Value) -> ir.Value:
         total = variable(builder, _sum(builder, _numbers(builder, coefficients, first, 0, POINTS), tables[which]))
         with each_of(builder, I64(POINTS), terms, 1) as k:
             number = spread(builder, _at(builder, coefficients, builder.add(first, k)))

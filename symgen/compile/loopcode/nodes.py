@@ -10,12 +10,15 @@ These are the plain loops; `symgen.compile.loopcode.node_code` has the vector co
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.native.compiler import interpreted
-from symgen.compile.native.pieces import Piece
+from symgen.compile.native.pieces import piece_of
 from symgen.compile.native.types import NODES
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 #: Number of rates in a step: at its start and at its nodes.
 POINTS = NODES + 1
@@ -26,7 +29,7 @@ INTEGRALS, DOUBLED, PLACES = 0, POINTS * NODES, 2 * POINTS * NODES
 TERMS, CORRECTIONS = 2 * NODES, POINTS * NODES
 
 
-def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out: Any) -> None:
+def _place(h: float, rows: Integers, y: Array, first: Array, rates: Array, table: Array, out: Array) -> None:
     """Set `out` to the states at the nodes: the integral of a polynomial through the rates."""
     count = rows[0]
     for c in range(1, count + 1):
@@ -41,7 +44,7 @@ def _place(h: float, rows: Any, y: Any, first: Any, rates: Any, table: Any, out:
                 out[q * NODES + k] = y[q] + h * table[PLACES + k] * y[i] + h * h * twice
 
 
-def _extrapolate(rows: Any, degree: int, ratio: float, places: Any, coefficients: Any, out: Any) -> None:
+def _extrapolate(rows: Integers, degree: int, ratio: float, places: Array, coefficients: Array, out: Array) -> None:
     """Set `out` to rates at the nodes of a step `ratio` times as long as the step of the Legendre `coefficients`."""
     for k in range(NODES):
         x = 1.0 + 2.0 * ratio * places[k]
@@ -54,7 +57,7 @@ def _extrapolate(rows: Any, degree: int, ratio: float, places: Any, coefficients
             out[i * NODES + k] = total
 
 
-def _distance(rows: Any, weights: Any, share: Any, rates: Any, before: Any) -> float:
+def _distance(rows: Integers, weights: Array, share: Array, rates: Array, before: Array) -> float:
     """Return the sum of weighted squares of differences between rates; `share` has the weights of the nodes."""
     total = 0.0
     for c in range(1, rows[0] + 1):
@@ -65,7 +68,9 @@ def _distance(rows: Any, weights: Any, share: Any, rates: Any, before: Any) -> f
     return total
 
 
-def _expand(rows: Any, weights: Any, first: Any, rates: Any, table: Any, out: Any, squares: Any) -> None:
+def _expand(
+    rows: Integers, weights: Array, first: Array, rates: Array, table: Array, out: Array, squares: Array
+) -> None:
     """Set `out` to Legendre coefficients of rates, sixteen for each, `squares` to weighted sums of their squares."""
     for k in range(2 * NODES):
         squares[k] = 0.0
@@ -79,7 +84,7 @@ def _expand(rows: Any, weights: Any, first: Any, rates: Any, table: Any, out: An
             squares[k] += weights[i] * total * total
 
 
-def _refine(rows: Any, table: Any, coefficients: Any, more: Any, out: Any) -> None:
+def _refine(rows: Integers, table: Array, coefficients: Array, more: Array, out: Array) -> None:
     """Set `out` to Legendre `coefficients`, corrected by the rates `more` at points between the nodes.
 
     `table` has the polynomials at these points, then the coefficients of those that are 1 at one of these points and 0
@@ -97,7 +102,7 @@ def _refine(rows: Any, table: Any, coefficients: Any, more: Any, out: Any) -> No
                 out[first + k] += table[CORRECTIONS + p * TERMS + k] * left
 
 
-def _integrate_legendre(terms: int, x: Any, once: Any, twice: Any) -> None:
+def _integrate_legendre(terms: int, x: Array, once: Array, twice: Array) -> None:
     """Set `once` and `twice` to integrals and second integrals of shifted Legendre polynomials from 0 to eight `x`.
 
     The integral of P_k on (0, 1) is (P_k+1 - P_k-1) / (4 k + 2), the second one likewise.
@@ -117,7 +122,7 @@ def _integrate_legendre(terms: int, x: Any, once: Any, twice: Any) -> None:
 
 
 def _sum_up(
-    h: float, terms: int, x: Any, rows: Any, y: Any, coefficients: Any, once: Any, twice: Any, out: Any
+    h: float, terms: int, x: Array, rows: Integers, y: Array, coefficients: Array, once: Array, twice: Array, out: Array
 ) -> None:
     """Set `out` to the states at eight parts `x` of a step, from Legendre coefficients and integrals."""
     count = rows[0]
@@ -139,12 +144,12 @@ PLAIN: dict[str, Callable[..., Any]] = {
 }
 
 
-def _function(name: str) -> Any:
+def _nodes(name: str, plain: _Function, result: types.NumberType = types.void) -> _Function:
     """Return one of these functions in the form for the present compiler."""
-    result = types.float64 if name == "distance" else types.void
-    return PLAIN[name] if interpreted() else Piece(name, PLAIN[name], result, "symgen.compile.loopcode.node_code")
+    return plain if interpreted() else piece_of(name, plain, result, "symgen.compile.loopcode.node_code")
 
 
-place, extrapolate, distance = _function("place"), _function("extrapolate"), _function("distance")
-expand, refine = _function("expand"), _function("refine")
-integrate_legendre, sum_up = _function("integrate_legendre"), _function("sum_up")
+place, extrapolate = _nodes("place", _place), _nodes("extrapolate", _extrapolate)
+distance = _nodes("distance", _distance, types.float64)
+expand, refine = _nodes("expand", _expand), _nodes("refine", _refine)
+integrate_legendre, sum_up = _nodes("integrate_legendre", _integrate_legendre), _nodes("sum_up", _sum_up)

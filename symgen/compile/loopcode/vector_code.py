@@ -23,41 +23,41 @@ _SMALL = 4 * BLOCK
 _FLAGS = ("contract",)
 
 
-def load(builder: Any, data: Any, at: Any) -> Any:
+def load(builder: ir.IRBuilder, data: ir.Value, at: ir.Value) -> ir.Value:
     """Return eight numbers of an array."""
     return builder.load(builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def store(builder: Any, vector: Any, data: Any, at: Any) -> None:
+def store(builder: ir.IRBuilder, vector: ir.Value, data: ir.Value, at: ir.Value) -> None:
     """Write eight numbers of an array."""
     builder.store(vector, builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer()), align=8)
 
 
-def spread(builder: Any, number: Any, kind: Any = VECTOR) -> Any:
+def spread(builder: ir.IRBuilder, number: ir.Value, kind: ir.Type = VECTOR) -> ir.Value:
     """Return a vector of equal numbers."""
     undefined = ir.Constant(kind, ir.Undefined)
     one = builder.insert_element(undefined, number, ir.Constant(ir.IntType(32), 0))
     return builder.shuffle_vector(one, undefined, ir.Constant(ir.VectorType(ir.IntType(32), BLOCK), [0] * BLOCK))
 
 
-def _magnitude(builder: Any, vector: Any) -> Any:
+def _magnitude(builder: ir.IRBuilder, vector: ir.Value) -> ir.Value:
     kind, name = ir.FunctionType(VECTOR, [VECTOR]), f"llvm.fabs.v{BLOCK}f64"
     return builder.call(_declared(builder, kind, name), [vector])
 
 
-def added(builder: Any, a: Any, b: Any, c: Any) -> Any:
+def added(builder: ir.IRBuilder, a: ir.Value, b: ir.Value, c: ir.Value) -> ir.Value:
     """Return a b + c, contracted wherever the processor can: results do not depend on optimisation to the bit."""
     kind = ir.FunctionType(a.type, [a.type] * 3)
     name = f"llvm.fmuladd.v{a.type.count}f64"
     return builder.call(_declared(builder, kind, name), [a, b, c])
 
 
-def _greater(builder: Any, a: Any, b: Any) -> Any:
+def _greater(builder: ir.IRBuilder, a: ir.Value, b: ir.Value) -> ir.Value:
     """Return the greater of two, element by element; b where one is nan."""
     return builder.select(builder.fcmp_ordered(">", a, b), a, b)
 
 
-def folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
+def folded(builder: ir.IRBuilder, vector: ir.Value, join: Callable[[ir.Value, ir.Value], ir.Value]) -> ir.Value:
     """Return one number from the elements of a vector, joined in halves."""
     numbers = [builder.extract_element(vector, ir.Constant(ir.IntType(32), i)) for i in range(BLOCK)]
     while len(numbers) > 1:
@@ -66,12 +66,12 @@ def folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
     return numbers[0]
 
 
-def _declared(builder: Any, kind: Any, name: str) -> Any:
+def _declared(builder: ir.IRBuilder, kind: ir.Type, name: str) -> ir.Value:
     """Return the declaration of an LLVM function."""
     return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
-def variable(builder: Any, begin: Any) -> Any:
+def variable(builder: ir.IRBuilder, begin: ir.Value) -> ir.Value:
     """Return memory for a value, set to an initial one."""
     with builder.goto_entry_block():
         place = builder.alloca(begin.type)
@@ -80,7 +80,7 @@ def variable(builder: Any, begin: Any) -> Any:
 
 
 @contextmanager
-def each_of(builder: Any, start: Any, stop: Any, step: int) -> Iterator[Any]:
+def each_of(builder: ir.IRBuilder, start: ir.Value, stop: ir.Value, step: int) -> Iterator[ir.Value]:
     """Repeat the instructions written inside for each index of a range."""
     counter = variable(builder, start)
     test, body, end = (builder.append_basic_block(name) for name in ("test", "body", "end"))
@@ -95,12 +95,14 @@ def each_of(builder: Any, start: Any, stop: Any, step: int) -> Iterator[Any]:
     builder.position_at_end(end)
 
 
-def _each_block(builder: Any, width: Any) -> Any:
+def _each_block(builder: ir.IRBuilder, width: ir.Value) -> ir.Value:
     """Return a loop over blocks, whose variable is the index of a block."""
     return each_of(builder, I64(0), width, BLOCK)
 
 
-def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], Any]) -> Any:
+def _blocks(
+    builder: ir.IRBuilder, width: ir.Value, begin: ir.Value, block: Callable[[ir.Value, ir.Value], ir.Value]
+) -> ir.Value:
     """Return a vector that is carried from block to block: ``carried = block(index, carried)``, from `begin` on."""
     carried = variable(builder, begin)
     with _each_block(builder, width) as i:
@@ -109,20 +111,40 @@ def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], An
 
 
 def combine(
-    builder: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
+    builder: ir.IRBuilder,
+    width: ir.Value,
+    h: ir.Value,
+    first: ir.Value,
+    last: ir.Value,
+    column: ir.Value,
+    value: ir.Value,
+    rows: ir.Value,
+    base: ir.Value,
+    out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.vectors.combine`."""
     _combined(builder, (width, h, first, last, column, value, rows), base, out, _last_whole)
 
 
 def follow(
-    builder: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
+    builder: ir.IRBuilder,
+    width: ir.Value,
+    h: ir.Value,
+    first: ir.Value,
+    last: ir.Value,
+    column: ir.Value,
+    value: ir.Value,
+    rows: ir.Value,
+    base: ir.Value,
+    out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.vectors.follow`."""
     _combined(builder, (width, h, first, last, column, value, rows), base, out, _last_as_written)
 
 
-def _combined(builder: Any, table: tuple[Any, ...], base: Any, out: Any, last_row: Callable[..., None]) -> None:
+def _combined(
+    builder: ir.IRBuilder, table: tuple[ir.Value, ...], base: ir.Value, out: ir.Value, last_row: Callable[..., None]
+) -> None:
     """Write `combine` with one of two functions that add the last row."""
     width, h, first, last, column, value, rows = table
     with builder.if_else(builder.icmp_signed("<", first, last)) as (some, none):
@@ -138,12 +160,16 @@ def _combined(builder: Any, table: tuple[Any, ...], base: Any, out: Any, last_ro
             store(builder, load(builder, base, i), out, i)
 
 
-def _last_whole(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
+def _last_whole(
+    builder: ir.IRBuilder, width: ir.Value, before: ir.Value, factor: ir.Value, rate: ir.Value, out: ir.Value
+) -> None:
     """Write a block of a state: its part without the last row, plus the block of that row."""
     store(builder, added(builder, factor, load(builder, rate, I64(0)), before), out, I64(0))
 
 
-def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
+def _last_as_written(
+    builder: ir.IRBuilder, width: ir.Value, before: ir.Value, factor: ir.Value, rate: ir.Value, out: ir.Value
+) -> None:
     """Write a block as `_last_whole` does where an emitted function has just written the row."""
 
     def small() -> None:
@@ -162,7 +188,7 @@ def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: A
 # numbers can. Large states are read as vectors all the same, as they have too many numbers.
 
 
-def _as_written(builder: Any, width: Any, small: Callable[[], None], large: Callable[[], None]) -> None:
+def _as_written(builder: ir.IRBuilder, width: ir.Value, small: Callable[[], None], large: Callable[[], None]) -> None:
     """Write one of two versions of a block, by the width of the state."""
     with builder.if_else(builder.icmp_signed("<=", width, I64(_SMALL))) as (then, otherwise):
         with then:
@@ -171,10 +197,10 @@ def _as_written(builder: Any, width: Any, small: Callable[[], None], large: Call
             large()
 
 
-def _pairs(builder: Any, data: Any) -> Iterator[tuple[int, Any]]:
+def _pairs(builder: ir.IRBuilder, data: ir.Value) -> Iterator[tuple[int, Any]]:
     """Yield the pairs of a block with their positions; the compiler does not join atomic loads."""
     for k in range(0, BLOCK, 2):
-        pair: Any = ir.Constant(_PAIR, ir.Undefined)
+        pair: ir.Value = ir.Constant(_PAIR, ir.Undefined)
         for i in range(2):
             where = builder.bitcast(builder.gep(data, [I64(k + i)]), I64.as_pointer())
             number = builder.bitcast(builder.load_atomic(where, "unordered", 8), F64)
@@ -182,12 +208,20 @@ def _pairs(builder: Any, data: Any) -> Iterator[tuple[int, Any]]:
         yield k, pair
 
 
-def _pair_at(builder: Any, data: Any, at: Any) -> Any:
+def _pair_at(builder: ir.IRBuilder, data: ir.Value, at: ir.Value) -> ir.Value:
     return builder.bitcast(builder.gep(data, [at]), _PAIR.as_pointer())
 
 
 def total(
-    builder: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, out: Any
+    builder: ir.IRBuilder,
+    width: ir.Value,
+    h: ir.Value,
+    first: ir.Value,
+    last: ir.Value,
+    column: ir.Value,
+    value: ir.Value,
+    rows: ir.Value,
+    out: ir.Value,
 ) -> None:
     """Write `symgen.compile.loopcode.vectors.total`."""
     factor = spread(builder, h)
@@ -195,7 +229,7 @@ def total(
         store(builder, builder.fmul(factor, sum_of_rows), out, i)
 
 
-def _sums(builder: Any, table: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
+def _sums(builder: ir.IRBuilder, table: tuple[ir.Value, ...]) -> Iterator[tuple[Any, Any]]:
     """Yield each block's index and its sum of values times rows, inside the loop over blocks."""
     width, _, first, last, column, value, rows = table
     with _each_block(builder, width) as i:
@@ -208,31 +242,40 @@ def _sums(builder: Any, table: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
         yield i, builder.load(total)
 
 
-def copied(builder: Any, width: Any, array: Any, out: Any) -> None:
+def copied(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Value) -> None:
     """Write `symgen.compile.loopcode.vectors.copied`."""
     with _each_block(builder, width) as i:
         store(builder, load(builder, array, i), out, i)
 
 
-def received(builder: Any, width: Any, array: Any, out: Any) -> None:
+def received(builder: ir.IRBuilder, width: ir.Value, array: ir.Value, out: ir.Value) -> None:
     """Write `symgen.compile.loopcode.vectors.received`."""
 
-    def small(i: Any) -> None:
+    def small(i: ir.Value) -> None:
         for k, pair in _pairs(builder, builder.gep(array, [i])):
             builder.store(pair, _pair_at(builder, out, builder.add(i, I64(k))), align=8)
 
-    def large(i: Any) -> None:
+    def large(i: ir.Value) -> None:
         store(builder, load(builder, array, i), out, i)
 
     with _each_block(builder, width) as i:
         _as_written(builder, width, partial(small, i), partial(large, i))
 
 
-def weigh(builder: Any, width: Any, error: Any, share: Any, y: Any, new: Any, rtol: Any, atol: Any) -> Any:
+def weigh(
+    builder: ir.IRBuilder,
+    width: ir.Value,
+    error: ir.Value,
+    share: ir.Value,
+    y: ir.Value,
+    new: ir.Value,
+    rtol: ir.Value,
+    atol: ir.Value,
+) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.weigh`."""
     relative, absolute = spread(builder, rtol), spread(builder, atol)
 
-    def block(i: Any, total: Any) -> Any:
+    def block(i: ir.Value, total: ir.Value) -> ir.Value:
         place = load(builder, share, builder.add(width, i))
         sizes = (_magnitude(builder, builder.fsub(load(builder, x, i), place)) for x in (y, new))
         larger = _greater(builder, *sizes)
@@ -247,11 +290,13 @@ def weigh(builder: Any, width: Any, error: Any, share: Any, y: Any, new: Any, rt
     return folded(builder, _blocks(builder, width, ZERO, block), builder.fadd)
 
 
-def largest(builder: Any, width: Any, array: Any, weights: Any, first: Any, last: Any) -> Any:
+def largest(
+    builder: ir.IRBuilder, width: ir.Value, array: ir.Value, weights: ir.Value, first: ir.Value, last: ir.Value
+) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.largest`."""
     low, high = spread(builder, first, _INDICES), spread(builder, last, _INDICES)
 
-    def block(i: Any, largest: Any) -> Any:
+    def block(i: ir.Value, largest: ir.Value) -> ir.Value:
         index = builder.add(spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
         inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
         away = builder.fsub(load(builder, array, i), load(builder, weights, builder.add(width, i)))
@@ -262,10 +307,10 @@ def largest(builder: Any, width: Any, array: Any, weights: Any, first: Any, last
     return folded(builder, _blocks(builder, width, ZERO, block), partial(_greater, builder))
 
 
-def finite(builder: Any, width: Any, array: Any) -> Any:
+def finite(builder: ir.IRBuilder, width: ir.Value, array: ir.Value) -> ir.Value:
     """Write `symgen.compile.loopcode.vectors.finite`."""
 
-    def block(i: Any, total: Any) -> Any:
+    def block(i: ir.Value, total: ir.Value) -> ir.Value:
         vector = load(builder, array, i)
         return builder.fadd(total, builder.fsub(vector, vector))
 

@@ -11,17 +11,20 @@ vectors.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.native.compiler import interpreted
-from symgen.compile.native.pieces import Piece
+from symgen.compile.native.pieces import piece_of
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 # -- plain loops -------------------------------------------------------------------------------------------------------
 
 
 def _combine(
-    width: int, h: float, first: int, last: int, column: Any, value: Any, rows: Any, base: Any, out: Any
+    width: int, h: float, first: int, last: int, column: Integers, value: Array, rows: Array, base: Array, out: Array
 ) -> None:
     """Set out = base + h sum of value times row, over the entries from `first` to `last` of a packed table.
 
@@ -46,7 +49,9 @@ def _combine(
             out[i] += factor * rows[at + i]
 
 
-def _total(width: int, h: float, first: int, last: int, column: Any, value: Any, rows: Any, out: Any) -> None:
+def _total(
+    width: int, h: float, first: int, last: int, column: Integers, value: Array, rows: Array, out: Array
+) -> None:
     """Set out = h sum of value times row; as `_combine`."""
     for i in range(width):
         out[i] = 0.0
@@ -56,13 +61,13 @@ def _total(width: int, h: float, first: int, last: int, column: Any, value: Any,
             out[i] += factor * rows[at + i]
 
 
-def _copied(width: int, array: Any, out: Any) -> None:
+def _copied(width: int, array: Array, out: Array) -> None:
     """Set `out` to an array."""
     for i in range(width):
         out[i] = array[i]
 
 
-def _weigh(width: int, error: Any, share: Any, y: Any, new: Any, rtol: float, atol: float) -> float:
+def _weigh(width: int, error: Array, share: Array, y: Array, new: Array, rtol: float, atol: float) -> float:
     """Return the sum of the squares of share times error over ``atol + rtol share max(|y|, |new|)``; 0 / 0 counts 0.
 
     Behind the shares are the places that `y` and `new` are measured from.
@@ -75,7 +80,7 @@ def _weigh(width: int, error: Any, share: Any, y: Any, new: Any, rtol: float, at
     return total
 
 
-def _largest(width: int, array: Any, weights: Any, first: int, last: int) -> float:
+def _largest(width: int, array: Array, weights: Array, first: int, last: int) -> float:
     """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is ignored.
 
     Behind the weights are the places that the elements are measured from.
@@ -88,7 +93,7 @@ def _largest(width: int, array: Any, weights: Any, first: int, last: int) -> flo
     return largest
 
 
-def _finite(width: int, array: Any) -> bool:
+def _finite(width: int, array: Array) -> bool:
     """Return whether all elements are finite."""
     total = 0.0
     for i in range(width):
@@ -106,22 +111,16 @@ PLAIN: dict[str, Callable[..., Any]] = {
     "largest": _largest,
     "finite": _finite,
 }
-_WRITERS, _RESULTS = (
-    "symgen.compile.loopcode.vector_code",
-    {"weigh": types.float64, "largest": types.float64, "finite": types.boolean},
-)
+_RESULTS = {"weigh": types.float64, "largest": types.float64, "finite": types.boolean}
 
 
-def _function(name: str) -> Any:
+def _vector(name: str, plain: _Function) -> _Function:
     """Return one of these functions in the form for the compiler in use."""
-    plain = PLAIN[name]
-    return (
-        plain
-        if interpreted()
-        else Piece(name, plain, _RESULTS.get(name, types.void), "symgen.compile.loopcode.vector_code")
-    )
+    if interpreted():
+        return plain
+    return piece_of(name, plain, _RESULTS.get(name, types.void), "symgen.compile.loopcode.vector_code")
 
 
-combine, follow, total = _function("combine"), _function("follow"), _function("total")
-copied, received = _function("copied"), _function("received")
-weigh, largest, finite = _function("weigh"), _function("largest"), _function("finite")
+combine, follow, total = _vector("combine", _combine), _vector("follow", _combine), _vector("total", _total)
+copied, received = _vector("copied", _copied), _vector("received", _copied)
+weigh, largest, finite = _vector("weigh", _weigh), _vector("largest", _largest), _vector("finite", _finite)

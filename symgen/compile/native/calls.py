@@ -67,7 +67,7 @@ def slot_values(kind: types.Kind, value: Any) -> Iterator[int | float]:
         yield int(value)
 
 
-def kind_of(value: Any) -> types.Kind:
+def kind_of(value: object) -> types.Kind:
     """Return the type of an argument.
 
     Raises
@@ -95,7 +95,7 @@ def caller(address: int, signature: types.Signature) -> Callable[..., Any]:
     returned = None if signature.result is types.void else _C[_SLOTS[signature.result]]
     function = ctypes.CFUNCTYPE(returned, *kinds)(address)
 
-    def call(*arguments: Any) -> Any:
+    def call(*arguments: object) -> Any:
         if len(arguments) != len(expected):
             raise TypeError(f"expected {len(expected)} arguments, got {len(arguments)}")
         return function(*[x for kind, value in zip(expected, arguments, strict=True) for x in slot_values(kind, value)])

@@ -215,7 +215,7 @@ def _is(e: lang.Expression, value: bool) -> bool:
     return isinstance(e, lang.Constant) and bool(e.value) is value
 
 
-def _logic(name: str, first: Any, second: Any, make: Callable[[Any, Any], Any]) -> Any:
+def _logic(name: str, first: object, second: object, make: Callable[[Any, Any], Any]) -> Any:
     """Return ``and`` or ``or`` of two values."""
     decisive = name == "or"
     for one, other in ((first, second), (second, first)):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import types as python
-from typing import Any
 
 from symgen.compile.native import language as lang
 from symgen.compile.native.loop_values import EXPRESSIONS, Array, Record, Value, is_number, leaves
@@ -33,7 +32,7 @@ class LoopValues(Reader):
 
     def __init__(
         self,
-        function: Any,
+        function: object,
         tree: ast.FunctionDef,
         arguments: dict[str, Value],
         parameters: tuple[lang.FunctionParameter, ...],

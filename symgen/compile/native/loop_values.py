@@ -56,7 +56,7 @@ Value = Any
 NOTHING = Record(())
 
 
-def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.FunctionParameter]]:
+def laid_out(name: str, kind: object) -> tuple[Value, list[lang.FunctionParameter]]:
     """Return the value of an argument, and its parameters.
 
     Parameters
@@ -101,7 +101,7 @@ def handed_on(kinds: Sequence[Any], values: Sequence[Value]) -> tuple[lang.Expre
     return tuple(x for kind, value in zip(kinds, values, strict=True) for x in handed(kind, value))
 
 
-def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
+def handed(kind: object, value: Value) -> Iterator[lang.Expression | str]:
     """Yield the passed form of a value of a type: numbers, and names of arrays and functions.
 
     Raises

@@ -9,9 +9,11 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar, cast
 
 from symgen.compile.native import types
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 class Piece:
@@ -35,9 +37,15 @@ class Piece:
     ) -> None:
         self.name, self.plain, self.result, self.writers = name, plain, result, writers
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments: object) -> Any:
         """Call the plain form."""
         return self.plain(*arguments)
+
+
+def piece_of(name: str, plain: _Function, result: types.NumberType = types.void, writers: str = "") -> _Function:
+    """Return a `Piece` as a function with the types of its plain form; parameters as there."""
+    made: Any = Piece(name, plain, result, writers)
+    return cast("_Function", made)
 
 
 @functools.cache

@@ -54,7 +54,7 @@ class PrintedNumbers:
         return self.printer.put(f"{name}{self.printer.flag} double {a}, {b}")
 
 
-def steepest_text(g: Any, a: str, part: float = 1e-100) -> str:
+def steepest_text(g: object, a: str, part: float = 1e-100) -> str:
     """Return the divisor of a slope that is unbounded at the end of a function's range, see `steepest`."""
     own: Any = a
     return str(steepest(g, own, part))

@@ -40,7 +40,7 @@ class TableValues(ValueReader):
         Local integers, and whether they are unsigned in Numba.
     """
 
-    def __init__(self, function: Any, parameters: tuple[lang.FunctionParameter, ...]) -> None:
+    def __init__(self, function: object, parameters: tuple[lang.FunctionParameter, ...]) -> None:
         super().__init__(function, parameters)
         self.depth = 0
         self.unsigned: dict[str, bool] = {}
@@ -126,7 +126,7 @@ class TableValues(ValueReader):
         address, *others = (self.handed(kind, x) for kind, x in zip(signature.arguments, node.args, strict=True))
         return lang.Invoke("int", address, tuple(others))
 
-    def handed(self, kind: Any, node: ast.expr) -> lang.Expression | str:
+    def handed(self, kind: object, node: ast.expr) -> lang.Expression | str:
         """Return the passed form of an argument of a function called by its address."""
         if not isinstance(kind, types.ArrayType):
             return as_type(_ELEMENTS[kind], self.expression(node))

@@ -59,7 +59,7 @@ class ValueReader(ABC):
         self.called: dict[tuple[object, tuple[Kind, ...]], lang.Function] = {}
 
     @abstractmethod
-    def read(self, called: Any, kinds: tuple[Kind, ...]) -> lang.Function:
+    def read(self, called: object, kinds: tuple[Kind, ...]) -> lang.Function:
         """Return a function that this one calls."""
 
     def expression(self, node: ast.expr) -> lang.Expression:

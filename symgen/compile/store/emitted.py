@@ -225,7 +225,7 @@ def imported(name: str, *arguments: Any) -> Any:
     return _INSTEAD
 
 
-def _njit(**options: Any) -> Any:
+def _njit(**options: object) -> Any:
     """Decorate a function of an emitted module."""
     return lambda function: function if interpreted() else EmittedFunction(function, options.get("inline") == "always")
 

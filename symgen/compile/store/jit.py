@@ -21,6 +21,7 @@ import llvmlite
 from symgen.base.errors import InputError
 from symgen.base.memory import uncollected
 from symgen.compile.native import types
+from symgen.compile.native.annotations import signature_from
 from symgen.compile.native.calls import caller, kind_of
 from symgen.compile.native.compiler import compiler, interpreted
 from symgen.compile.native.machine import load_machine_code, lock, processor
@@ -126,7 +127,7 @@ class MachineFunction(ABC):
             self._callers[arguments] = caller(*self.code(arguments))
         return self._callers[arguments]
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments: object) -> Any:
         """Call the machine code for the types of the arguments."""
         return self.caller(tuple(map(kind_of, arguments)))(*arguments)
 
@@ -190,6 +191,8 @@ class RuntimeFunction(MachineFunction):
         As for `MachineFunction`.
     signature : Signature, optional
         Types of a loop; by default those of the arguments of a call.
+    entry : bool
+        Whether it is a loop with the types of its annotations.
     once : bool
         Whether it is called about once a run: then it is compiled without optimisation; its bits are the same
         unless operations are contracted.
@@ -199,17 +202,23 @@ class RuntimeFunction(MachineFunction):
 
     def __init__(
         self,
-        function: Any,
+        function: object,
         inlined: bool = False,
         contracted: bool = True,
         signature: types.Signature | None = None,
+        entry: bool = False,
         once: bool = False,
         unrolled: bool = False,
     ) -> None:
         super().__init__(function, inlined, contracted)
-        self.signature, self._once, self.unrolled = signature, once, unrolled
+        self._signature, self._entry, self._once, self.unrolled = signature, entry, once, unrolled
 
-    def __call__(self, *arguments: Any) -> Any:
+    @functools.cached_property
+    def signature(self) -> types.Signature | None:
+        """Types of a loop, None of a part."""
+        return signature_from(self.py_func) if self._entry else self._signature
+
+    def __call__(self, *arguments: object) -> Any:
         """Call the machine code."""
         if self.signature is None:
             return super().__call__(*arguments)
@@ -244,7 +253,12 @@ class RuntimeFunction(MachineFunction):
 
 
 def jit(
-    signature: types.Signature | None = None, *, once: bool = False, contracted: bool = True, unrolled: bool = False
+    signature: types.Signature | None = None,
+    *,
+    entry: bool = False,
+    once: bool = False,
+    contracted: bool = True,
+    unrolled: bool = False,
 ) -> Callable[[_Function], _Function]:
     """Return a decorator that compiles a function of the runtime at its first call, through the cache.
 
@@ -252,6 +266,8 @@ def jit(
     ----------
     signature : Signature, optional
         Types of a loop, which is called from Python; None for a function that loops call.
+    entry : bool
+        Whether it is a loop with the types of its annotations.
     once : bool
         Whether the function is called about once a run: then it is compiled faster.
     contracted : bool
@@ -279,7 +295,7 @@ def jit(
         if interpreted():
             return function
         compiled: Any = RuntimeFunction(
-            function, contracted=contracted, signature=signature, once=once, unrolled=unrolled
+            function, contracted=contracted, signature=signature, entry=entry, once=once, unrolled=unrolled
         )
         return cast("_Function", compiled)
 
@@ -335,7 +351,7 @@ def _environment() -> str:
     return "\n".join((_FORMAT, llvmlite.__version__))
 
 
-def _meaning(value: Any) -> str:
+def _meaning(value: object) -> str:
     """Return the meaning of a global name: the identity of a function, or the number."""
     function = getattr(value, "py_func", value)
     if hasattr(function, "__qualname__"):

@@ -201,12 +201,12 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
     return module
 
 
-def plain_function(function: Any) -> Any:
+def plain_function(function: object) -> Any:
     """Return the plain Python form of an emitted function: one call a run is not worth compilation."""
     return getattr(function, "py_func", function)
 
 
-def whole_plain_function(function: Any) -> Any:
+def whole_plain_function(function: object) -> Any:
     """Return the plain Python form of an emitted function, with those that it calls."""
     plain = plain_function(function)
     scope = plain.__globals__

@@ -59,7 +59,7 @@ def reached_digest(*roots: str) -> str:
     return combined_digest(*(part for name in sorted(reached_sources(known, roots)) for part in (name, known[name][0])))
 
 
-def source_stamp(function: Any) -> str:
+def source_stamp(function: object) -> str:
     """Return the digest of all sources that a function's machine code depends on.
 
     These are loops, starts, runs and integrators of symgen as a whole, the function's own file, the files of compiled
@@ -184,6 +184,6 @@ def _called(function: Any, functions: dict[int, Any]) -> Iterable[Any]:
     return functions.values()
 
 
-def _near(module: types.ModuleType, function: Any) -> bool:
+def _near(module: types.ModuleType, function: object) -> bool:
     """Whether a module belongs to the function's package; versions in the key cover installed packages."""
     return module.__name__.partition(".")[0] == str(function.__module__).partition(".")[0]

@@ -61,7 +61,7 @@ class FrameSymbols:
             rule[c], rule[s] = -s * w, c * w
         return rule
 
-    def column_entries(self, rate: Any) -> list[Any]:
+    def column_entries(self, rate: object) -> list[Any]:
         """Return the coefficients of the frame's velocities in a rate."""
         return [sp.diff(rate, v) for v in self.velocities]
 
@@ -121,7 +121,7 @@ class SpatialFrame(FrameSymbols):
         """Return the derivative of each moving symbol along the motion, velocities constant."""
         return self._rates
 
-    def column_entries(self, rate: Any) -> list[Any]:
+    def column_entries(self, rate: object) -> list[Any]:
         """Return the coefficients of the frame's velocities in an expression of rates."""
         parts: dict[Any, Any] = {s: sp.diff(rate, s) for s in self._columns}
         count = len(self.velocities)
@@ -207,7 +207,7 @@ def frame(prefix: str, kind: str) -> FrameSymbols:
     return SpatialFrame(prefix, kind) if kind.endswith("3") else FrameSymbols(prefix, kind)
 
 
-def along_motion(expression: Any, frames: Iterable[FrameSymbols]) -> Any:
+def along_motion(expression: object, frames: Iterable[FrameSymbols]) -> Any:
     """Return the time derivative of `expression` along the motion of `frames`, velocities constant."""
     total = sp.S.Zero
     for frame in frames:

@@ -67,7 +67,7 @@ class Translator:
             self.nodes[symbol] = self.node(expression)
         return [self.node(e) for e in reduced]
 
-    def node(self, e: Any) -> int:
+    def node(self, e: object) -> int:
         """Return the node of one expression."""
         image = self.nodes.get(e)
         if image is None:
@@ -110,7 +110,7 @@ class Translator:
                 above = g.mul(above, self.node(factor))
         return g.div(above, below)
 
-    def _call(self, function: str, first: Any, *others: Any) -> int:
+    def _call(self, function: str, first: object, *others: object) -> int:
         """Return a function of one or two arguments; with more it is applied from the left."""
         result = self.node(first)
         if not others:

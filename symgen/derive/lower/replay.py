@@ -53,7 +53,7 @@ class Replay:
                 else:
                     self.values[index] = getattr(self, f"_on_{operation.kind}")(operation, *operands)
 
-    def each(self, function: Callable[..., int], *operands: Any) -> Any:
+    def each(self, function: Callable[..., int], *operands: object) -> Any:
         """Return a function of scalars and of the elements of vectors."""
         lengths = [len(x) for x in operands if isinstance(x, tuple)]
         if not lengths:

@@ -98,11 +98,11 @@ class PlacedMechanism:
         length = float(np.linalg.norm(turned))
         return np.asarray(turned / length if length else turned)
 
-    def markers(self, value: Any) -> list[BodyPoint]:
+    def markers(self, value: object) -> list[BodyPoint]:
         """Return the different points that a value names, in order."""
         return list(dict.fromkeys(self.place(m) for m in parts(value) if isinstance(m, Marker)))
 
-    def directions(self, value: Any) -> list[Direction]:
+    def directions(self, value: object) -> list[Direction]:
         """Return the different directions that a value names, in order."""
         return list(dict.fromkeys(d for d in parts(value) if isinstance(d, Direction)))
 

@@ -29,7 +29,7 @@ def refined(mechanism: Mechanism) -> tuple[Mechanism, dict[str, str]]:
     def twice(text: str) -> str:
         return numbered.sub(lambda m: f"{m[1]}.{m[2]}{2 * int(m[3]) - (m[2] == 'e')}", text)
 
-    def walk(value: Any) -> Any:
+    def walk(value: object) -> Any:
         if isinstance(value, str):
             return twice(value)
         if isinstance(value, dict):

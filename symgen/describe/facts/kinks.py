@@ -112,7 +112,7 @@ def _timely(mechanism: Mechanism) -> set[str]:
     return {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
 
-def _may_pass(part: Any) -> bool:
+def _may_pass(part: object) -> bool:
     """Return whether comparisons or tables are written in a part of a mechanism: most have none, and a walk is long."""
     text = msgspec.msgpack.encode(part)
     return b"table:" in text or any(name in text for name in _COMPARED_TEXTS)
@@ -259,7 +259,7 @@ def changing_rows(mechanism: Mechanism) -> tuple[ChangingRow, ...]:
     return tuple(result)
 
 
-def _changing_calls(part: Any) -> Iterator[Call]:
+def _changing_calls(part: object) -> Iterator[Call]:
     """Yield the calls in a part of a mechanism that may jump or have kinks."""
     return (e for e, _ in _calls(part) if _passed_at(e))
 
@@ -275,14 +275,14 @@ def _parted(e: Expr, timely: set[str], sign: float = 1.0) -> tuple[Expr, Expr]:
     return ZERO, e if sign > 0.0 else call("neg", e)
 
 
-def changing(part: Any) -> Iterator[Expr]:
+def changing(part: object) -> Iterator[Expr]:
     """Yield whole formulas in a part of a mechanism that compare something or read a table, as formulas of a run."""
     for formula, effort in _calls(part, enters=lambda e: False):
         if any(e.function in _COMPARED or table_of(e.function) for e, _ in _calls(formula)):
             yield formula if effort is None else _of_a_run(formula, effort)
 
 
-def restricted(part: Any) -> Iterator[tuple[Expr, Expr]]:
+def restricted(part: object) -> Iterator[tuple[Expr, Expr]]:
     """Yield formulas in a part of a mechanism, each with a call in it that is no number everywhere, as of a run."""
     for whole, effort in _calls(part, enters=lambda e: False):
         for e, _ in _calls(whole):
@@ -296,7 +296,7 @@ def _of_a_run(e: Expr, effort: Effort) -> Expr:
     return replaced(e, lambda name: own.get(name.name, name))
 
 
-def _calls(*parts: Any, enters: Callable[[Call], bool] = lambda e: True) -> Iterator[tuple[Call, Effort | None]]:
+def _calls(*parts: object, enters: Callable[[Call], bool] = lambda e: True) -> Iterator[tuple[Call, Effort | None]]:
     """Yield the calls of functions in the formulas of parts of a mechanism, and in which effort each is.
 
     Calls inside a call follow where `enters` is true for it.
@@ -356,7 +356,7 @@ def _groups(mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(group for group, part in parts if _may_hide(part, mechanism))
 
 
-def _may_hide(part: Any, mechanism: Mechanism) -> bool:
+def _may_hide(part: object, mechanism: Mechanism) -> bool:
     """Return whether a part of a mechanism has a formula of t and parameters that may hide short changes."""
     if _TIME not in msgspec.msgpack.encode(part):
         return False

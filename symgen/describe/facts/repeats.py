@@ -67,7 +67,7 @@ class _Contents:
     def __init__(self, mechanism: Mechanism) -> None:
         self.formulas = Formulas(mechanism)
 
-    def of(self, value: Any) -> Any:
+    def of(self, value: object) -> Any:
         """Return something hashable that is equal for equal content."""
         if isinstance(value, FormulaMeasure | FormulaSpeed):
             return value  # which readings are equal is a question of their measures: rank decides
@@ -104,7 +104,7 @@ class _Contents:
         g = self.formulas.graph
         terms: dict[Any, int] = {}
 
-        def add(measure: Any, factor: int) -> None:
+        def add(measure: object, factor: int) -> None:
             if isinstance(measure, Sum):
                 for coefficient, part in measure.terms:
                     add(part, g.mul(factor, self.formulas.expression(coefficient)))

@@ -32,7 +32,7 @@ class SidedJoint(NamedTuple):
     held: bool
     pairs: tuple[tuple[Arm, Arm], ...]
 
-    def cosine(self, q: Any) -> Any:
+    def cosine(self, q: object) -> Any:
         """Return the sum of the products of the directions: below 0 where they point opposite ways.
 
         Parameters

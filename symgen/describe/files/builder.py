@@ -80,7 +80,7 @@ class MechanismBuilder:
         keys = {"default": default, "unit": unit, "note": note}
         return self._add("inputs", name, {key: item for key, item in keys.items() if item != ""})
 
-    def table(self, name: str, x: Any, y: Any, **keys: Unpack[TableKeys]) -> Self:
+    def table(self, name: str, x: object, y: object, **keys: Unpack[TableKeys]) -> Self:
         """Add a function of one argument by interpolation: ``interpolation``, ``periodic`` as in a file."""
         return self._add("tables", name, {"x": x, "y": y} | keys)
 
@@ -88,15 +88,15 @@ class MechanismBuilder:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""
         return self._add("bodies", name, {**keys})
 
-    def beam(self, name: str, **keys: Any) -> Self:
+    def beam(self, name: str, **keys: object) -> Self:
         """Add a beam: ``start``, ``end``, ``elements``, ``section``, ``material``, ... as in a file."""
         return self._add("beams", name, keys)
 
-    def joint(self, name: str, type: str, **keys: Any) -> Self:
+    def joint(self, name: str, type: str, **keys: object) -> Self:
         """Add a joint of a type, with that type's keys."""
         return self._add("joints", name, {"type": type} | keys)
 
-    def force(self, name: str, type: str, **keys: Any) -> Self:
+    def force(self, name: str, type: str, **keys: object) -> Self:
         """Add a force element of a type, with that type's keys."""
         return self._add("forces", name, {"type": type} | keys)
 
@@ -109,7 +109,7 @@ class MechanismBuilder:
         keys = {"rate": rate, "start": start, "unit": unit}
         return self._add("states", name, {key: item for key, item in keys.items() if item != ""})
 
-    def stop(self, name: str, **keys: Any) -> Self:
+    def stop(self, name: str, **keys: object) -> Self:
         """Add a stop between any parts, such as a rope: ``gap``, ``restitution`` as in a file."""
         return self._add("stops", name, keys)
 
@@ -157,7 +157,7 @@ for _method, _keys, _open in (
     explicit(_method, _keys, dict.fromkeys(_keys.__annotations__), _open)
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> Any:
     """Return `value` as read from a file: tables, lists, texts, numbers (NumPy's too) and truth values."""
     if isinstance(value, Mapping):
         return {key: _plain(item) for key, item in value.items()}
@@ -206,7 +206,7 @@ def _text(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int | float):

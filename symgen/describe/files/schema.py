@@ -60,7 +60,7 @@ def _named(entry: dict[str, Any]) -> dict[str, Any]:
     return {"type": "object", "additionalProperties": entry, "propertyNames": {"pattern": _NAME}}
 
 
-def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str], **common: Any) -> list[dict[str, Any]]:
+def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str], **common: object) -> list[dict[str, Any]]:
     """Return one alternative for each kind, selected by its type; `common` are the types of shared keys."""
     result, shared = [], {key: msgspec.json.schema(kind) for key, kind in common.items()}
     for name, kind in kinds:
@@ -76,7 +76,7 @@ def _table(struct: type[Any]) -> dict[str, Any]:
     """Return the schema of one table, with tables inside it in place rather than by reference."""
     definitions = msgspec.json.schema(struct)["$defs"]
 
-    def inlined(part: Any) -> Any:
+    def inlined(part: object) -> Any:
         if isinstance(part, dict):
             if "$ref" in part:
                 return inlined(definitions[part["$ref"].rpartition("/")[2]])

@@ -197,7 +197,7 @@ def _fields(kind: type[msgspec.Struct]) -> dict[str, msgspec.structs.FieldInfo]:
     return {field.name: field for field in msgspec.structs.fields(kind)}
 
 
-def read_value(type_: Any, value: object, where: str) -> Any:
+def read_value(type_: object, value: object, where: str) -> Any:
     """Return `value` converted to the type, or raise `InputError` naming the part that is wrong."""
     try:
         return msgspec.convert(value, type_)
@@ -211,7 +211,7 @@ def read_value(type_: Any, value: object, where: str) -> Any:
         raise InputError(where, describe_type(type_), words_of(part), si_hint(part)) from None
 
 
-def _items(type_: Any) -> Any:
+def _items(type_: object) -> Any:
     """Return the type of the entries where the type is a table of freely named entries, else None."""
     for part in (type_, *get_args(type_)):
         inner = getattr(part, "__origin__", part) if hasattr(part, "__metadata__") else part
@@ -230,7 +230,7 @@ def _follow(value: object, path: str) -> object:
     return part
 
 
-def describe_type(type_: Any) -> str:
+def describe_type(type_: object) -> str:
     """Return a description in words of a value of this type."""
     for note in getattr(type_, "__metadata__", ()):
         if isinstance(note, Meta) and note.description:

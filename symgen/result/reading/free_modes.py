@@ -32,7 +32,7 @@ def free_modes(equations: SymbolicEquations, libraries: Sequence[Any]) -> Callab
     places = [list(equations.modes).index(name) for name in rates]
     compute = sp.lambdify(equations.arguments[:-1], list(rates.values()), libraries)
 
-    def sliding(*values: Any) -> list[float]:
+    def sliding(*values: object) -> list[float]:
         numbers = list(still)
         for place, rate in zip(places, compute(*values), strict=True):
             numbers[place] = float(np.sign(rate))

@@ -69,7 +69,7 @@ class _Symbols:
             return self._point(at, table.get("body"), place)
         return [self._point(part, body, f"{place}.{body}") for part, body in zip(at, bodies, strict=False)] + at[2:]
 
-    def _point(self, point: Any, body: Any, place: str) -> Any:
+    def _point(self, point: object, body: object, place: str) -> Any:
         if not isinstance(point, list) or not all(map(_is_number, point)) or not isinstance(body, str):
             return self._value(point, place)
         key = body, tuple(map(float, point))
@@ -93,5 +93,5 @@ class _Symbols:
         return f"l_{number}" if value > 0 else f"-l_{number}"
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)

@@ -31,7 +31,7 @@ class FileSymbol(sp.Symbol):  # type: ignore[misc]  # SymPy has no types
 
     __slots__ = ()
 
-    def _latex(self, printer: Any) -> str:
+    def _latex(self, printer: object) -> str:
         return latex(name(self.name))
 
 
@@ -110,13 +110,13 @@ class Boxed(Translator):
         self._names: dict[tuple[str, int], Box] = {}
         self._writer = Writer(self.graph, self._names, exact=True)
 
-    def box(self, value: Any) -> Box:
+    def box(self, value: object) -> Box:
         """Return an expression or a matrix, with all digits of numbers."""
         if isinstance(value, sp.MatrixBase):
             return matrix_box([[self.box(x) for x in line] for line in value.tolist()])
         return self._writer.box(self.node(value))
 
-    def _build(self, e: Any) -> int:
+    def _build(self, e: object) -> int:
         if isinstance(e, sp.Eq) and e.lhs == e.rhs:  # what is no number differs from itself
             return self.graph.call("defined", self.node(e.lhs))
         if isinstance(e, sp.Ne) and e.rhs == 0:
@@ -129,7 +129,7 @@ class Boxed(Translator):
             return self.graph.input(*key)
 
 
-def _name(e: Any) -> Box:
+def _name(e: object) -> Box:
     if isinstance(e, sp.Derivative) and {str(x) for x in e.variables} == {"t"}:
         return reduce(lambda box, _: dotted(box), e.variables, _name(e.expr))
     return name(e.func.__name__ if isinstance(e, AppliedUndef) else str(e))

@@ -242,7 +242,13 @@ class SymbolicEquations:
         free = free_modes(self, libraries)
 
         def computed(
-            t: float, q: Any, v: Any, p: Any = None, turned: Any = None, states: Any = None, modes: Any = None
+            t: float,
+            q: object,
+            v: object,
+            p: object = None,
+            turned: object = None,
+            states: object = None,
+            modes: object = None,
         ) -> Any:
             """Return the quantities at a state."""
             last = [0.0] * len(self.turned) if turned is None else turned

@@ -38,7 +38,7 @@ class Advance:
 
     def __init__(self, loop: Simulation) -> None:
         self.loop, self.unsure = loop, False
-        self._clock, self._control = memoryview(loop.state.clock), memoryview(loop.state.control)
+        self._clock, self._control = loop.state.clock.data, loop.state.control.data
         self._until, self._most, self._steps_at_once = 0.0, loop.spec.max_attempts, FIRST_STEPS
 
     def recover(self) -> None:

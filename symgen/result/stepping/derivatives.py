@@ -114,7 +114,7 @@ class StepDirections:
         y[self._places, range(self._n)] = 1.0
         p[self.input_places, range(self._n, count)] = 1.0
         self._seeds = Seeds(y, p)
-        self._clock, self._control = memoryview(loop.state.clock), memoryview(loop.state.control)
+        self._clock, self._control = loop.state.clock.data, loop.state.control.data
         self._began = _counts(self._before)
         self._ahead = dict[int, StepsAhead]()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +82,7 @@ class History:
         if loop.state.control[abi.BEGUN] == 0 or times[0] == loop.start.t:  # before a step nothing is measured
             status[0] = self._measured(times[0], y[0], p[0], w[0])
         outcome = outcome_of(loop, loop.outputs(np.zeros(0)), abi.DONE)
-        fields = {"p": loop.state.p.copy(), "w": loop.state.w.copy(), "held": held, "end": end}
+        fields: dict[str, Any] = {"p": loop.state.p.copy(), "w": loop.state.w.copy(), "held": held, "end": end}
         states = y[:, : info.ny].copy()
         outcome = replace(outcome, times=times, states=states, status_columns=status, **fields)
         run = replace(run, spec=replace(loop.spec, until=end, step=run.spec.step or loop.span.step, times=times))

@@ -44,7 +44,7 @@ class Named(np.ndarray[Any, Any]):
         view._places |= {name: i for i, name in enumerate(names)}
         return view
 
-    def __array_finalize__(self, source: Any) -> None:
+    def __array_finalize__(self, source: object) -> None:
         self.names, self.units, self._places = (), (), {}
 
     def __getitem__(self, key: Any) -> Any:
@@ -64,7 +64,7 @@ class Named(np.ndarray[Any, Any]):
             raise InputError("name", "that of an element or a body", quoted(key), hint)
         return float(plain[place]) if isinstance(place, int) else plain[place]
 
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **options: object) -> Any:
         """Compute with the numbers alone."""
         if "out" in options:
             options["out"] = _plain(options["out"])

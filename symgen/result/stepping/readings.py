@@ -48,7 +48,7 @@ class StepReadings:
         self._loop = prepared.simulation()
         self._directions: StepDirections | None = None
         state = self._loop.state
-        self._clock, self._control = memoryview(state.clock), memoryview(state.control)
+        self._clock, self._control = state.clock.data, state.control.data
         self._advance, self._history, self._shown = Advance(self._loop), History(self._loop), (-1.0, -1, -1)
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)

@@ -36,7 +36,7 @@ from symgen.run.planning.start_lines import (
     is_described,
     written_start,
 )
-from symgen.run.printed.partition import tables_of
+from symgen.run.printed.partition_tables import tables_of
 
 if TYPE_CHECKING:
     from symgen.base.vocabulary.quantities import Quantity

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native.c99_words import broken_line
 from symgen.run.printed import exchanged_run
-from symgen.run.printed.partition import POOR, count_states
+from symgen.run.printed.partition import POOR
+from symgen.run.printed.partition_tables import count_states
 from symgen.run.starts.assembler import layout_of
 
 if TYPE_CHECKING:

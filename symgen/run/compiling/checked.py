@@ -6,6 +6,7 @@ from collections.abc import Container
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from symgen.compile.native import types
 from symgen.compile.native.language import Function
 from symgen.compile.native.read import Foreign
 from symgen.run.layout import abi
@@ -54,7 +55,7 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
 
 
 @lru_cache(maxsize=128)
-def checked_function(function: Any, kind: Any) -> Function:
+def checked_function(function: Any, kind: types.FunctionType) -> Function:
     """Return an emitted function in the checked language, of the type that loops call; it is read once a process."""
     if not hasattr(function, "read"):
         raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")

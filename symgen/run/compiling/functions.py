@@ -60,7 +60,7 @@ class StateFunction:
     scratch: int = 1
 
     def with_kernel(
-        self, name: str, kernel: Any, sizes: NDArray[np.int64], scratch: int, shape: tuple[int, ...]
+        self, name: str, kernel: object, sizes: NDArray[np.int64], scratch: int, shape: tuple[int, ...]
     ) -> StateFunction:
         """Return the function whose result a kernel makes of what this one writes."""
         return replace(self, name=name, kernel=kernel, sizes=sizes, scratch=max(scratch, self.length), shape=shape)

@@ -30,6 +30,7 @@ from symgen.run.layout.ensemble_abi import N_SUMMARY
 from symgen.run.layout.start_records import Instant, StartConditions
 from symgen.run.printed import partition
 from symgen.run.printed.exchanged_steps import exchange_steps
+from symgen.run.printed.partition_tables import new_partition
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.starting import begin_row, close_row, observe_nothing
 
@@ -46,7 +47,7 @@ Naming = Callable[[str], str | None]
 
 
 @lru_cache(maxsize=512)
-def source_of(function: Any) -> lang.Function:
+def source_of(function: object) -> lang.Function:
     """Return a function of the runtime, whose callees are functions of their own; it is read once a process.
 
     Raises
@@ -61,7 +62,7 @@ def source_of(function: Any) -> lang.Function:
 
 
 def meanings_of(
-    function: Any, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
+    function: object, arguments: tuple[Any, ...], emitted: Mapping[int, lang.Function], room: Naming
 ) -> dict[str, Meaning]:
     """Return the meanings of a function's parameters for the arguments of a call.
 
@@ -125,7 +126,7 @@ class PrintedEvents:
     Attributes
     ----------
     directions, ends : sequence of int
-        Of each event, as in `symgen.run.effects.stepping.STEP_MODEL`; 1 for each event that ends runs, else 0. Empty
+        Of each event, as in `symgen.run.effects.stepping.StepModel`; 1 for each event that ends runs, else 0. Empty
         where all events are only recorded.
     switching : emitted function, optional
         Switching functions of all events.
@@ -196,7 +197,7 @@ def _room_of_exchange(name: str) -> str | None:
 
 
 def _partitioned(compiled: CompiledModel, tables: Any) -> tuple[Any, ...]:
-    """Return a `symgen.run.printed.partition.PARTITION_MODEL`."""
+    """Return a `symgen.run.printed.partition_tables.PartitionModel`."""
     return layout_of(compiled), compiled_form(compiled.model.geometry), tables
 
 
@@ -293,7 +294,7 @@ class Printed:
             What is partitioned.
         """
         model = _partitioned(compiled, tables)
-        part, y, w = partition.new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
+        part, y, w = new_partition(model[0], tables), np.zeros(compiled.info.ny), compiled.scratch()
         p, emitted = np.zeros(1), {id(model[1]): self.emitted["geometry"]}
         state = model, None, y, p, w, part
         arguments: dict[Any, tuple[Any, ...]] = {
@@ -318,7 +319,7 @@ class Printed:
         (steps, effects, ends), (now, iw, work, impact) = events.steps(compiled)
         emitted = self._of_steps(compiled, events)
         model = _partitioned(compiled, tables), steps, effects, ends
-        memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, partition.new_partition(steps[0], tables)
+        memory = now, iw, np.zeros(len(ends), dtype=np.int64), work, impact, new_partition(steps[0], tables)
         meanings = meanings_of(exchange_steps, (model, None, None, *memory), emitted, _room_of_exchange)
         self.entries["exchange_run"] = source_of(exchange_steps), meanings
 

@@ -346,7 +346,7 @@ class PrintedRun:
         return "" if name in _PASSED else self._by_path.get(name) or None
 
 
-def _arrays(name: str, value: Any) -> Iterator[tuple[str, NDArray[Any]]]:
+def _arrays(name: str, value: object) -> Iterator[tuple[str, NDArray[Any]]]:
     """Yield the paths and arrays of records."""
     if isinstance(value, np.ndarray):
         yield name, value

@@ -217,7 +217,7 @@ def _files(law: Any) -> dict[str, Path]:
     return {name: Path(file) for name, value in vars(law).items() if _is_emitted(value, package)}
 
 
-def _is_emitted(value: Any, package: str) -> bool:
+def _is_emitted(value: object, package: str) -> bool:
     """Whether it is a function of a module of this package, compiled or not."""
     function = plain_function(value)
     return inspect.isfunction(function) and function.__module__.startswith(f"{package}.")

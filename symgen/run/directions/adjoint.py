@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.ir.program import MODE_NUMBERS
+from symgen.compile.native import types
 from symgen.compile.native.accesses import Accesses, accesses
 from symgen.compile.native.read_values import Foreign
 from symgen.compile.native.straightening import correction, iterates
@@ -112,7 +113,7 @@ def _corrects(accept: EmittedFunction) -> bool:
 
 
 @functools.lru_cache(maxsize=256)
-def _accesses(function: EmittedFunction, kind: Any) -> Accesses:
+def _accesses(function: EmittedFunction, kind: types.FunctionType) -> Accesses:
     try:
         return accesses(function.read(kind.signature.arguments).body)
     except Foreign as foreign:
@@ -130,7 +131,7 @@ def _adjoint(function: EmittedFunction, rounds: int | None = None) -> AdjointFun
     return AdjointFunction(function, rounds)
 
 
-def _compile(function: AdjointFunction, kind: Any, what: str) -> None:
+def _compile(function: AdjointFunction, kind: types.FunctionType, what: str) -> None:
     """Compile an adjoint, or say why there is none."""
     try:
         function.address(kind.signature)

@@ -93,11 +93,11 @@ class DirectedModel:
         modules = self._module(plain.model, _MODEL), self._module(plain.law_module, _LAW)
         self.whole: CompiledModel = plain.longer(own * lanes, hoisted, longer["w"], *modules)
 
-    def _module(self, module: Any, names: dict[str, Any]) -> Any:
+    def _module(self, module: object, names: dict[str, Any]) -> Any:
         functions = {name: self.function(for_derivatives(module, name)) for name in names if hasattr(module, name)}
         return SimpleNamespace(**{**vars(module), **functions})
 
-    def function(self, function: Any, length: int = 0, timed: bool = False) -> TangentFunction:
+    def function(self, function: object, length: int = 0, timed: bool = False) -> TangentFunction:
         """Return the form of an emitted function with directions.
 
         Parameters
@@ -153,7 +153,7 @@ class DirectedModel:
         return function.caller((_MODEL | _LAW)[name].signature.arguments)
 
 
-def for_derivatives(module: Any, name: str) -> Any:
+def for_derivatives(module: object, name: str) -> Any:
     """Return the function of a module under a name, or its form whose derivatives take the fewest operations."""
     return getattr(module, name + SLOPES, getattr(module, name))
 

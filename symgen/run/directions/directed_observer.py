@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +82,7 @@ class Observer:
             directions = next(modes for until, modes in self.modes if self.times[k] <= until)
             self.model.shadow(w, "w")[first : first + size] = directions
 
-    def observed(self, function: Any, length: int) -> tuple[Array, Array]:
+    def observed(self, function: object, length: int) -> tuple[Array, Array]:
         """Return the values of a function of the motion and their directions, shapes (k, length), (k, length, L).
 
         Parameters

@@ -149,7 +149,7 @@ class Moments:
                 longer, w = model.longer(p, "p"), model.longer(now.w, "w")
             self._templates.append((longer, np.concatenate([w, np.zeros(model.lanes)])))
 
-    def evaluated(self, function: Any, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
+    def evaluated(self, function: object, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
         """Return values and directions of a function that reads no rates, shapes (length,), (length, k)."""
         call, lanes = self._caller(function, length), self.model.lanes
         slopes, out = self._room(length), np.zeros(length * (1 + lanes))
@@ -161,7 +161,7 @@ class Moments:
     def _room(self, length: int) -> Array:
         return np.zeros((length, -(-self.count // self.model.lanes) * self.model.lanes))
 
-    def observed(self, function: Any, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
+    def observed(self, function: object, length: int, now: Moment, by: Directions) -> tuple[Array, Array]:
         """Return values and directions of a function that reads rates and multipliers."""
         call, lanes, (accept, rates, confirm) = self._caller(function, length), self.model.lanes, self._directed
         slopes, out = self._room(length), np.zeros(length * (1 + lanes))
@@ -175,7 +175,7 @@ class Moments:
             slopes[:, first : first + lanes] = out[length:].reshape(length, lanes)
         return out[:length].copy(), slopes[:, : self.count]
 
-    def _caller(self, function: Any, length: int) -> Any:
+    def _caller(self, function: object, length: int) -> Any:
         return self.model.function(function, length, timed=True).caller(abi.OBSERVE.signature.arguments)
 
 

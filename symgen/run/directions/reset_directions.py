@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from symgen.describe.bounds.modes import MODE
 from symgen.describe.parts.events import RECORD
 from symgen.run.directions.directed_observer import Observer
+from symgen.run.effects.applying import EffectWork
 from symgen.run.effects.effects import Effects, Impact
 from symgen.run.layout import abi
 
@@ -92,7 +93,7 @@ class ResetDirections:
         y: Array,
         p: Array,
         w: Array,
-        work: Any,
+        work: EffectWork,
         impact: Impact,
         losses: Mapping[int, int],
     ) -> None:
@@ -122,7 +123,7 @@ class ResetDirections:
                     after[place] -= 0.5 * loss
         return after
 
-    def _evaluated(self, function: Any, length: int, y: Array) -> Array:
+    def _evaluated(self, function: object, length: int, y: Array) -> Array:
         """Return the directions of what a function writes, shape (length, L)."""
         call = self.model.function(function, length, timed=True).caller(abi.OBSERVE.signature.arguments)
         out = np.zeros(length * (1 + self.model.lanes))
@@ -130,7 +131,7 @@ class ResetDirections:
         self._values = out[:length]
         return out[length:].reshape(length, self.model.lanes)
 
-    def _probed(self, function: Any, length: int) -> tuple[Array, Array]:
+    def _probed(self, function: object, length: int) -> tuple[Array, Array]:
         """Return the directions of what velocities have as coefficients, and of the rest, shape (length, nv, L)."""
         info, still = self.info, self.y.copy()
         still[info.nq : info.work] = 0.0

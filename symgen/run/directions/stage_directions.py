@@ -25,6 +25,7 @@ from symgen.run.directions.directed_model import for_derivatives
 from symgen.run.directions.moments import Directions, Moment, Moments
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
+from symgen.run.layout.scheme_records import Stages, TableauRecord
 from symgen.run.loops.newton import Pattern
 
 if TYPE_CHECKING:
@@ -114,7 +115,7 @@ class ExplicitStages(StageDirections):
         The scheme's record.
     """
 
-    def __init__(self, moments: Moments, scheme: Any) -> None:
+    def __init__(self, moments: Moments, scheme: TableauRecord) -> None:
         super().__init__(moments)
         self._c, self._a = scheme.nodes, np.zeros((scheme.stages + 1, scheme.stages))
         for s in range(scheme.stages + 1):
@@ -168,7 +169,7 @@ class ImplicitStages(StageDirections):
         The scheme's record.
     """
 
-    def __init__(self, moments: Moments, scheme: Any) -> None:
+    def __init__(self, moments: Moments, scheme: Stages) -> None:
         super().__init__(moments)
         info, self._n, self._s = moments.compiled.info, moments.compiled.law.unknowns, int(scheme.stages)
         self._a, self._b, self._c = scheme.a.reshape(self._s, self._s), scheme.b, scheme.c

@@ -60,7 +60,7 @@ class DirectedRun:
         seeds: Seeds,
         places: Sequence[int],
         inputs: Sequence[int],
-        outputs: Any,
+        outputs: object,
         count: int,
     ) -> None:
         y, p, w = (model.longer(array, name) for array, name in ((start.y, "y"), (start.p, "p"), (start.w, "w")))

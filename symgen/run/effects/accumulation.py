@@ -9,9 +9,10 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
-from symgen.run.layout.start_records import INSTANT, record_type
+from symgen.run.layout.start_records import Instant
 from symgen.run.loops.search_records import DIRECTION, N_HEAD, N_VALUES
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
@@ -31,20 +32,35 @@ _RELATIVE, _AHEAD = 1e-6, 1e-9
 #: Times that are kept of each event, and of all.
 OF_EVENT, OF_ALL = SHRINKING + 2, CROWDED + 1
 
-#: Past resets of a run, and working memory.
-#: - until: End of the run [s].
-#: - times, counts: The last distinct times of the resets of each event, then of all [s]; how many there are.
-#: - other, rate, scratch, out, values, slopes, rounding, counters: Working memory.
-PAST = record_type(
-    "Past",
-    __name__,
-    ("until", _F),
-    ("times other rate scratch out values slopes rounding", _A),
-    ("counts counters", _K),
-)
-Past: Any = PAST.constructor
+
+class Past(Record):
+    """Past resets of a run, and working memory.
+
+    Attributes
+    ----------
+    until : float
+        End of the run [s].
+    times, counts : Array, Array of int64
+        The last distinct times of the resets of each event, then of all [s]; how many there are.
+    other, rate, scratch, out, values, slopes, rounding, counters : Array, Array of int64
+        Working memory.
+    """
+
+    until: float
+    times: Array
+    other: Array
+    rate: Array
+    scratch: Array
+    out: Array
+    values: Array
+    slopes: Array
+    rounding: Array
+    counts: Integers
+    counters: Integers
+
+
 #: Rates and their confirmation, and switching functions with their rates.
-RATES = types.RecordType((abi.RHS, abi.RHS, abi.OBSERVE))
+Rates = tuple[abi.Rhs, abi.Rhs, abi.Observe]
 
 
 def new_past(events: int, functions: int, width: int, nw: int, until: float) -> Any:
@@ -55,7 +71,7 @@ def new_past(events: int, functions: int, width: int, nw: int, until: float) -> 
 
 
 @exact()
-def add_time(past: Any, which: int, t: float) -> None:
+def add_time(past: Past, which: int, t: float) -> None:
     """Add a time to the times of an event, or of all events where `which` is their number."""
     times, counts, first = past.times, past.counts, OF_EVENT * which
     size, count = (OF_ALL if which == counts.shape[0] - 1 else OF_EVENT), counts[which]
@@ -69,8 +85,8 @@ def add_time(past: Any, which: int, t: float) -> None:
     counts[which] = count + 1
 
 
-@exact(types.int64(PAST, _K, _F))
-def add_resets(past: Any, chosen: Any, t: float) -> int:
+@exact(entry=True)
+def add_resets(past: Past, chosen: Integers, t: float) -> int:
     """Add a time at which the chosen events have reset a run; return the number of events."""
     n = past.counts.shape[0] - 1
     for k in range(n):
@@ -88,7 +104,7 @@ def remainder(before: float, last: float) -> float:
 
 
 @exact()
-def end_of_series(past: Any, k: int) -> float:
+def end_of_series(past: Past, k: int) -> float:
     """Return the time at which the resets of an event accumulate if their intervals shrink steadily; else nan."""
     times, first, count = past.times, OF_EVENT * k, past.counts[k]
     if count < OF_EVENT:
@@ -107,14 +123,14 @@ def end_of_series(past: Any, k: int) -> float:
 
 
 @exact()
-def switching_values(functions: Any, t: float, y: Any, p: Any, past: Any) -> None:
+def switching_values(functions: Rates, t: float, y: Array, p: Array, past: Past) -> None:
     """Evaluate switching functions and their rates."""
     _, _, happens = functions
     happens(t, y, p, past.scratch, past.rate, past.out)
 
 
 @exact()
-def rates_at(functions: Any, t: float, y: Any, p: Any, past: Any) -> None:
+def rates_at(functions: Rates, t: float, y: Array, p: Array, past: Past) -> None:
     """Set the rates at a state; where a pivot is suspicious, they are confirmed."""
     rates, confirm, _ = functions
     if rates(t, y, p, past.scratch, past.counters, past.rate) != 0:
@@ -122,7 +138,7 @@ def rates_at(functions: Any, t: float, y: Any, p: Any, past: Any) -> None:
 
 
 @exact()
-def rounding_of_values(functions: Any, t: float, nq: int, y: Any, p: Any, past: Any) -> None:
+def rounding_of_values(functions: Rates, t: float, nq: int, y: Array, p: Array, past: Past) -> None:
     """Set the rounding of each switching function, from its change with the time and with each coordinate.
 
     Signs of changes are the digits of the coordinates' numbers: few evaluations suffice and no two coordinates cancel.
@@ -148,7 +164,9 @@ def rounding_of_values(functions: Any, t: float, nq: int, y: Any, p: Any, past: 
 
 
 @exact()
-def is_lost(functions: Any, t: float, nq: int, now: Any, iw: Any, hunt: Any, chosen: Any, past: Any) -> bool:
+def is_lost(
+    functions: Rates, t: float, nq: int, now: Instant, iw: Integers, hunt: Array, chosen: Integers, past: Past
+) -> bool:
     """Return whether a switching function returns so soon after a reset that rounding decides the time.
 
     Right after the reset g is 0 up to rounding and leaves with the rate g'; with g'' against it, it reaches
@@ -183,8 +201,10 @@ def is_lost(functions: Any, t: float, nq: int, now: Any, iw: Any, hunt: Any, cho
     return False
 
 
-@exact(types.float64(RATES, _F, types.int64, INSTANT, _K, _A, _K, PAST))
-def accumulation(functions: Any, t: float, nq: int, now: Any, iw: Any, hunt: Any, chosen: Any, past: Any) -> float:
+@exact(entry=True)
+def accumulation(
+    functions: Rates, t: float, nq: int, now: Instant, iw: Integers, hunt: Array, chosen: Integers, past: Past
+) -> float:
     """Return the time at which resets accumulate [s]; nan where they do not.
 
     Parameters
@@ -224,8 +244,8 @@ def accumulation(functions: Any, t: float, nq: int, now: Any, iw: Any, hunt: Any
     return t
 
 
-@exact(types.float64(PAST))
-def latest_events(past: Any) -> float:
+@exact(entry=True)
+def latest_events(past: Past) -> float:
     """Return the events with the latest resets, as a sum of powers of 2."""
     times, counts, n = past.times, past.counts, past.counts.shape[0] - 1
     first, total, power = OF_EVENT * n, 0.0, 1.0

@@ -9,45 +9,85 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
-from symgen.run.effects.impulse import IMPULSE, new_impulse, smallest_impulse
+from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.effects.impulse import Impulse, new_impulse, smallest_impulse
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import is_off
 from symgen.run.layout.scales import fill_jacobian
-from symgen.run.layout.start_records import INSTANT, LAYOUT, record_type
+from symgen.run.layout.start_records import Instant, Layout
 
 _N, _A, _K = types.int64, types.float64[::1], types.int64[::1]
 
 #: Codes: the state has changed; velocities, or values of states, contradict each other or are not finite.
 APPLIED, NO_VELOCITIES, NO_VALUES = range(3)
 
-#: What the events of a run change, in the order of the function of their formulas: velocities, their new values, values
-#: that are written, entries of the mass matrix of bodies, rates of rotors, their inertias.
-#: - bodies, first: Velocities of bodies that joints of a tree carry, and the first of these among the numbers that the
-#:   emitted function of bodies sets; 0 where bodies have the velocities of the state.
-#: - rotors: Number of rotors.
-#: - owners, columns (shape (k,)): Event of each velocity; its number in the state, -1 where it is another one.
-#: - writes (shape (2 l,)): (event, place in the state) of each value.
-#: - entries (shape (2 e,)): (row, column) of each entry; diagonal ones only where joints carry bodies or rotors turn.
-CHANGES = record_type("Changes", __name__, ("bodies first rotors", _N), ("owners columns writes entries", _K))
-Changes: Any = CHANGES.constructor
 
-#: Working memory.
-#: - out, still, state, rate, scratch: Of emitted functions; `state` is the state afterwards.
-#: - motion, carried, drift: Numbers of the function of bodies; their velocities by those of the state, and at rest.
-#: - turning, turned (shapes (rotors nv,), (rotors,)): Rates of rotors by velocities of the state, and at rest.
-#: - energy (shape (1,)): Change of the energy [J].
-EFFECT_WORK = record_type(
-    "EffectWork",
-    __name__,
-    ("out still state rate scratch motion carried drift turning turned energy", _A),
-    ("impulse", IMPULSE),
-)
-EffectWork: Any = EFFECT_WORK.constructor
+class Changes(Record):
+    """What the events of a run change, in the order of the function of their formulas.
+
+    Velocities come first, then their new values, values that are written, entries of the mass matrix of bodies, rates
+    of rotors, and their inertias.
+
+    Attributes
+    ----------
+    bodies, first : int
+        Velocities of bodies that joints of a tree carry, and the first of these among the numbers that the emitted
+        function of bodies sets; 0 where bodies have the velocities of the state.
+    rotors : int
+        Number of rotors.
+    owners, columns : Array of int64, shape (k,)
+        Event of each velocity; its number in the state, -1 where it is another one.
+    writes : Array of int64, shape (2 l,)
+        (event, place in the state) of each value.
+    entries : Array of int64, shape (2 e,)
+        (row, column) of each entry; diagonal ones only where joints carry bodies or rotors turn.
+    """
+
+    bodies: int
+    first: int
+    rotors: int
+    owners: Integers
+    columns: Integers
+    writes: Integers
+    entries: Integers
+
+
+class EffectWork(Record):
+    """Working memory of effects.
+
+    Attributes
+    ----------
+    out, still, state, rate, scratch : Array
+        Arguments of emitted functions; `state` is the state afterwards.
+    motion, carried, drift : Array
+        Numbers of the function of bodies; their velocities by those of the state, and at rest.
+    turning, turned : Array, shapes (rotors nv,), (rotors,)
+        Rates of rotors by velocities of the state, and at rest.
+    energy : Array, shape (1,)
+        Change of the energy [J].
+    impulse : Impulse
+        The problem of velocities after an impulse.
+    """
+
+    out: Array
+    still: Array
+    state: Array
+    rate: Array
+    scratch: Array
+    motion: Array
+    carried: Array
+    drift: Array
+    turning: Array
+    turned: Array
+    energy: Array
+    impulse: Impulse
+
+
 #: Layout of a model, ``geometry``, the functions of formulas and of bodies, and `Changes`.
-EFFECT_MODEL = types.RecordType((LAYOUT, abi.MEASURE, abi.OBSERVE, abi.OBSERVE, CHANGES))
+EffectModel = tuple[Layout, abi.Measure, abi.Observe, abi.Observe, Changes]
 
 
-def new_effect_work(layout: Any, changes: Any, width: int, nw: int) -> Any:
+def new_effect_work(layout: Layout, changes: Changes, width: int, nw: int) -> Any:
     """Return working memory for the states of `width` numbers of a model whose scratch has `nw`."""
     k, n = len(changes.owners), layout.nv
     bodies, rotors = changes.bodies, changes.rotors
@@ -57,19 +97,19 @@ def new_effect_work(layout: Any, changes: Any, width: int, nw: int) -> Any:
 
 
 @exact()
-def first_entry(changes: Any) -> int:
+def first_entry(changes: Changes) -> int:
     """Return the place of the first entry of M among the numbers of formulas."""
     return int(2 * changes.owners.shape[0] + changes.writes.shape[0] // 2)
 
 
 @exact()
-def first_turn(changes: Any) -> int:
+def first_turn(changes: Changes) -> int:
     """Return the place of the first rate of a rotor among these numbers."""
     return int(first_entry(changes) + changes.entries.shape[0] // 2)
 
 
 @exact()
-def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> None:
+def probe_velocities(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> None:
     """Write the rows of velocities that get values, and the velocities of bodies and rotors by the state's velocities.
 
     All are linear in v: their coefficients are differences of values at unit velocities and at rest.
@@ -116,7 +156,7 @@ def probe_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> 
 
 
 @exact()
-def fill_masses(model: Any, w: Any, work: Any) -> None:
+def fill_masses(model: EffectModel, w: Array, work: EffectWork) -> None:
     """Write M, the one that accelerations have: entries of bodies, and J r^T r of a rotor of inertia J and rate r v."""
     layout, _, _, _, changes = model
     n, mass, entries, carried, turning = layout.nv, work.impulse.mass, changes.entries, work.carried, work.turning
@@ -145,7 +185,7 @@ def fill_masses(model: Any, w: Any, work: Any) -> None:
 
 
 @exact()
-def added_energy(model: Any, v: Any, first: int, work: Any) -> float:
+def added_energy(model: EffectModel, v: Array, first: int, work: EffectWork) -> float:
     """Return the change of the kinetic energy."""
     layout, _, _, _, changes = model
     n, mass, after, entries = layout.nv, work.impulse.mass, work.impulse.after, changes.entries
@@ -169,7 +209,7 @@ def added_energy(model: Any, v: Any, first: int, work: Any) -> float:
 
 
 @exact()
-def written_values(changes: Any, chosen: Any, work: Any) -> bool:
+def written_values(changes: Changes, chosen: Integers, work: EffectWork) -> bool:
     """Write the values of states to the state afterwards; return whether they are finite and agree."""
     writes, first = changes.writes, 2 * changes.owners.shape[0]
     for i in range(writes.shape[0] // 2):
@@ -185,7 +225,7 @@ def written_values(changes: Any, chosen: Any, work: Any) -> bool:
 
 
 @exact()
-def struck_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) -> bool:
+def struck_velocities(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> bool:
     """Write the velocities after the smallest impulse to the state afterwards; return whether there are any."""
     layout, geometry, _, _, changes = model
     n, nq, m, impulse = layout.nv, layout.nq, layout.m, work.impulse
@@ -226,8 +266,8 @@ def struck_velocities(model: Any, t: float, now: Any, chosen: Any, work: Any) ->
     return True
 
 
-@exact(types.int64(EFFECT_MODEL, types.float64, INSTANT, _K, EFFECT_WORK))
-def apply_effects(model: Any, t: float, now: Any, chosen: Any, work: Any) -> int:
+@exact(entry=True)
+def apply_effects(model: EffectModel, t: float, now: Instant, chosen: Integers, work: EffectWork) -> int:
     """Apply the effects of events at one time, which are one, to the state of a run.
 
     Velocities change by the smallest impulse that gives them their new values and leaves joints closed; formulas are
@@ -236,7 +276,7 @@ def apply_effects(model: Any, t: float, now: Any, chosen: Any, work: Any) -> int
     Parameters
     ----------
     model : tuple
-        See `EFFECT_MODEL`.
+        See `EffectModel`.
     t : float
         Time [s].
     now : Instant

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.compile.loopcode.exact import compiled_form
-from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES, Changes, apply_effects, new_effect_work
+from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES, Changes, EffectWork, apply_effects, new_effect_work
 from symgen.run.effects.impulse import new_impulse, smallest_impulse
 from symgen.run.layout.start_records import Instant
 from symgen.run.starts.assembler import layout_of
@@ -143,7 +143,7 @@ class Effects:
         """
         return self.applied(numbers, t, y, p, w, self.memory(len(y), len(w)))
 
-    def applied(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, work: Any) -> Impact:
+    def applied(self, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array, work: EffectWork) -> Impact:
         """Change a state as `apply` does; working memory keeps the problem of impulses."""
         info = self.compiled.info
         chosen, before = self.chosen(numbers), y[info.nq : info.work].copy()
@@ -171,14 +171,14 @@ class Effects:
         names = " and ".join(f"'{self.names[n]}'" for n in numbers)
         return f"event{'s' * (len(numbers) > 1)} {names}: reset"
 
-    def no_values(self, numbers: Sequence[int], chosen: NDArray[np.int64], work: Any, t: float) -> InputError:
+    def no_values(self, numbers: Sequence[int], chosen: NDArray[np.int64], work: EffectWork, t: float) -> InputError:
         """Return the error on values of states that are not finite, or that differ for one state."""
         writes = [(n, name) for n, effect in self.effects.items() for name in effect.writes]
         values = work.out[2 * len(self.changes.owners) :]
         got = ", ".join(f"{name} = {x:.6g}" for (n, name), x in zip(writes, values, strict=False) if chosen[n])
         return InputError(self._where(numbers), "one finite value of each state", f"{got} at t = {t:.6g} s")
 
-    def no_velocities(self, numbers: Sequence[int], work: Any, v: Array, t: float) -> InputError:
+    def no_velocities(self, numbers: Sequence[int], work: EffectWork, v: Array, t: float) -> InputError:
         """Return the error on velocities that cannot be, with the nearest that joints allow."""
         info, problem, labels = self.compiled.info, work.impulse, self._labels(numbers)
         k, n = info.m + len(labels), info.nv

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout.scales import larger
-from symgen.run.layout.start_records import record_type
 from symgen.run.starts.start_solvers import least_norm_above
 
 #: Rows with an independent part below this fraction of the largest are rounding; relative residual of rows that hold.
@@ -23,19 +22,36 @@ ROUNDING, HOLDS = 1e-11, 1e-9
 _NOISE = 1e-14
 _EPSILON = 2.0**-52
 
-#: A problem with n velocities and k rows, its working memory and its solution.
-#: - mass, rows, values (shapes (n, n), (k, n), (k,)): M, C and c.
-#: - unit, scale (shapes (n,), (k,)): Units of velocities with equal kinetic energy; factors of rows that have equal
-#:   lengths in these units.
-#: - after, impulses (shapes (n,), (k,)): v+ and i.
-#: - change, basis, matrix, right, x, room, order: Working memory.
-IMPULSE = record_type(
-    "Impulse",
-    __name__,
-    ("mass rows values unit scale after impulses change basis matrix right x room", types.float64[::1]),
-    ("order", types.int64[::1]),
-)
-Impulse: Any = IMPULSE.constructor
+
+class Impulse(Record):
+    """A problem with n velocities and k rows, its working memory and its solution.
+
+    Attributes
+    ----------
+    mass, rows, values : Array, shapes (n, n), (k, n), (k,)
+        M, C and c.
+    unit, scale : Array, shapes (n,), (k,)
+        Units of velocities with equal kinetic energy; factors of rows that have equal lengths in these units.
+    after, impulses : Array, shapes (n,), (k,)
+        V+ and i.
+    change, basis, matrix, right, x, room, order : Array, Array of int64
+        Working memory.
+    """
+
+    mass: Array
+    rows: Array
+    values: Array
+    unit: Array
+    scale: Array
+    after: Array
+    impulses: Array
+    change: Array
+    basis: Array
+    matrix: Array
+    right: Array
+    x: Array
+    room: Array
+    order: Integers
 
 
 def new_impulse(n: int, k: int) -> Any:
@@ -46,7 +62,7 @@ def new_impulse(n: int, k: int) -> Any:
 
 
 @exact()
-def scale_rows(n: int, k: int, work: Any) -> None:
+def scale_rows(n: int, k: int, work: Impulse) -> None:
     """Set units of velocities and factors of rows."""
     mass, rows, unit, scale = work.mass, work.rows, work.unit, work.scale
     usual = longest = 0.0
@@ -68,7 +84,7 @@ def scale_rows(n: int, k: int, work: Any) -> None:
 
 
 @exact()
-def close_in_rows(n: int, k: int, v: Any, work: Any) -> int:
+def close_in_rows(n: int, k: int, v: Array, work: Impulse) -> int:
     """Add to `change` the shortest change that satisfies the rows; return their rank."""
     rows, unit, scale, matrix, right, x = work.rows, work.unit, work.scale, work.matrix, work.right, work.x
     for i in range(k):
@@ -85,7 +101,7 @@ def close_in_rows(n: int, k: int, v: Any, work: Any) -> int:
 
 
 @exact()
-def lower_in_null_space(n: int, rank: int, work: Any) -> None:
+def lower_in_null_space(n: int, rank: int, work: Impulse) -> None:
     """Add to `change` the vector of the null space of the rows that makes the energy of the change smallest.
 
     The last columns of the reflections of `close_in_rows` are a basis of this space. M may be singular where the rows
@@ -123,7 +139,7 @@ def lower_in_null_space(n: int, rank: int, work: Any) -> None:
 
 
 @exact()
-def find_impulses(n: int, k: int, work: Any) -> None:
+def find_impulses(n: int, k: int, work: Impulse) -> None:
     """Set the impulse of each row from `change`, of least norm where rows depend on each other."""
     for j in range(n):
         work.right[j] = 0.0
@@ -137,7 +153,7 @@ def find_impulses(n: int, k: int, work: Any) -> None:
 
 
 @exact()
-def set_uncoupled(n: int, k: int, v: Any, work: Any) -> bool:
+def set_uncoupled(n: int, k: int, v: Array, work: Impulse) -> bool:
     """Set the solution where M is diagonal and each row gives a value to a velocity of its own; return whether so."""
     mass, after, order = work.mass, work.after, work.order
     if k > n:
@@ -162,8 +178,8 @@ def set_uncoupled(n: int, k: int, v: Any, work: Any) -> bool:
     return True
 
 
-@exact(types.int64(types.int64, types.int64, types.float64[::1], IMPULSE))
-def smallest_impulse(n: int, k: int, v: Any, work: Any) -> int:
+@exact(entry=True)
+def smallest_impulse(n: int, k: int, v: Array, work: Impulse) -> int:
     """Set the velocities after the smallest impulse along the rows of `work`, and the impulses.
 
     Parameters

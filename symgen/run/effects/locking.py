@@ -9,10 +9,11 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import farthest
 from symgen.run.layout.scales import square_rows
-from symgen.run.layout.start_records import INSTANT, LAYOUT, record_type
+from symgen.run.layout.start_records import Instant, Layout
 
 _A, _K = types.float64[::1], types.int64[::1]
 
@@ -25,26 +26,43 @@ DEPENDENT, NEARLY_EXACT = 1e-12, 1e-24
 #: Most coordinates that are named, and their least share of the largest one.
 MOST_NAMED, COUNTS = 3, 0.3
 #: Layout, ``geometry``, 1 for each row of a driver, else 0, and that square.
-LOCK_MODEL = types.RecordType((LAYOUT, abi.MEASURE, _K, types.float64))
-#: Working memory, and what is found.
-#: - numbers, scale, factors, sums: Of the choice of rows; reciprocal lengths of rows, and factors of rows in the
-#:   combination that vanishes, before and after an iteration.
-#: - jumps (shape (nv,)): How far coordinates would jump, relative to each other.
-#: - drivers (shape (m,)): 1 for each row of a driver that can go no further, else 0.
-#: - named (shape (MOST_NAMED,)): Velocities of the coordinates that would jump farthest, by falling jumps, then -1.
-LOCK_WORK = record_type("LockWork", __name__, ("numbers scale factors sums jumps", _A), ("drivers named", _K))
-LockWork: Any = LOCK_WORK.constructor
+LockModel = tuple[Layout, abi.Measure, Integers, float]
 
 
-def new_lock_work(layout: Any) -> Any:
+class LockWork(Record):
+    """Working memory, and what is found.
+
+    Attributes
+    ----------
+    numbers, scale, factors, sums : Array
+        Of the choice of rows; reciprocal lengths of rows, and factors of rows in the combination that vanishes,
+        before and after an iteration.
+    jumps : Array, shape (nv,)
+        How far coordinates would jump, relative to each other.
+    drivers : Array of int64, shape (m,)
+        1 for each row of a driver that can go no further, else 0.
+    named : Array of int64, shape (MOST_NAMED,)
+        Velocities of the coordinates that would jump farthest, by falling jumps, then -1.
+    """
+
+    numbers: Array
+    scale: Array
+    factors: Array
+    sums: Array
+    jumps: Array
+    drivers: Integers
+    named: Integers
+
+
+def new_lock_work(layout: Layout) -> Any:
     """Return working memory."""
     m, n = layout.m, layout.nv
     integers = (np.zeros(size, dtype=np.int64) for size in (m, MOST_NAMED))
-    return LockWork(*map(np.zeros, (m * (n + m) + m, m, m, m, n)), *integers)
+    return LockWork._make((*map(np.zeros, (m * (n + m) + m, m, m, m, n)), *integers))
 
 
 @exact()
-def name_jumps(jumps: Any, count: int, named: Any) -> None:
+def name_jumps(jumps: Array, count: int, named: Integers) -> None:
     """Write the places of the largest jumps."""
     for k in range(MOST_NAMED):
         best = -1
@@ -60,8 +78,8 @@ def name_jumps(jumps: Any, count: int, named: Any) -> None:
         named[k] = best if counts else -1
 
 
-@exact(types.boolean(LOCK_MODEL, types.float64, INSTANT, LOCK_WORK))
-def find_lock(model: Any, t: float, now: Any, work: Any) -> bool:
+@exact(entry=True)
+def find_lock(model: LockModel, t: float, now: Instant, work: LockWork) -> bool:
     """Return whether drivers lock at a state: with other rows, their rows nearly vanish.
 
     Inverse iteration finds the combination of rows that vanishes first, and the velocity that hardly changes any row.
@@ -69,7 +87,7 @@ def find_lock(model: Any, t: float, now: Any, work: Any) -> bool:
     Parameters
     ----------
     model : tuple
-        See `LOCK_MODEL`.
+        See `LockModel`.
     t : float
         Time [s].
     now : Instant

@@ -9,14 +9,15 @@ import numpy as np
 
 from symgen.compile.loopcode.loop_instances import Meanings
 from symgen.compile.native import types
-from symgen.run.effects.accumulation import PAST, accumulation, add_resets, latest_events
-from symgen.run.effects.applying import APPLIED, EFFECT_MODEL, EFFECT_WORK, apply_effects
+from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.effects.accumulation import Past, accumulation, add_resets, latest_events
+from symgen.run.effects.applying import APPLIED, EffectModel, EffectWork, apply_effects
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.start_records import Instant, record_type
+from symgen.run.layout.start_records import Instant, Layout
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
-from symgen.run.loops.event_loop import notes_at
+from symgen.run.loops.event_loop import EventState, notes_at
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,37 +26,61 @@ if TYPE_CHECKING:
 
 _A, _K = types.float64[::1], types.int64[::1]
 
-#: What one effect was, for a single run.
-#: - y (shape (ny,)): State before it.
-#: - w (shape (nw,)): Scratch after it.
-#: - v, impulses, energy (shapes (nv,), (m + velocities,), (1,)): Velocities after it, impulses of rows and of
-#:   velocities that were set, and the change of the energy [J], nan where nothing has happened.
-KEPT_EFFECT = record_type("KeptEffect", __name__, ("y w v impulses energy", _A))
-KeptEffect: Any = KEPT_EFFECT.constructor
 
-#: What events change in runs, and their past.
-#: - rates, confirm, happens: Rates of v and multipliers, their confirmation, switching functions.
-#: - model: First argument of `apply_effects`.
-#: - resets, stops, chosen (shape (events,)): 1 for events that change a run; for those that end it; working memory.
-#: - work, past: Working memory of effects; past resets of the present run.
-#: - ends (shape (HEAD_OF_EVENTS,)): Why events end the present run, see `symgen.run.layout.ensemble_abi`.
-#: - kept: The latest reset.
-OF_EFFECTS = record_type(
-    "OfEffects",
-    __name__,
-    ("rates confirm", abi.RHS),
-    ("happens", abi.OBSERVE),
-    ("model", EFFECT_MODEL),
-    ("resets stops chosen", _K),
-    ("work", EFFECT_WORK),
-    ("past", PAST),
-    ("ends", _A),
-    ("kept", KEPT_EFFECT),
-)
-OfEffects: Any = OF_EFFECTS.constructor
+class KeptEffect(Record):
+    """What one effect was, for a single run.
+
+    Attributes
+    ----------
+    y : Array, shape (ny,)
+        State before it.
+    w : Array, shape (nw,)
+        Scratch after it.
+    v, impulses, energy : Array, shapes (nv,), (m + velocities,), (1,)
+        Velocities after it, impulses of rows and of velocities that were set, and the change of the energy [J],
+        nan where nothing has happened.
+    """
+
+    y: Array
+    w: Array
+    v: Array
+    impulses: Array
+    energy: Array
 
 
-def new_kept_effect(layout: Any, work: Any, keeps: bool) -> Any:
+class OfEffects(Record):
+    """What events change in runs, and their past.
+
+    Attributes
+    ----------
+    rates, confirm, happens : function
+        Rates of v and multipliers, their confirmation, switching functions.
+    model : EffectModel
+        First argument of `apply_effects`.
+    resets, stops, chosen : Array of int64, shape (events,)
+        1 for events that change a run; for those that end it; working memory.
+    work, past : EffectWork, Past
+        Working memory of effects; past resets of the present run.
+    ends : Array, shape (HEAD_OF_EVENTS,)
+        Why events end the present run, see `symgen.run.layout.ensemble_abi`.
+    kept : KeptEffect
+        The latest reset.
+    """
+
+    rates: abi.Rhs
+    confirm: abi.Rhs
+    happens: abi.Observe
+    model: EffectModel
+    resets: Integers
+    stops: Integers
+    chosen: Integers
+    work: EffectWork
+    past: Past
+    ends: Array
+    kept: KeptEffect
+
+
+def new_kept_effect(layout: Layout, work: EffectWork, keeps: bool) -> KeptEffect:
     """Return memory for one effect; empty where nobody reads it."""
     sizes = len(work.state), len(work.scratch), layout.nv, len(work.impulse.impulses), 1
     return KeptEffect(*(np.full(size if keeps else 0, math.nan) for size in sizes))
@@ -67,8 +92,8 @@ def new_effects(
     actions: tuple[NDArray[np.int64], NDArray[np.int64]],
     memory: tuple[Any, Any],
     keeps: bool,
-) -> Any:
-    """Return the effects of events, as `OF_EFFECTS`.
+) -> OfEffects:
+    """Return the effects of events.
 
     Parameters
     ----------
@@ -88,21 +113,21 @@ def new_effects(
     return OfEffects(*functions, effects.model, *actions, chosen, *memory, ends, kept)
 
 
-def keep_before(kept: Any, y: Any) -> None:
+def keep_before(kept: KeptEffect, y: Array) -> None:
     """Do nothing: nobody reads the effects of this run."""
 
 
-def keep_after(kept: Any, now: Any, first: int, work: Any) -> None:
+def keep_after(kept: KeptEffect, now: Instant, first: int, work: EffectWork) -> None:
     """Do nothing: nobody reads the effects of this run."""
 
 
-def store_before(kept: Any, y: Any) -> None:
+def store_before(kept: KeptEffect, y: Array) -> None:
     """Keep the state before an effect."""
     for i in range(kept.y.shape[0]):
         kept.y[i] = y[i]
 
 
-def store_after(kept: Any, now: Any, first: int, work: Any) -> None:
+def store_after(kept: KeptEffect, now: Instant, first: int, work: EffectWork) -> None:
     """Keep what an effect has changed; `first` is the place of the velocities in the state."""
     for i in range(kept.w.shape[0]):
         kept.w[i] = now.w[i]
@@ -113,12 +138,12 @@ def store_after(kept: Any, now: Any, first: int, work: Any) -> None:
     kept.energy[0] = work.energy[0]
 
 
-def first_note(state: Any) -> int:
+def first_note(state: EventState) -> int:
     """Return the index of the first note of a run."""
     return int(notes_at(int(state.hunt[records.COUNT]), state.y.shape[0], state.w.shape[0]))
 
 
-def forget_resets(effects: Any) -> None:
+def forget_resets(effects: OfEffects) -> None:
     """Forget the resets of the run before, and why it ended."""
     for k in range(effects.past.counts.shape[0]):
         effects.past.counts[k] = 0
@@ -126,7 +151,7 @@ def forget_resets(effects: Any) -> None:
         effects.ends[k] = math.nan
 
 
-def choose_resets(effects: Any, state: Any) -> int:
+def choose_resets(effects: OfEffects, state: EventState) -> int:
     """Choose the events noted at the present time that change a run; return the last one, -1 for none."""
     hunt, chosen, t, last = state.hunt, effects.chosen, state.clock[abi.TIME], -1
     first, size = first_note(state), 2 + state.y.shape[0]
@@ -139,7 +164,7 @@ def choose_resets(effects: Any, state: Any) -> int:
     return last
 
 
-def is_stopped(effects: Any, state: Any) -> bool:
+def is_stopped(effects: OfEffects, state: EventState) -> bool:
     """Return whether an event noted at the present time ends a run."""
     hunt, t, stops = state.hunt, state.clock[abi.TIME], False
     first, size = first_note(state), 2 + state.y.shape[0]
@@ -149,12 +174,12 @@ def is_stopped(effects: Any, state: Any) -> bool:
     return stops
 
 
-def change_nothing(last: int, effects: Any, state: Any) -> int:
+def change_nothing(last: int, effects: OfEffects, state: EventState) -> int:
     """Return `MET` to go on, or `DONE` where an event ends a run that no event changes."""
     return int(abi.DONE) if is_stopped(effects, state) else int(abi.MET)
 
 
-def apply_resets(last: int, effects: Any, state: Any) -> int:
+def apply_resets(last: int, effects: OfEffects, state: EventState) -> int:
     """Apply the chosen resets; return `MET` to go on, or the code of the end of the run.
 
     Parameters

@@ -9,9 +9,10 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import copy_numbers, exact
 from symgen.compile.native import types
-from symgen.run.effects.applying import EFFECT_MODEL, EFFECT_WORK, apply_effects
+from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.effects.applying import EffectModel, EffectWork, apply_effects
 from symgen.run.layout import abi
-from symgen.run.layout.start_records import INSTANT, LAYOUT, record_type
+from symgen.run.layout.start_records import Instant, Layout
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
@@ -23,19 +24,42 @@ LONGER, NEAREST = 2e-12, 1e-9
 REACHED, ENDED, FAILED = range(3)
 #: Layout, ``rhs`` and its confirmation, ``accept``, switching functions, and the direction of each event: 1 or -1 where
 #: its function rises or falls, 0 for both, 2 for events that change nothing.
-STEP_MODEL = types.RecordType((LAYOUT, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE, _K))
+StepModel = tuple[Layout, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe, Integers]
 #: Steps, the effects of events, and 1 for each event that ends the run, else 0.
-RUN_MODEL = types.RecordType((STEP_MODEL, EFFECT_MODEL, _K))
-#: Working memory.
-#: - first, second, third, fourth, middle: Rates at the four stages, arrays of their own, since a view of an array is a
-#:   new object in JavaScript; the state at a stage.
-#: - y, w, before, after: State and scratch at the beginning; switching functions at both ends of a step.
-#: - clock (shape (1,)): Time [s].
-#: - counters, chosen: Counters at the beginning; 1 for each event at the end of the step, else 0.
-#: - ending (shape (1,)): Number of the event that ends the run, -1 where none does.
-_NUMBERS = "first second third fourth middle y w before after clock", _A
-STEP_WORK = record_type("StepWork", __name__, _NUMBERS, ("counters chosen ending", _K))
-StepWork: Any = STEP_WORK.constructor
+RunModel = tuple[StepModel, EffectModel, Integers]
+
+
+class StepWork(Record):
+    """Working memory.
+
+    Attributes
+    ----------
+    first, second, third, fourth, middle : Array
+        Rates at the four stages, arrays of their own, since a view of an array is a new object in JavaScript;
+        the state at a stage.
+    y, w, before, after : Array
+        State and scratch at the beginning; switching functions at both ends of a step.
+    clock : Array, shape (1,)
+        Time [s].
+    counters, chosen : Array of int64
+        Counters at the beginning; 1 for each event at the end of the step, else 0.
+    ending : Array of int64, shape (1,)
+        Number of the event that ends the run, -1 where none does.
+    """
+
+    first: Array
+    second: Array
+    third: Array
+    fourth: Array
+    middle: Array
+    y: Array
+    w: Array
+    before: Array
+    after: Array
+    clock: Array
+    counters: Integers
+    chosen: Integers
+    ending: Integers
 
 
 def new_step_work(ny: int, nw: int, events: int) -> Any:
@@ -46,7 +70,7 @@ def new_step_work(ny: int, nw: int, events: int) -> Any:
 
 
 @exact()
-def all_finite(x: Any, count: int) -> bool:
+def all_finite(x: Array, count: int) -> bool:
     """Whether the first numbers of an array are finite."""
     finite = True
     for i in range(count):
@@ -55,7 +79,7 @@ def all_finite(x: Any, count: int) -> bool:
 
 
 @exact()
-def set_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any) -> int:
+def set_rates(model: StepModel, t: float, y: Array, p: Array, w: Array, iw: Integers, rate: Array) -> int:
     """Set the rates of a state, confirmed where a pivot is suspicious."""
     _, rhs, confirm, _, _, _ = model
     if rhs(t, y, p, w, iw, rate) != 0:
@@ -63,8 +87,8 @@ def set_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any) 
     return 0
 
 
-@exact(types.boolean(STEP_MODEL, _F, _A, _A, _A, _K, _A))
-def find_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any) -> bool:
+@exact(entry=True)
+def find_rates(model: StepModel, t: float, y: Array, p: Array, w: Array, iw: Integers, rate: Array) -> bool:
     """Set the rates of a state; return whether they are finite."""
     layout, _, _, _, _, _ = model
     set_rates(model, t, y, p, w, iw, rate)
@@ -72,15 +96,15 @@ def find_rates(model: Any, t: float, y: Any, p: Any, w: Any, iw: Any, rate: Any)
 
 
 @exact()
-def set_stage(y: Any, factor: float, rate: Any, stage: Any) -> int:
+def set_stage(y: Array, factor: float, rate: Array, stage: Array) -> int:
     """Set `stage` to a state and a multiple of rates."""
     for i in range(stage.shape[0]):
         stage[i] = y[i] + factor * rate[i]
     return 0
 
 
-@exact(types.boolean(STEP_MODEL, _F, _F, INSTANT, _K, STEP_WORK))
-def take_step(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> bool:
+@exact(entry=True)
+def take_step(model: StepModel, t: float, h: float, now: Instant, iw: Integers, work: StepWork) -> bool:
     """Make a step; return whether it succeeds."""
     layout, _, _, accept, _, _ = model
     (y, p, w), middle, n = now, work.middle, layout.ny
@@ -99,7 +123,7 @@ def take_step(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> b
 
 
 @exact()
-def copy_counters(source: Any, copy: Any) -> int:
+def copy_counters(source: Integers, copy: Integers) -> int:
     """Copy the counters."""
     for i in range(abi.N_COUNTERS):
         copy[i] = source[i]
@@ -107,7 +131,7 @@ def copy_counters(source: Any, copy: Any) -> int:
 
 
 @exact()
-def keep_beginning(now: Any, iw: Any, work: Any) -> int:
+def keep_beginning(now: Instant, iw: Integers, work: StepWork) -> int:
     """Keep the beginning of a step."""
     copy_numbers(now.y, work.y, work.y.shape[0])
     copy_numbers(now.w, work.w, work.w.shape[0])
@@ -115,7 +139,7 @@ def keep_beginning(now: Any, iw: Any, work: Any) -> int:
 
 
 @exact()
-def restore(now: Any, iw: Any, work: Any) -> int:
+def restore(now: Instant, iw: Integers, work: StepWork) -> int:
     """Go back to the beginning of a step."""
     copy_numbers(work.y, now.y, work.y.shape[0])
     copy_numbers(work.w, now.w, work.w.shape[0])
@@ -130,7 +154,7 @@ def passes(direction: int, before: float, after: float) -> bool:
 
 
 @exact()
-def attempt(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> int:
+def attempt(model: StepModel, t: float, h: float, now: Instant, iw: Integers, work: StepWork) -> int:
     """Make a step; return the number of events in it, -1 where it fails."""
     _, _, _, _, happens, directions = model
     if not take_step(model, t, h, now, iw, work):
@@ -145,13 +169,13 @@ def attempt(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> int
 
 
 @exact()
-def step_to_event(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) -> float:
+def step_to_event(model: StepModel, t: float, h: float, now: Instant, iw: Integers, work: StepWork) -> float:
     """Make a step, or a shorter one to the first event in it.
 
     Parameters
     ----------
     model : tuple
-        See `STEP_MODEL`.
+        See `StepModel`.
     t, h : float
         Time and step [s].
     now, iw : Instant, Array of int
@@ -184,14 +208,16 @@ def step_to_event(model: Any, t: float, h: float, now: Any, iw: Any, work: Any) 
     return high if count >= 0 else math.nan
 
 
-@exact(types.int64(RUN_MODEL, _F, _F, INSTANT, _K, STEP_WORK, EFFECT_WORK))
-def take_steps(model: Any, until: float, h: float, now: Any, iw: Any, work: Any, impact: Any) -> int:
+@exact(entry=True)
+def take_steps(
+    model: RunModel, until: float, h: float, now: Instant, iw: Integers, work: StepWork, impact: EffectWork
+) -> int:
     """Make steps up to a time; events happen at their times, and one that ends runs is the last.
 
     Parameters
     ----------
     model : tuple
-        See `RUN_MODEL`.
+        See `RunModel`.
     until, h : float
         Time, and the length of the steps; the last one is shorter [s].
     now, iw : Instant, Array of int

@@ -100,7 +100,8 @@ class ImplicitTableau:
             *(np.ascontiguousarray(self.a).ravel(), self.b, self.c),
             np.zeros(s + 1) if self.errors is None else self.errors,
             *(self.filter_factor, s, int(self.together), self.error_order),  # type: ignore[arg-type]  # mypy joins kinds
-            *(np.concatenate([pattern.rows, pattern.columns]), slopes, numbers, plan, single[1], single[0]),
+            np.concatenate([pattern.rows, pattern.columns]),
+            *(slopes, numbers, plan, single[1], single[0]),  # type: ignore[arg-type]  # mypy joins kinds
         )
         functions = law_functions(compiled, "residual", "tangent")
         width, n, more = padded(info.ny), compiled.law.unknowns, info.ny - info.nq - info.nv

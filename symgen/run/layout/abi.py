@@ -5,29 +5,30 @@ Emitted functions are called through first-class function types, so one cached c
 
 from __future__ import annotations
 
-from symgen.base.ir.program import COUNTERS, STATUS
-from symgen.compile.native import types
+from collections.abc import Callable
 
-_F8 = types.float64
-_A = types.float64[::1]
-_I = types.int64[::1]
+from symgen.base.ir.program import COUNTERS, STATUS
+from symgen.compile.native.annotations import Array, Integers, function_type
 
 #: rhs(t, y, p, w, iw, ydot) -> status, 0 when done.
-RHS = types.FunctionType(types.int64(_F8, _A, _A, _A, _I, _A))
+Rhs = Callable[[float, Array, Array, Array, Integers, Array], int]
 #: derive(t, y, p, w, ydot) at eight nodes: element i of a state at ``8 i + node``; see `symgen.compile.native.nodes`.
-NODES = types.FunctionType(types.int64(_A, _A, _A, _A, _A))
+Derive = Callable[[Array, Array, Array, Array, Array], int]
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
-ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
+Accept = Callable[[float, Array, Array, Array, Integers], int]
 #: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j); j holds only the structural nonzeros.
-STAGE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
+Stage = Callable[[float, Array, Array, Array, Array, Array], int]
 #: geometry(t, y, p, w).
-MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
+Measure = Callable[[float, Array, Array, Array], int]
 #: move(y, w) or turn(y, w): the section ``change`` applied to the coordinates.
-MOVE = types.FunctionType(types.int64(_A, _A))
+Move = Callable[[Array, Array], int]
 #: observe(t, y, p, w, ydot, out).
-OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
+Observe = Callable[[float, Array, Array, Array, Array, Array], int]
 #: decide(hunt, n, notes, following, h, search, width, y, w, iw) of `symgen.run.loops.searching`.
-DECIDE = types.FunctionType(types.int64(_A, types.int64, types.int64, _F8, _F8, types.int64, types.int64, _A, _A, _I))
+Decide = Callable[[Array, int, int, float, float, int, int, Array, Array, Integers], int]
+#: Their types in compiled code.
+RHS, NODES, ACCEPT, STAGE = (function_type(x) for x in (Rhs, Derive, Accept, Stage))
+MEASURE, MOVE, OBSERVE, DECIDE = (function_type(x) for x in (Measure, Move, Observe, Decide))
 
 # -- positions in the status section at the beginning of w, and in iw --------------------------------------------------
 PHI = STATUS.index("position_violation")

@@ -166,7 +166,7 @@ class CompiledModel(ABC):
             p[law.parameter_offset + i] = method_parameters.get(name, default)
         return p
 
-    def longer(self, shadows: int, hoisted: int, nw: int, model: Any, law_module: Any) -> CompiledModel:
+    def longer(self, shadows: int, hoisted: int, nw: int, model: ModuleType, law_module: ModuleType) -> CompiledModel:
         """Return a model with longer arrays and other functions.
 
         Parameters

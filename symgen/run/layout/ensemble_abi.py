@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from symgen.compile.native import types
+from collections.abc import Callable
+
+from symgen.compile.native.annotations import Array, function_type
 from symgen.run.layout import abi
 
 #: prepare(p).
-PREPARE = types.FunctionType(types.int64(types.float64[::1]))
+Prepare = Callable[[Array], int]
+PREPARE = function_type(Prepare)
 
 # -- sources of a column of the outputs
 # ------------------------------------------------------------------------

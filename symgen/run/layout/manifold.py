@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array
 from symgen.compile.store.jit import jit
+from symgen.run.layout.records import ModelSystem, Run
 
 _A = types.float64[::1]
 
 
-@jit(types.int64(_A, _A))
-def stay(y: Any, w: Any) -> int:
+@jit(entry=True)
+def stay(y: Array, w: Array) -> int:
     """Stand for the emitted ``turn`` of models whose coordinates have velocities as rates; it is never called."""
     return 0
 
 
-def advance(system: Any, run: Any, delta: Any, trial: Any) -> None:
+def advance(system: ModelSystem, run: Run, delta: Array, trial: Array) -> None:
     """Set the positions of `trial`: the accepted state moved by `delta`, bodies in space by its exponential.
 
     Parameters

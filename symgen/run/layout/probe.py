@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +28,7 @@ class Ready:
         Its type, of `symgen.run.layout.abi`.
     """
 
-    def __init__(self, function: Any, kind: types.FunctionType) -> None:
+    def __init__(self, function: Callable[..., Any], kind: types.FunctionType) -> None:
         self._function, self._kind = function, kind
 
     def __call__(self, *arguments: Any) -> Any:
@@ -51,10 +52,10 @@ class Few:
         As for `Ready`.
     """
 
-    def __init__(self, function: Any, kind: Any) -> None:
+    def __init__(self, function: Any, kind: types.FunctionType) -> None:
         self._plain, self._ready = plain_function(function), Ready(function, kind)
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments: object) -> Any:
         """Call it."""
         with np.errstate(all="ignore"):
             try:
@@ -63,7 +64,7 @@ class Few:
                 return self._ready(*arguments)
 
 
-def rate_functions(law: Any) -> tuple[Any, Any]:
+def rate_functions(law: ModuleType) -> tuple[Any, Any]:
     """Return the functions of an emitted law that compute rates of v and multipliers, and confirm them."""
     rates = getattr(law, "rates", law.rhs)  # a law that does not integrate v has an extra function for its rates
     return rates, getattr(law, "confirm", rates)
@@ -81,7 +82,7 @@ def rate_function(compiled: CompiledModel) -> Callable[..., None]:
     """
     rates, confirm = (Ready(function, abi.RHS) for function in rate_functions(compiled.law_module))
 
-    def evaluate(*arguments: Any) -> None:
+    def evaluate(*arguments: object) -> None:
         if rates(*arguments) != 0:
             confirm(*arguments)
 

@@ -6,22 +6,14 @@ field of a record that owns its arrays costs a reference count.
 
 from __future__ import annotations
 
-from collections import namedtuple
-from typing import Any, NamedTuple
+from typing import Any
 
-from symgen.compile.native import types
-from symgen.run.layout.start_records import LAYOUT
-
-_F, _I = types.float64, types.int64
-_A, _K, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
+from symgen.compile.native.annotations import Array, Integers, Matrix, Record, record_type
+from symgen.run.layout import abi
+from symgen.run.layout.start_records import Layout
 
 
-def record(name: str, *fields: str, module: str = __name__) -> Any:
-    """Return a named tuple with fields of another one; records are flat, so that loops read them alike."""
-    return namedtuple(name, fields, module=module)
-
-
-class Sizes(NamedTuple):
+class Sizes(Record):
     """Sizes of a model, and positions in its scratch array.
 
     Attributes
@@ -61,7 +53,7 @@ class Sizes(NamedTuple):
     states: int
 
 
-class Span(NamedTuple):
+class Span(Record):
     """End, steps and tolerances of a run.
 
     Attributes
@@ -100,7 +92,7 @@ class Span(NamedTuple):
     turn: float
 
 
-class State(NamedTuple):
+class State(Record):
     """State of a run; a scheme's own record holds its data beyond `memory`.
 
     Attributes
@@ -122,26 +114,41 @@ class State(NamedTuple):
         Working memory: nothing in it outlives a step. It begins with the trial state.
     """
 
-    y: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    passages: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
+    y: Array
+    p: Array
+    w: Array
+    iw: Integers
+    clock: Array
+    gauges: Array
+    control: Integers
+    passages: Array
+    memory: Array
+    share: Array
+    metric: Array
+    scales: Array
+    room: Array
 
 
-#: A `State` opened by a loop: bare arrays, `trial` being the trial state and `room` the memory behind it.
-Run = record("Run", "y", "trial", *State._fields[1:])
+class Run(Record):
+    """A `State` opened by a loop: bare arrays, `trial` being the trial state and `room` the memory behind it."""
+
+    y: Array
+    trial: Array
+    p: Array
+    w: Array
+    iw: Integers
+    clock: Array
+    gauges: Array
+    control: Integers
+    passages: Array
+    memory: Array
+    share: Array
+    metric: Array
+    scales: Array
+    room: Array
 
 
-class Outputs(NamedTuple):
+class Outputs(Record):
     """Output times, states, and the status that ``accept`` measured, followed by angles that count turns and modes.
 
     Attributes
@@ -152,12 +159,12 @@ class Outputs(NamedTuple):
         Written.
     """
 
-    times: Any
-    states: Any
-    status: Any
+    times: Array
+    states: Matrix
+    status: Matrix
 
 
-class Observed(NamedTuple):
+class Observed(Record):
     """Quantities evaluated at outputs after a run.
 
     Attributes
@@ -168,12 +175,12 @@ class Observed(NamedTuple):
         D v' - gamma, then value and rate of every joint coordinate.
     """
 
-    accelerations: Any
-    multipliers: Any
-    rows: Any
+    accelerations: Matrix
+    multipliers: Matrix
+    rows: Matrix
 
 
-class RowChunk(NamedTuple):
+class RowChunk(Record):
     """Rows of an ensemble, and their results.
 
     Attributes
@@ -201,46 +208,47 @@ class RowChunk(NamedTuple):
         For `symgen.run.layout.redundancy.choose_rows`; `dense`, its working memory, is empty where rows stay the same.
     """
 
-    selected: Any
-    ys: Any
-    ps: Any
-    ws: Any
-    limits: Any
-    picks: Any
-    values: Any
-    summary: Any
-    events: Any
+    selected: Integers
+    ys: Array
+    ps: Array
+    ws: Array
+    limits: Array
+    picks: Integers
+    values: Array
+    summary: Array
+    events: Array
     ends: int
     rates: int
     joints: int
-    layout: Any
-    dense: Any
+    layout: Layout
+    dense: Array
 
 
-class Kept(NamedTuple):
+class Kept(Record):
     """Results of the present run."""
 
-    outputs: Any
-    observed: Any
+    outputs: Outputs
+    observed: Observed
 
 
-class ModelSystem(NamedTuple):
+class ModelSystem(Record):
     """A model as schemes see it: its sizes and functions, 0 for those that the scheme does not call."""
 
-    sizes: Any
-    rhs: Any
-    confirm: Any
-    accept: Any
-    turn: Any
-    residual: Any
-    tangent: Any
+    sizes: Sizes
+    rhs: abi.Rhs
+    confirm: abi.Rhs
+    accept: abi.Accept
+    turn: abi.Move
+    residual: abi.Stage
+    tangent: abi.Stage
 
+
+#: Sizes of a model, and the functions called at outputs.
+Observers = tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe]
+#: What the loop over one run takes first: the parts of a `ModelSystem`, or such parts with those of a loop around it.
+#: Each loop knows its own.
+System = tuple[Any, ...]
 
 #: Types of the records in compiled loops.
-SIZES = types.RecordType((_I,) * len(Sizes._fields), Sizes)
-SPAN = types.RecordType((_F,) * len(Span._fields), Span)
-STATE = types.RecordType((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
-OUTPUTS = types.RecordType((_A, _M, _M), Outputs)
-OBSERVED = types.RecordType((_M,) * 3, Observed)
-KEPT_OF_RUN = types.RecordType((OUTPUTS, OBSERVED), Kept)
-CHUNK = types.RecordType((_K, _A, _A, _A, _A, _K, _A, _A, _A, _I, _I, _I, LAYOUT, _A), RowChunk)
+SIZES, SPAN, STATE, OUTPUTS, OBSERVED = map(record_type, (Sizes, Span, State, Outputs, Observed))
+KEPT_OF_RUN, CHUNK = record_type(Kept), record_type(RowChunk)

@@ -7,7 +7,7 @@ position may not at another: of two pins on one turning body, the row along the 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,9 @@ from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
+from symgen.run.layout.records import Run, Sizes
 from symgen.run.layout.scales import VANISHED, entry_of, row_weight
-from symgen.run.layout.start_records import LAYOUT
+from symgen.run.layout.start_records import Layout
 
 if TYPE_CHECKING:
     pass
@@ -35,20 +36,20 @@ EQUAL = 1e-9
 LARGEST = 250_000
 
 
-@exact(types.boolean(LAYOUT, _N, _A))
-def is_off(layout: Any, row: int, w: Any) -> bool:
+@exact(entry=True)
+def is_off(layout: Layout, row: int, w: Array) -> bool:
     """Whether a row is off."""
     return not (layout.switches[row] < 0 or w[layout.switches[row]] != 0.0)
 
 
 @exact()
-def weight_in_force(layout: Any, w: Any, i: int) -> float:
+def weight_in_force(layout: Layout, w: Array, i: int) -> float:
     """Return the factor that makes a row of Phi a length, 0 where the row is off."""
     return 0.0 if is_off(layout, i, w) else float(row_weight(layout, w, i))
 
 
-@exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))
-def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w: Any, room: Any) -> int:
+@exact(entry=True)
+def farthest(layout: Layout, width: int, count: int, least: float, weighed: int, w: Array, room: Array) -> int:
     """Choose up to `count` rows, each the one farthest from the rows chosen before it; return their number.
 
     Rows that are off are zero.
@@ -115,8 +116,8 @@ def farthest(layout: Any, width: int, count: int, least: float, weighed: int, w:
     return count
 
 
-@exact(_N(LAYOUT, _N, _N, _A, _A))
-def choose_rows(layout: Any, count: int, weighed: int, w: Any, room: Any) -> int:
+@exact(entry=True)
+def choose_rows(layout: Layout, count: int, weighed: int, w: Array, room: Array) -> int:
     """Mask all rows in force but those kept, of which the others are linear combinations with small factors.
 
     An error in a kept row causes one in the others, times these factors. The rows left over by `farthest` are linear
@@ -177,7 +178,7 @@ def room_of_choice(m: int, n: int) -> int:
 
 
 @jit()
-def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
+def leave_out_rest(sizes: Sizes, w: Array, k: Array, right: Array) -> None:
     """Set the residuals of redundant rows in the constraints of a stage to their multipliers, which have to be 0.
 
     Parameters
@@ -193,7 +194,7 @@ def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
             right[i] = k[i]
 
 
-def rows_fell(run: Any) -> bool:
+def rows_fell(run: Run) -> bool:
     """Whether rows are left out and the smallest pivot has fallen much since the choice."""
     control, gauges, pivot = run.control, run.gauges, run.w[abi.PIVOT]
     if control[abi.MASKED] == 0:
@@ -206,6 +207,6 @@ def rows_fell(run: Any) -> bool:
     return True
 
 
-def never(run: Any) -> bool:
+def never(run: Run) -> bool:
     """Return False: the replacement of `rows_fell` where rows stay the same."""
     return False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array
 from symgen.compile.store.emitted import EmittedFunction, NodesFunction
 from symgen.compile.store.jit import jit
 
@@ -17,8 +18,8 @@ _A = types.float64[::1]
 _functions: dict[Any, Any] = {}
 
 
-@jit(types.int64(_A, _A, _A, _A, _A))
-def absent(t: Any, y: Any, p: Any, w: Any, rate: Any) -> int:
+@jit(entry=True)
+def absent(t: Array, y: Array, p: Array, w: Array, rate: Array) -> int:
     """Replace a right-hand side at all nodes; it is never called."""
     return 0
 

@@ -8,14 +8,14 @@ rotations, so that D diag(gauge) D^T, which decides rank, has one unit in every 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.loopcode.loop_instances import viewing
-from symgen.compile.native import types
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.start_records import LAYOUT
+from symgen.run.layout.records import Run, Sizes, Span
+from symgen.run.layout.start_records import Instant, Layout, Work
 
 #: Least length of a body over that of the longest one, so that rounding does not decide.
 LEAST_LENGTH = 1e-2
@@ -45,14 +45,14 @@ def larger(a: float, b: float) -> float:
 
 
 @exact()
-def entry_of(layout: Any, w: Any, k: int) -> float:
+def entry_of(layout: Layout, w: Array, k: int) -> float:
     """Return structural entry `k` of D: a constant, or computed by ``geometry`` in the scratch array."""
     slot = layout.entries[3 * k + 2]
     return layout.constants[k] if slot < 0 else w[layout.jacobian + slot]  # type: ignore[no-any-return]  # arrays
 
 
-@exact(types.int64(LAYOUT, types.float64[::1], types.float64[::1]))
-def fill_jacobian(layout: Any, w: Any, rows: Any) -> int:
+@exact(entry=True)
+def fill_jacobian(layout: Layout, w: Array, rows: Array) -> int:
     """Write the dense D, row after row, from the results of ``geometry``; return its number of rows."""
     for i in range(layout.m * layout.nv):
         rows[i] = 0.0
@@ -62,7 +62,7 @@ def fill_jacobian(layout: Any, w: Any, rows: Any) -> int:
 
 
 @exact()
-def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
+def measure_lengths(geometry: abi.Measure, layout: Layout, now: Instant, work: Work) -> None:
     """Set the section ``gauge``, and the scales of lengths and masses, from D at the described positions.
 
     A body's length is twice the norm of the derivative of a joint's rows in metres by the body's angles, the largest
@@ -105,7 +105,7 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 
 
 @exact()
-def mean_mass(layout: Any, w: Any) -> float:
+def mean_mass(layout: Layout, w: Array) -> float:
     """Return the average mass of a velocity; moments of inertia count over the square of a length.
 
     Without masses it is arbitrary: it weighs rows against M, which is 0.
@@ -117,7 +117,7 @@ def mean_mass(layout: Any, w: Any) -> float:
 
 
 @exact()
-def square_rows(layout: Any, w: Any, squares: Any) -> None:
+def square_rows(layout: Layout, w: Array, squares: Array) -> None:
     """Set `squares` to the square of each row of D G^1/2 at the present position."""
     for i in range(layout.m):
         squares[i] = 0.0
@@ -127,7 +127,7 @@ def square_rows(layout: Any, w: Any, squares: Any) -> None:
 
 
 @exact()
-def weigh_rows(layout: Any, now: Any) -> None:
+def weigh_rows(layout: Layout, now: Instant) -> None:
     """Set the section ``row_weight`` to the inverse of the square of each row of D G^1/2 at the start.
 
     Rows that are short already there count as a tenth of a usual one.
@@ -140,7 +140,7 @@ def weigh_rows(layout: Any, now: Any) -> None:
 
 
 @exact()
-def extent_of(layout: Any, y: Any) -> float:
+def extent_of(layout: Layout, y: Array) -> float:
     """Return the largest finite distance of a body from the mechanism's datum along an axis, 0 without bodies.
 
     Distances are not measured from the origin: decisions do not depend on where it lies.
@@ -154,7 +154,7 @@ def extent_of(layout: Any, y: Any) -> float:
 
 
 @exact()
-def coarseness_of(layout: Any, y: Any) -> float:
+def coarseness_of(layout: Layout, y: Array) -> float:
     """Return the largest finite coordinate that is a length: its rounding is what positions can resolve."""
     largest = 0.0
     for i in range(layout.nq):
@@ -164,7 +164,7 @@ def coarseness_of(layout: Any, y: Any) -> float:
 
 
 @exact()
-def turning_length(geometry: Any, layout: Any, now: Any, work: Any) -> float:
+def turning_length(geometry: abi.Measure, layout: Layout, now: Instant, work: Work) -> float:
     """Return the way along which rows in metres turn by about 1 rad: of a rod its length; 0 where rows stay the same.
 
     Bodies are moved, each its own way, by more and more until a row has turned enough to be measured. `work.y` and
@@ -203,7 +203,7 @@ def turning_length(geometry: Any, layout: Any, now: Any, work: Any) -> float:
 
 
 @exact()
-def gyration_of(layout: Any, w: Any) -> float:
+def gyration_of(layout: Layout, w: Array) -> float:
     """Return the square of the largest radius of gyration, 0 where no body turns."""
     largest = 0.0
     for j in range(1, layout.nv):
@@ -214,13 +214,13 @@ def gyration_of(layout: Any, w: Any) -> float:
 
 
 @exact()
-def free_scale(layout: Any, w: Any, j: int) -> float:
+def free_scale(layout: Layout, w: Array, j: int) -> float:
     """Return the scale of a velocity in the metric of shortest changes: a length, or an angle."""
     return float(w[abi.LENGTH] * math.sqrt(w[layout.gauge + j]))
 
 
 @exact()
-def size_of_change(layout: Any, w: Any, change: Any) -> float:
+def size_of_change(layout: Layout, w: Array, change: Array) -> float:
     """Return the largest component of a change: angles in radians, lengths over the scale of lengths."""
     largest = 0.0
     for j in range(layout.nv):
@@ -230,7 +230,7 @@ def size_of_change(layout: Any, w: Any, change: Any) -> float:
 
 
 @exact()
-def speed_of(layout: Any, w: Any, v: Any) -> float:
+def speed_of(layout: Layout, w: Array, v: Array) -> float:
     """Return the largest speed: angular velocities count as speeds of points at the body's length."""
     largest = 0.0
     for j in range(layout.nv):
@@ -240,12 +240,12 @@ def speed_of(layout: Any, w: Any, v: Any) -> float:
 
 
 @exact()
-def row_weight(layout: Any, w: Any, i: int) -> float:
+def row_weight(layout: Layout, w: Array, i: int) -> float:
     """Return the factor that makes a row of Phi a length: 1, or the scale of lengths for an angle or a number."""
     return 1.0 if layout.rows[2 * i + 1] == 1 else float(w[abi.LENGTH])
 
 
-def settle_scales(sizes: Any, span: Any, run: Any) -> None:
+def settle_scales(sizes: Sizes, span: Span, run: Run) -> None:
     """Set the scales of a run's states at its beginning, from the lengths computed at its start.
 
     `run.metric` converts coordinates and velocities to lengths and speeds (0 for angles, and for all behind the
@@ -271,19 +271,19 @@ def settle_scales(sizes: Any, span: Any, run: Any) -> None:
     run.gauges[abi.ENERGY_SCALE] = w[abi.MEAN_MASS] * open_speed * open_speed
 
 
-def open_to(span: Any, speed: float) -> Any:
+def open_to(span: Span, speed: float) -> float:
     """Return the speed within the tolerances [m/s], at a scale of speeds [m/s]."""
     tolerance = span.atol * speed if span.relative != 0.0 else span.atol
     return _ADDED_UP * max(tolerance, LEAST_SPEED * speed)
 
 
 @viewing
-def weights_of(span: Any, run: Any) -> Any:
+def weights_of(span: Span, run: Run) -> Array:
     """Return the factors of the elements of a state for their tolerances."""
     return run.scales if span.relative != 0.0 else run.share
 
 
-def rests(sizes: Any, span: Any, run: Any) -> bool:
+def rests(sizes: Sizes, span: Span, run: Run) -> bool:
     """Return whether no velocity is more than its tolerance at the beginning or at the end of a step.
 
     What is left of the velocities of a mechanism that is held at rest is rounding, and so is the work of its forces.
@@ -294,12 +294,12 @@ def rests(sizes: Any, span: Any, run: Any) -> bool:
     return bool(largest <= still(span))
 
 
-def still(span: Any) -> float:
+def still(span: Span) -> float:
     """Return the tolerance of velocities at rest, over the factors of `weights_of`."""
     return float(max(span.atol, LEAST_SPEED) if span.relative != 0.0 else span.atol)
 
 
-def with_work(sizes: Any, span: Any, run: Any, error: float, others: float) -> float:
+def with_work(sizes: Sizes, span: Span, run: Run, error: float, others: float) -> float:
     """Return the larger of two errors over their tolerances: of the work, and of all other elements of a state.
 
     The error of the work is relative to the energy in motion. The work enters no rate, but the balance of energy, and

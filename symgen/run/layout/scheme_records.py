@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
-from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
 from symgen.run.layout import abi
 
-_F, _I = types.float64, types.int64
-_A, _K = types.float64[::1], types.int64[::1]
 
-
-class TableauRecord(NamedTuple):
+class TableauRecord(Record):
     """An explicit Runge-Kutta scheme.
 
     Attributes
@@ -31,12 +26,12 @@ class TableauRecord(NamedTuple):
         1 where an error estimate needs the stage at the end of the step.
     """
 
-    start: Any
-    column: Any
-    value: Any
-    nodes: Any
-    dense: Any
-    count: Any
+    start: Integers
+    column: Integers
+    value: Array
+    nodes: Array
+    dense: Array
+    count: Integers
     stages: int
     estimates: int
     order: int
@@ -44,7 +39,7 @@ class TableauRecord(NamedTuple):
     ends: int
 
 
-class Rotations(NamedTuple):
+class Rotations(Record):
     """A tableau applied to rotation vectors.
 
     Attributes
@@ -57,30 +52,30 @@ class Rotations(NamedTuple):
         Length of a stage.
     """
 
-    tableau: Any
-    spins: Any
+    tableau: TableauRecord
+    spins: Integers
     width: int
 
 
-class Screws(NamedTuple):
+class Screws(Record):
     """A tableau applied to screws: as `Rotations`, and first indices of Euler parameters and omega of free bodies."""
 
-    tableau: Any
-    spins: Any
-    bodies: Any
+    tableau: TableauRecord
+    spins: Integers
+    bodies: Integers
     width: int
 
 
-class Multistep(NamedTuple):
+class Multistep(Record):
     """An Adams scheme: its highest order, and Gauss' quadrature on (-1, 1); `count` holds 0, 1, 2, ..."""
 
-    nodes: Any
-    factors: Any
-    count: Any
+    nodes: Array
+    factors: Array
+    count: Integers
     order: int
 
 
-class Stages(NamedTuple):
+class Stages(Record):
     """An implicit Runge-Kutta scheme on the descriptor form.
 
     Attributes
@@ -101,35 +96,35 @@ class Stages(NamedTuple):
         Of the Newton matrix, and of one stage's matrix (`symgen.run.loops.newton.stage_plan`).
     """
 
-    a: Any
-    b: Any
-    c: Any
-    errors: Any
+    a: Array
+    b: Array
+    c: Array
+    errors: Array
     filtered: float
     stages: int
     together: int
     order: int
-    entries: Any
-    slopes: Any
-    numbers: Any
-    plan: Any
-    filter_numbers: Any
-    filter_plan: Any
+    entries: Integers
+    slopes: Array
+    numbers: Array
+    plan: Integers
+    filter_numbers: Array
+    filter_plan: Integers
 
 
-class Alpha(NamedTuple):
+class Alpha(Record):
     """A scheme of Newmark's family, with the sources, numbers and plan of its Newton matrix."""
 
     alpha_m: float
     alpha_f: float
     gamma: float
     beta: float
-    slopes: Any
-    numbers: Any
-    plan: Any
+    slopes: Array
+    numbers: Array
+    plan: Integers
 
 
-class Projection(NamedTuple):
+class Projection(Record):
     """The trapezoidal rule with projections.
 
     Attributes
@@ -147,15 +142,15 @@ class Projection(NamedTuple):
     """
 
     penalty: int
-    slopes: Any
-    numbers: Any
-    plan: Any
-    pulls: Any
-    masses: Any
-    nonholonomic: Any
+    slopes: Array
+    numbers: Array
+    plan: Integers
+    pulls: Integers
+    masses: Integers
+    nonholonomic: Array
 
 
-class ConstrainedStages(NamedTuple):
+class ConstrainedStages(Record):
     """An explicit scheme whose stages meet constraints by forces along D^T.
 
     Attributes
@@ -172,17 +167,17 @@ class ConstrainedStages(NamedTuple):
         Of M and D, see `symgen.run.loops.newton.acceleration_plan`.
     """
 
-    a: Any
-    c: Any
+    a: Array
+    c: Array
     stages: int
-    spins: Any
-    nonholonomic: Any
-    slopes: Any
-    numbers: Any
-    plan: Any
+    spins: Integers
+    nonholonomic: Array
+    slopes: Array
+    numbers: Array
+    plan: Integers
 
 
-class PartitionedStages(NamedTuple):
+class PartitionedStages(Record):
     """An explicit pair whose stages close states of their own.
 
     Attributes
@@ -201,20 +196,20 @@ class PartitionedStages(NamedTuple):
         Of M and D, see `symgen.run.loops.newton.acceleration_plan`.
     """
 
-    a: Any
-    c: Any
-    closing: Any
-    closed: Any
-    embedded: Any
+    a: Array
+    c: Array
+    closing: Array
+    closed: Array
+    embedded: Array
     stages: int
     order: int
-    spins: Any
-    slopes: Any
-    numbers: Any
-    plan: Any
+    spins: Integers
+    slopes: Array
+    numbers: Array
+    plan: Integers
 
 
-class Symmetric(NamedTuple):
+class Symmetric(Record):
     """A symmetric scheme between projections of its model.
 
     Attributes
@@ -227,15 +222,15 @@ class Symmetric(NamedTuple):
         1 for rows without Phi, else 0.
     """
 
-    geometry: Any
-    measure: Any
-    spread: Any
+    geometry: abi.Measure
+    measure: abi.Measure
+    spread: abi.Move
     share: int
     residual: int
-    nonholonomic: Any
+    nonholonomic: Array
 
 
-class Nodes(NamedTuple):
+class Nodes(Record):
     """A collocation scheme whose rates are unknown at all nodes of a step at once.
 
     Attributes
@@ -260,30 +255,22 @@ class Nodes(NamedTuple):
         The scheme of steps across singular positions.
     """
 
-    derive: Any
+    derive: abi.Derive
     vector: int
-    rows: Any
-    table: Any
-    middle: Any
-    share: Any
-    legendre: Any
-    dense: Any
+    rows: Integers
+    table: Array
+    middle: Array
+    share: Array
+    legendre: Array
+    dense: Array
     degree: int
-    tableau: Any
+    tableau: TableauRecord
 
 
 #: Fields of schemes' records that belong to the state of a run.
 KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 
 #: Types of the records in compiled loops.
-TABLEAU = types.RecordType((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), TableauRecord)
-ROTATIONS = types.RecordType((TABLEAU, _K, _I), Rotations)
-SCREWS = types.RecordType((TABLEAU, _K, _K, _I), Screws)
-MULTISTEP = types.RecordType((_A, _A, _K, _I), Multistep)
-STAGES = types.RecordType((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
-ALPHA = types.RecordType((_F, _F, _F, _F, _A, _A, _K), Alpha)
-NODES = types.RecordType((abi.NODES, _I, _K, _A, _A, _A, _A, _A, _I, TABLEAU), Nodes)
-CONSTRAINED = types.RecordType((_A, _A, _I, _K, _A, _A, _A, _K), ConstrainedStages)
-PARTITIONED = types.RecordType((_A, _A, _A, _A, _A, _I, _I, _K, _A, _A, _K), PartitionedStages)
-SYMMETRIC = types.RecordType((abi.MEASURE, abi.MEASURE, abi.MOVE, _I, _I, _A), Symmetric)
-PROJECTION = types.RecordType((_I, _A, _A, _K, _K, _K, _A), Projection)
+TABLEAU, ROTATIONS, SCREWS, MULTISTEP = map(record_type, (TableauRecord, Rotations, Screws, Multistep))
+STAGES, ALPHA, NODES, CONSTRAINED = map(record_type, (Stages, Alpha, Nodes, ConstrainedStages))
+PARTITIONED, SYMMETRIC, PROJECTION = map(record_type, (PartitionedStages, Symmetric, Projection))

@@ -2,100 +2,151 @@
 
 from __future__ import annotations
 
-from collections import namedtuple
-from typing import Any, NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 
-from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, function_type
 from symgen.run.layout import abi
 
-_F, _N, _A, _I = types.float64, types.int64, types.float64[::1], types.int64[::1]
 
+class Layout(Record):
+    """Layout of a model for the functions of a start.
 
-def record_type(name: str, module: str, *kinds: tuple[str, types.Kind]) -> types.RecordType:
-    """Return the type of a named tuple in compiled code; the class of the tuple is its `made`.
-
-    Parameters
+    Attributes
     ----------
-    name, module : str
-        Of the class.
-    *kinds : (str, Kind)
-        Names and type of fields.
+    t : float
+        Time of the start [s].
+    nq, nv, ny, m, windings : int
+        Coordinates, velocities, length of the state, constraint rows, angles whose turns are counted.
+    sparse, ask_light : int
+        1 where ``spread`` computes the shortest changes in the metric of the gauge; where too light bodies are
+        reported.
+    mass, residual, nu, jacobian, pivot, mask, change, gauge, row_weight : int
+        First indices of these sections of w.
+    entries : Array of int64, shape (3 k,)
+        (row, column, slot or -1) of D's structural entries.
+    constants : Array, shape (k,)
+        Their values where they have no slot.
+    massless, unchanged, fixed : Array of int64, shape (nv,)
+        1 where a mass of 0 is described; where a velocity must not change; where the coordinate that it changes
+        stays as described.
+    held : Array of int64, shape (2 h,)
+        (coordinate, velocity) of each held coordinate.
+    rows : Array of int64, shape (2 m,)
+        (joint, 0 for a row that is an angle or a number) of each row.
+    alone : Array of int64, shape (m,)
+        1 for rows that are never left out, see `symgen.run.layout.compiled.ModelInfo`.
+    switches : Array of int64, shape (m,)
+        Places in w of `held` of rows that may be off, -1 for others.
+    spin : Array of int64, shape (nv,)
+        The body's first angular velocity for an angular velocity, -1 for others.
+    lengths : Array, shape (nq,)
+        1 for coordinates that are lengths, else 0.
+    datum : Array, shape (nq,)
+        What coordinates are measured from, see `symgen.describe.facts.lengths.datum_of`.
+    branches : Array, shape (windings,)
+        Known values of angles whose turns are counted; nan where turns are chosen.
     """
-    fields = [(field, kind) for names, kind in kinds for field in names.split()]
-    names = [field for field, _ in fields]
-    return types.RecordType(tuple(kind for _, kind in fields), namedtuple(name, names, module=module))
+
+    t: float
+    nq: int
+    nv: int
+    ny: int
+    m: int
+    windings: int
+    sparse: int
+    ask_light: int
+    mass: int
+    residual: int
+    nu: int
+    jacobian: int
+    pivot: int
+    mask: int
+    change: int
+    gauge: int
+    row_weight: int
+    entries: Integers
+    constants: Array
+    massless: Integers
+    unchanged: Integers
+    fixed: Integers
+    held: Integers
+    rows: Integers
+    alone: Integers
+    switches: Integers
+    spin: Integers
+    lengths: Array
+    datum: Array
+    branches: Array
 
 
-#: Layout of a model for the functions of a start.
-#: - t: Time of the start [s].
-#: - nq, nv, ny, m, windings: Coordinates, velocities, length of the state, constraint rows, angles whose turns are
-#:   counted.
-#: - sparse, ask_light: 1 where ``spread`` computes the shortest changes in the metric of the gauge; where too light
-#:   bodies are reported.
-#: - mass, residual, nu, jacobian, pivot, mask, change, gauge, row_weight: First indices of these sections of w.
-#: - entries (shape (3 k,)): (row, column, slot or -1) of D's structural entries.
-#: - constants (shape (k,)): Their values where they have no slot.
-#: - massless, unchanged, fixed (shape (nv,)): 1 where a mass of 0 is described; where a velocity must not change;
-#:   where the coordinate that it changes stays as described.
-#: - held (shape (2 h,)): (coordinate, velocity) of each held coordinate.
-#: - rows (shape (2 m,)): (joint, 0 for a row that is an angle or a number) of each row.
-#: - alone (shape (m,)): 1 for rows that are never left out, see `symgen.run.layout.compiled.ModelInfo`.
-#: - switches (shape (m,)): Places in w of `held` of rows that may be off, -1 for others.
-#: - spin (shape (nv,)): The body's first angular velocity for an angular velocity, -1 for others.
-#: - lengths (shape (nq,)): 1 for coordinates that are lengths, else 0.
-#: - datum (shape (nq,)): What coordinates are measured from, see `symgen.describe.facts.lengths.datum_of`.
-#: - branches (shape (windings,)): Known values of angles whose turns are counted; nan where turns are chosen.
-LAYOUT = record_type(
-    "Layout",
-    __name__,
-    ("t", _F),
-    ("nq nv ny m windings sparse ask_light", _N),
-    ("mass residual nu jacobian pivot mask change gauge row_weight", _N),
-    ("entries", _I),
-    ("constants", _A),
-    ("massless unchanged fixed held rows alone switches spin", _I),
-    ("lengths datum branches", _A),
-)
-Layout: Any = LAYOUT.constructor
+class Instant(Record):
+    """Arguments of emitted functions: a state y, prepared parameters p and scratch w."""
+
+    y: Array
+    p: Array
+    w: Array
 
 
-#: Arguments of emitted functions: a state y, prepared parameters p and scratch w.
-INSTANT = record_type("Instant", __name__, ("y p w", _A))
-Instant: Any = INSTANT.constructor
+class StartConditions(Record):
+    """Conditions on the start of a run, and its summary.
+
+    Attributes
+    ----------
+    velocities : Array, shape (nv,)
+        Velocities; nan where they are to be completed.
+    targets : Array, shape (h,)
+        Values of the held coordinates.
+    summary : Array, shape (N_SUMMARY,)
+        The columns of the start are set; see `symgen.run.layout.ensemble_abi`.
+    """
+
+    velocities: Array
+    targets: Array
+    summary: Array
 
 
-#: Conditions on the start of a run, and its summary.
-#: - velocities (shape (nv,)): Velocities; nan where they are to be completed.
-#: - targets (shape (h,)): Values of the held coordinates.
-#: - summary (shape (N_SUMMARY,)): The columns of the start are set; see `symgen.run.layout.ensemble_abi`.
-START_CONDITIONS = record_type("StartConditions", __name__, ("velocities targets summary", _A))
-StartConditions: Any = START_CONDITIONS.constructor
-
-
-class Closing(NamedTuple):
+class Closing(Record):
     """Functions called at a start: emitted ones, and a solver of `symgen.run.starts.start_solvers`.
 
     ``geometry`` comes before ``measure`` and ``spread`` at the same state.
     """
 
-    geometry: Any
-    measure: Any
-    move: Any
-    spread: Any
-    solve: Any
+    geometry: abi.Measure
+    measure: abi.Measure
+    move: abi.Move
+    spread: abi.Move
+    solve: Solve
 
 
-#: Working memory, the same for all rows.
-#: - right, x, scale (shapes (m,), (nv,), (nv,)): A least-norm problem: D x = right with x / scale shortest; `right`
-#:   is overwritten.
-#: - first, direction (shapes (nq,), (ny,)): Coordinates at the beginning of a path; a direction, or rates.
-#: - y, w (shapes (ny,), (nw,)): Another state with its scratch.
-#: - numbers: Of the least-norm solver, or of the choice of turns.
-#: - order, counters: Order of rows; counters for calls of ``rhs``.
-WORK = record_type("Work", __name__, ("right x scale first direction y w numbers", _A), ("order counters", _I))
-Work: Any = WORK.constructor
+class Work(Record):
+    """Working memory, the same for all rows.
+
+    Attributes
+    ----------
+    right, x, scale : Array, shapes (m,), (nv,), (nv,)
+        A least-norm problem: D x = right with x / scale shortest; `right` is overwritten.
+    first, direction : Array, shapes (nq,), (ny,)
+        Coordinates at the beginning of a path; a direction, or rates.
+    y, w : Array, shapes (ny,), (nw,)
+        Another state with its scratch.
+    numbers : Array
+        Of the least-norm solver, or of the choice of turns.
+    order, counters : Array of int64
+        Order of rows; counters for calls of ``rhs``.
+    """
+
+    right: Array
+    x: Array
+    scale: Array
+    first: Array
+    direction: Array
+    y: Array
+    w: Array
+    numbers: Array
+    order: Integers
+    counters: Integers
 
 
 def new_work(layout: Layout, nw: int) -> Work:
@@ -109,9 +160,10 @@ def new_work(layout: Layout, nw: int) -> Work:
 
 
 #: solve(spread, layout, now, work): see `symgen.run.starts.start_solvers`.
-SOLVE = types.FunctionType(types.int64(abi.MOVE, LAYOUT, INSTANT, WORK))
+Solve = Callable[[abi.Move, Layout, Instant, Work], int]
 #: turns(geometry, measure, layout, now, work): see `symgen.run.starts.start_solvers`.
-TURNS = types.FunctionType(types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK))
+Turns = Callable[[abi.Measure, abi.Measure, Layout, Instant, Work], int]
+SOLVE, TURNS = function_type(Solve), function_type(Turns)
 #: A model for `symgen.run.starts.starting.close_row`: its layout, functions of a `Closing`, choice of turns and
 #: ``rhs``.
-MODEL = types.RecordType((LAYOUT, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))
+StartModel = tuple[Layout, abi.Measure, abi.Measure, abi.Move, abi.Move, Solve, Turns, abi.Rhs]

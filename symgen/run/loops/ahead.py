@@ -12,11 +12,11 @@ from typing import Any
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
-from symgen.compile.store.jit import jit
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import ModelSystem
-from symgen.run.layout.start_records import record_type
+from symgen.run.layout.records import ModelSystem, Outputs, Span, State, System
 from symgen.run.loops.frame_parts import evaluate
 from symgen.run.loops.step_control import part_of
 
@@ -31,38 +31,63 @@ STEPS, PASSES, LANES, OUTPUTS, ADAPTIVE, COMPARES = range(6)
 #: an end may differ.
 END, LENGTH, SAME = range(3)
 
-#: Steps ahead.
-#: - head, numbers: See above.
-#: - y, p, w, iw, clock, gauges, control: The state before, without directions; overwritten. Numbers that are computed
-#:   of parameters stand at the end of p, more or fewer than in the run with directions, which computes its own.
-#: - end: The state behind the one step, where it is compared.
-#: - places: Places in y of the states.
-#: - inputs: Places in p of the inputs; `values` has theirs, step by step; empty where inputs stay.
-#: - seeds, numbers_by: Directions of y and of p at the beginning of each pass; inputs change no masses.
-#: - states, slopes, by_outputs: Results, step by step.
-#: - still, room: Working memory: arrays of y, p and w with directions, and outputs with them.
-AHEAD = record_type(
-    "Ahead",
-    __name__,
-    ("head", _K),
-    ("numbers y p w", _A),
-    ("iw", _K),
-    ("clock gauges", _A),
-    ("control", _K),
-    ("end", _A),
-    ("places inputs", _K),
-    ("values seeds numbers_by states slopes by_outputs still room", _A),
-)
-Ahead: Any = AHEAD.constructor
+
+class Ahead(Record):
+    """Steps ahead.
+
+    Attributes
+    ----------
+    head, numbers : Array of int64, Array
+        See above.
+    y, p, w, iw, clock, gauges, control : Array, Array of int64
+        The state before, without directions; overwritten. Numbers that are computed of parameters stand at the
+        end of p, more or fewer than in the run with directions, which computes its own.
+    end : Array
+        The state behind the one step, where it is compared.
+    places : Array of int64
+        Places in y of the states.
+    inputs : Array of int64
+        Places in p of the inputs; `values` has theirs, step by step; empty where inputs stay.
+    seeds, numbers_by : Array
+        Directions of y and of p at the beginning of each pass; inputs change no masses.
+    states, slopes, by_outputs : Array
+        Results, step by step.
+    still, room : Array
+        Working memory: arrays of y, p and w with directions, and outputs with them.
+    """
+
+    head: Integers
+    numbers: Array
+    y: Array
+    p: Array
+    w: Array
+    iw: Integers
+    clock: Array
+    gauges: Array
+    control: Integers
+    end: Array
+    places: Integers
+    inputs: Integers
+    values: Array
+    seeds: Array
+    numbers_by: Array
+    states: Array
+    slopes: Array
+    by_outputs: Array
+    still: Array
+    room: Array
 
 
-def put(source: Any, target: Any) -> None:
+AHEAD = record_type(Ahead)
+
+
+def put(source: Array | Integers, target: Array | Integers) -> None:
     """Copy an array to the beginning of another one."""
     for i in range(source.shape[0]):
         target[i] = source[i]
 
 
-def begin_pass(a: Any, state: Any, k: int, which: int, prepare: Any, prepare_law: Any) -> None:
+def begin_pass(a: Ahead, state: State, k: int, which: int, prepare: e.Prepare, prepare_law: e.Prepare) -> None:
     """Give a run with directions the state before step `k`, with the seeds of a pass."""
     lanes = a.head[LANES]
     ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
@@ -85,7 +110,7 @@ def begin_pass(a: Any, state: Any, k: int, which: int, prepare: Any, prepare_law
     prepare_law(state.p)
 
 
-def keep_pass(a: Any, state: Any, k: int, which: int) -> None:
+def keep_pass(a: Ahead, state: State, k: int, which: int) -> None:
     """Keep the derivatives of the states behind step `k`."""
     lanes, n, ny = a.head[LANES], a.places.shape[0], a.y.shape[0]
     row = a.head[PASSES] * lanes
@@ -95,7 +120,7 @@ def keep_pass(a: Any, state: Any, k: int, which: int) -> None:
             a.slopes[to + j] = state.y[first + j]
 
 
-def keep_outputs(a: Any, state: Any, k: int, observe: Any) -> None:
+def keep_outputs(a: Ahead, state: State, k: int, observe: abi.Observe) -> None:
     """Keep the derivatives of outputs at the state behind step `k`, by that state."""
     lanes, count = a.head[LANES], a.head[OUTPUTS]
     ny, np, nw = a.y.shape[0], state.p.shape[0] // (1 + lanes), a.w.shape[0]
@@ -116,7 +141,7 @@ def keep_outputs(a: Any, state: Any, k: int, observe: Any) -> None:
                 a.by_outputs[(k * count + i) * row + which * lanes + j] = out[count + i * lanes + j]
 
 
-def ends_elsewhere(a: Any, y: Any) -> bool:
+def ends_elsewhere(a: Ahead, y: Array) -> bool:
     """Whether a state differs from the state of the run behind its step."""
     largest, off = 1.0, 0.0
     for i in range(a.end.shape[0]):
@@ -124,7 +149,7 @@ def ends_elsewhere(a: Any, y: Any) -> bool:
     return not off <= a.numbers[SAME] * largest
 
 
-def step_ahead(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
+def step_ahead(model: System, scheme: Record, span: Span, state: State, outputs: Outputs) -> int:
     """Make steps from a state, each with its derivatives.
 
     Parameters
@@ -170,8 +195,8 @@ def step_ahead(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> 
     return abi.DONE
 
 
-@jit(abi.OBSERVE.signature)
-def unobserved(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+@jit(entry=True)
+def unobserved(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Stand for the outputs of a file without any; it is never called."""
     return 0
 
@@ -179,7 +204,7 @@ def unobserved(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
 _loops: dict[Any, Any] = {}
 
 
-def ahead_of(loop: Any) -> Any:
+def ahead_of(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one step by step, made at the first use.
 
     Parameters

@@ -12,14 +12,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import Meanings, called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
-from symgen.run.layout.records import OUTPUTS, SPAN, STATE, ModelSystem, Run, State, record
+from symgen.run.layout.records import OUTPUTS, SPAN, ModelSystem, Run, Sizes, Span, State
 from symgen.run.loops import frame
 from symgen.run.loops import search_records as searching
 from symgen.run.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate, inside
@@ -29,35 +30,60 @@ from symgen.run.loops.inside import enter_point, stays_away
 from symgen.run.loops.searching import remember
 from symgen.run.loops.switching import cubic
 
-Array = NDArray[np.float64]
-
 #: Largest correction of an accepted state in units of the tolerance of its step (over the catalogue they are below 1);
 #: and one that is always allowed to a constant step, of angles and of coordinates over the length of the mechanism.
 FAR, SMALL = 1e3, 1e-3
 
-#: A `State` with `hunt`, the data of events (`symgen.run.loops.searching`).
-EventState = record("EventState", *State._fields, "hunt", module=__name__)
-#: A `Run` with the data of events.
-EventRun = record("EventRun", *Run._fields, "hunt", module=__name__)
-#: A `ModelSystem` with the functions of events: switching functions with their rates, the function
-#: `symgen.run.loops.searching.decide`, and the rates q' and v': ``rhs``, or a separate function of a law that does not
-#: integrate v.
-EventSystem = record("EventSystem", *ModelSystem._fields, "happens", "decide", "rates", module=__name__)
+
+class EventState(State):
+    """A `State` with the data of events.
+
+    Attributes
+    ----------
+    hunt : Array
+        See `symgen.run.loops.search_records`.
+    """
+
+    hunt: Array
+
+
+class EventRun(Run):
+    """A `Run` with the data of events."""
+
+    hunt: Array
+
+
+class EventSystem(ModelSystem):
+    """A `ModelSystem` with the functions of events.
+
+    Attributes
+    ----------
+    happens : function
+        Switching functions with their rates.
+    decide : function
+        `symgen.run.loops.searching.decide`.
+    rates : function
+        The rates q' and v': ``rhs``, or a separate function of a law that does not integrate v.
+    """
+
+    happens: abi.Observe
+    decide: abi.Decide
+    rates: abi.Rhs
 
 
 #: Type of the state of a run for compiled loops.
-EVENT_STATE = types.RecordType((*STATE, STATE.parts[0]), EventState)
+EVENT_STATE = record_type(EventState)
 
 
 # -- functions for the frame -------------------------------------------------------------------------------------------
 
 
-def opened(sizes: Any, state: Any) -> Any:
+def opened(sizes: Sizes, state: EventState) -> EventRun:
     """Return the state of a run, its working memory divided into parts, with its events."""
-    return EventRun(*plain_opened(sizes, state), bare(state).hunt)
+    return EventRun(*plain_opened(sizes, state), bare(state).hunt)  # type: ignore[call-arg]  # mypy counts no fields
 
 
-def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
+def decided(system: EventSystem, run: EventRun, t: float, h: float, doing: int, y: Array) -> int:
     """Return the decision of `symgen.run.loops.searching.decide` on the state `y` at the end of a step."""
     n, width = int(run.hunt[searching.COUNT]), system.sizes.width
     notes = notes_at(n, width, run.w.shape[0])
@@ -65,7 +91,7 @@ def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> in
 
 
 @called
-def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
+def evaluate_events(system: EventSystem, run: EventRun, t: float, y: Array) -> None:
     """Evaluate switching functions and their rates at a state; the memory of emitted functions stays as it is."""
     width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
     at, m = searching.N_HEAD + searching.N_COLUMNS * n, searching.N_VALUES * n
@@ -82,7 +108,7 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
         decided(system, run, t, 0.0, searching.GIVE_BACK, y)
 
 
-def located(system: Any, scheme: Any, run: Any, following: float, h: float, search: int) -> int:
+def located(system: EventSystem, scheme: Record, run: EventRun, following: float, h: float, search: int) -> int:
     """Search an acceptable step for events; return the decision of `decide`."""
     hunt, n = run.hunt, int(run.hunt[searching.COUNT])
     evaluate_events(system, run, following, run.trial)
@@ -96,7 +122,7 @@ def located(system: Any, scheme: Any, run: Any, following: float, h: float, sear
 
 
 @called
-def look_inside(system: Any, scheme: Any, run: Any, following: float, h: float) -> None:
+def look_inside(system: EventSystem, scheme: Record, run: EventRun, following: float, h: float) -> None:
     """Evaluate switching functions at inner points of the motion in a good attempt; those at its end are kept."""
     hunt, n, width, t = run.hunt, int(run.hunt[searching.COUNT]), system.sizes.width, run.clock[abi.TIME]
     m = searching.N_VALUES * n
@@ -124,7 +150,7 @@ def look_inside(system: Any, scheme: Any, run: Any, following: float, h: float) 
 
 
 @called
-def rates_at_ends(system: Any, run: Any, t: float, following: float) -> None:
+def rates_at_ends(system: EventSystem, run: EventRun, t: float, following: float) -> None:
     """Evaluate rates at both ends of a step."""
     width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
     first = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n
@@ -135,7 +161,7 @@ def rates_at_ends(system: Any, run: Any, t: float, following: float) -> None:
         run.control[abi.EVALUATIONS] += 1
 
 
-def between_ends(system: Any, run: Any, h: float, i: int, y: Any) -> float:
+def between_ends(system: EventSystem, run: EventRun, h: float, i: int, y: Array) -> float:
     """Set `y` to the state at inner point i of the cubic through both ends of a step; return its part of the step."""
     width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
     first = searching.N_HEAD + (searching.N_COLUMNS + searching.N_VALUES) * n
@@ -146,7 +172,7 @@ def between_ends(system: Any, run: Any, h: float, i: int, y: Any) -> float:
     return x
 
 
-def prepare_search(system: Any, run: Any, doing: int) -> int:
+def prepare_search(system: EventSystem, run: EventRun, doing: int) -> int:
     """Find the side of each event on which a run begins, or continues after a change of velocities or parameters.
 
     Or save the memory of emitted functions at the beginning of a step (`REMEMBER`), or restore it (`RECALL`).
@@ -160,13 +186,13 @@ def prepare_search(system: Any, run: Any, doing: int) -> int:
     return decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
-def step_to_point(system: Any, run: Any, h: float) -> float:
+def step_to_point(system: EventSystem, run: EventRun, h: float) -> float:
     """Return the step to try in place of one of `h` seconds: one that ends at the next point of a table."""
     decided(system, run, run.clock[abi.TIME], h, searching.AIM, run.y)
     return float(run.hunt[TRY])
 
 
-def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+def correct(system: EventSystem, run: EventRun, t: float, y: Array, between: bool) -> int:
     """Correct and measure a state; store how far that moves it where rows may jump."""
     hunt, sizes = run.hunt, system.sizes
     at, width = int(hunt[searching.BEGINNING]), sizes.width
@@ -181,7 +207,7 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
     return int(bits)
 
 
-def largest_difference(y: Any, other: Any, weights: Any, first: int, last: int) -> float:
+def largest_difference(y: Array, other: Array, weights: Array, first: int, last: int) -> float:
     """Return the largest weighted difference of two states in the elements from `first` to `last`; nan is ignored."""
     far = 0.0
     for i in range(first, last):
@@ -191,7 +217,7 @@ def largest_difference(y: Any, other: Any, weights: Any, first: int, last: int) 
     return far
 
 
-def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+def is_astray(span: Span, run: EventRun, adaptive: bool) -> bool:
     """Return whether a correction moved the accepted state by much more than the error of its step explains.
 
     The error of a constant step is unknown; it moves no coordinate farther than the step itself moves one.
@@ -229,7 +255,7 @@ MEANINGS = Meanings(
 _loops: dict[Any, Any] = {}
 
 
-def with_events(loop: Any) -> Any:
+def with_events(loop: RuntimeFunction | None) -> Any:
     """Return the same loop with events, built at the first use.
 
     Parameters
@@ -264,7 +290,7 @@ def __getattr__(name: str) -> Any:
 # -- from Python -------------------------------------------------------------------------------------------------------
 
 
-def undefined_event(state: Any) -> int:
+def undefined_event(state: EventState) -> int:
     """Return the number of the first event whose condition is undefined at the last evaluation."""
     n = int(state.hunt[searching.COUNT])
     return int(np.argmax(np.isnan(state.hunt[searching.N_HEAD + searching.N_COLUMNS * n :][:n])))

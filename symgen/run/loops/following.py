@@ -8,14 +8,13 @@ and a step that would need a far correction is divided, so that the branch is ke
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import bare
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Matrix, Record
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import FALLEN
-from symgen.run.layout.start_records import record_type
 
 #: Newton's iteration at one time ends after this many steps; it may move the state by at most this much, in all and
 #: relative to the sine between the rows: two branches are nearer to each other where that is small.
@@ -47,51 +46,90 @@ N_COUNTS = 3
 _A, _K, _M, _I8, _F = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64, types.float64
 
 
-#: Data of a model for the loop.
-#: - nq, nv, m, ny, windings: Coordinates, velocities, constraint rows, length of the state, angles whose turns are
-#:   counted.
-#: - residual, change, mask, jacobian: First indices of these sections of ``w``.
-#: - masked, rank: Rows that always depend on others, and the rank of D at a regular position: the number of
-#:   velocities.
-#: - tolerance, least: Tolerance of the violation of positions [m], and shortest step [s].
-#: - entries, constants: D's structural entries, see `symgen.run.layout.model_arrays.entries_of`.
-#: - scale (shape (nv,)): Factors that make changes dimensionless: 1 for angles, one over the length of the mechanism
-#:   for lengths.
-COURSE = record_type(
-    "Course",
-    __name__,
-    ("nq nv m ny windings", _I8),
-    ("residual change mask jacobian masked rank", _I8),
-    ("tolerance least", _F),
-    ("entries", _K),
-    ("constants scale", _A),
-)
-Course: Any = COURSE.constructor
+class Course(Record):
+    """Data of a model for the loop.
+
+    Attributes
+    ----------
+    nq, nv, m, ny, windings : int
+        Coordinates, velocities, constraint rows, length of the state, angles whose turns are counted.
+    residual, change, mask, jacobian : int
+        First indices of these sections of ``w``.
+    masked, rank : int
+        Rows that always depend on others, and the rank of D at a regular position: the number of velocities.
+    tolerance, least : float
+        Tolerance of the violation of positions [m], and shortest step [s].
+    entries, constants : Array of int64, Array
+        D's structural entries, see `symgen.run.layout.model_arrays.entries_of`.
+    scale : Array, shape (nv,)
+        Factors that make changes dimensionless: 1 for angles, one over the length of the mechanism for lengths.
+    """
+
+    nq: int
+    nv: int
+    m: int
+    ny: int
+    windings: int
+    residual: int
+    change: int
+    mask: int
+    jacobian: int
+    masked: int
+    rank: int
+    tolerance: float
+    least: float
+    entries: Integers
+    constants: Array
+    scale: Array
 
 
-#: Present state of the loop, and room for trial states.
-#: - y, a, jerk (shapes (ny,), (nv,), (nv,)): State, accelerations, and their change in the last step over its
-#:   length.
-#: - clock, counts: See `TIME` and `AT`.
-#: - trial, rates (shape (ny,)): Trial state, and its rates.
-#: - rows: Output of ``observe``.
-#: - turned (shape (windings,)): Angles whose turns are counted, in the accepted state.
-#: - dense: A square D.
-STAND = record_type("Stand", __name__, ("y a jerk clock", _A), ("counts", _K), ("trial rates rows turned dense", _A))
-Stand: Any = STAND.constructor
+class Stand(Record):
+    """Present state of the loop, and room for trial states.
+
+    Attributes
+    ----------
+    y, a, jerk : Array, shapes (ny,), (nv,), (nv,)
+        State, accelerations, and their change in the last step over its length.
+    clock, counts : Array, Array of int64
+        See `TIME` and `AT`.
+    trial, rates : Array, shape (ny,)
+        Trial state, and its rates.
+    rows : Array
+        Output of ``observe``.
+    turned : Array, shape (windings,)
+        Angles whose turns are counted, in the accepted state.
+    dense : Array
+        A square D.
+    """
+
+    y: Array
+    a: Array
+    jerk: Array
+    clock: Array
+    counts: Integers
+    trial: Array
+    rates: Array
+    rows: Array
+    turned: Array
+    dense: Array
 
 
-#: Output of the loop: states, accelerations and status, one row for each time. The status is that of
-#: `symgen.run.single.outcome.Motion`.
-FOLLOWED = record_type("Followed", __name__, ("states accelerations status", _M))
-Followed: Any = FOLLOWED.constructor
+class Followed(Record):
+    """Output of the loop: states, accelerations and status, one row for each time.
+
+    The status is that of `symgen.run.single.outcome.Motion`.
+    """
+
+    states: Matrix
+    accelerations: Matrix
+    status: Matrix
 
 
-_MODEL = types.RecordType((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
+CourseModel = tuple[Course, abi.Measure, abi.Measure, abi.Move, abi.Move, abi.Observe]
 
 
 @jit()
-def size_of(course: Any, values: Any, first: int) -> float:
+def size_of(course: Course, values: Array, first: int) -> float:
     """Return the largest dimensionless component of velocities, or of their change."""
     largest = 0.0
     for j in range(course.nv):
@@ -101,7 +139,9 @@ def size_of(course: Any, values: Any, first: int) -> float:
 
 
 @jit()
-def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, w: Any, z: Any) -> float:
+def close(
+    geometry: abi.Measure, move: abi.Move, spread: abi.Move, course: Course, t: float, p: Array, w: Array, z: Array
+) -> float:
     """Close the positions of a state; return the distance moved, or -1 if no closed ones are in reach.
 
     D and its factorisation are then those of the closed positions. If the violation is not finite, nan is returned.
@@ -136,7 +176,7 @@ def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, 
 
 
 @jit()
-def refine_velocities(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) -> float:
+def refine_velocities(course: Course, spread: abi.Move, p: Array, w: Array, values: Array, first: int) -> float:
     """Correct velocities by D^+ times the section of the residual; return the relative change."""
     spread(p, w)
     step = size_of(course, w, course.change)
@@ -147,7 +187,7 @@ def refine_velocities(course: Any, spread: Any, p: Any, w: Any, values: Any, fir
 
 
 @jit()
-def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
+def attempt(model: CourseModel, h: float, p: Array, w: Array, stand: Stand) -> int:
     """Compute a trial state at `h` after the present one; return `DONE` if it is acceptable."""
     course, geometry, measure, move, spread, observe = model
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
@@ -202,7 +242,7 @@ def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
 
 
 @jit()
-def accept_trial(course: Any, h: float, w: Any, stand: Any) -> bool:
+def accept_trial(course: Course, h: float, w: Array, stand: Stand) -> bool:
     """Accept the trial state unless a singular position lies between; return whether it is accepted."""
     clock, nq = stand.clock, course.nq
     sine, before, slope, sign = math.sqrt(w[abi.PIVOT]), clock[SINE], clock[SLOPE], clock[SIGN]
@@ -227,7 +267,7 @@ def accept_trial(course: Any, h: float, w: Any, stand: Any) -> bool:
 
 
 @jit()
-def determinant_sign(course: Any, w: Any, dense: Any) -> float:
+def determinant_sign(course: Course, w: Array, dense: Array) -> float:
     """Return the sign of the determinant of D without dependent rows; 0 if it is not square."""
     n, m, row = course.nv, course.m, 0
     for i in range(n * n):
@@ -267,8 +307,10 @@ def determinant_sign(course: Any, w: Any, dense: Any) -> float:
     return sign
 
 
-@jit(_I8(_MODEL, _A, _A, _A, STAND, FOLLOWED, _K))
-def follow_motion(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
+@jit(entry=True)
+def follow_motion(
+    model: CourseModel, times: Array, p: Array, w: Array, stand: Stand, followed: Followed, control: Integers
+) -> int:
     """Follow a motion through times that are all after, or all before, the present time of the loop.
 
     Parameters

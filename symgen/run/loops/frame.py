@@ -13,8 +13,9 @@ from symgen.compile.loopcode.bare import bare
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.loopcode.vectors import copied, received
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
-from symgen.run.layout.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem
+from symgen.run.layout.records import OUTPUTS, SIZES, SPAN, STATE, ModelSystem, Outputs, Run, Span, State, System
 from symgen.run.layout.redundancy import rows_fell
 from symgen.run.layout.scales import settle_scales
 from symgen.run.loops.frame_parts import (
@@ -63,7 +64,7 @@ _BEFORE = 1e-3
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
-def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> int:
+def begin_loop(system: ModelSystem, scheme: Record, span: Span, run: Run, outputs: Outputs) -> int:
     """Measure and store the first state of a run, if it is new; begin the scheme, or discard its past steps.
 
     Returns the code of an end, `DONE` to continue.
@@ -98,13 +99,13 @@ def begin_loop(system: Any, scheme: Any, span: Any, run: Any, outputs: Any) -> i
     return abi.DONE
 
 
-def resolution(span: Any) -> float:
+def resolution(span: Span) -> float:
     """Return the difference below which times of a grid of constant steps are equal [s]."""
     return 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
 
 
 def choose_step(
-    system: Any, span: Any, run: Any, outputs: Any, t: float
+    system: ModelSystem, span: Span, run: Run, outputs: Outputs, t: float
 ) -> tuple[int, float, float, bool, bool, float]:
     """Choose the step from the time `t` [s].
 
@@ -147,7 +148,15 @@ def choose_step(
 
 
 def accept_step(
-    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, step: Any, trial: Any, search: int
+    system: ModelSystem,
+    scheme: Record,
+    span: Span,
+    run: Run,
+    outputs: Outputs,
+    t: float,
+    step: tuple[float, float, bool, float, float],
+    trial: tuple[float, bool],
+    search: int,
 ) -> int:
     """Accept the trial state at the end of a step from the time `t` [s], with the outputs inside.
 
@@ -200,7 +209,7 @@ def accept_step(
 
 
 def propose_step(
-    span: Any, run: Any, h: float, following: float, crossing: bool, proposal: float, error: float, met: bool
+    span: Span, run: Run, h: float, following: float, crossing: bool, proposal: float, error: float, met: bool
 ) -> None:
     """Propose the step after an accepted one, with the names of `accept_step`; `met`: the run ends in an event."""
     clock, control = run.clock, run.control
@@ -220,7 +229,7 @@ def propose_step(
     clock[abi.STEP] = h
 
 
-def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
+def integrate(model: System, scheme: Record, span: Span, state: State, outputs: Outputs) -> int:
     """Integrate from the present state of a run to the end of `span`.
 
     Parameters
@@ -253,7 +262,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
     while t < span.until - resolution(span):
         if EVENTS and search != NOTHING:
             prepare_search(system, run, RECALL)
-            h, between = run.hunt[TRY], False
+            h, between = run.hunt[TRY], False  # type: ignore[attr-defined]  # an `EventRun`
             following = whole_following if h == whole else t + h
         else:
             code, h, following, between, crossing, proposal = choose_step(system, span, run, outputs, t)
@@ -308,7 +317,7 @@ def kinds_of(functions: Iterable[str]) -> tuple[types.Kind, ...]:
     return SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())
 
 
-def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
+def loop(module: str, name: str, scheme: types.RecordType, *functions: str, **meanings: Any) -> Any:
     """Return the compiled loop around the step of a scheme.
 
     Parameters

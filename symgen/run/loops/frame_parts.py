@@ -20,12 +20,11 @@ loop can be left and entered again, in another process too.
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import viewing
+from symgen.compile.native.annotations import Array, Record
 from symgen.run.layout import abi
-from symgen.run.layout.records import Run
+from symgen.run.layout.records import ModelSystem, Outputs, Run, Sizes, Span, State
 from symgen.run.loops.watch import keep_maxima
 
 #: Positions of the step to try, and of the longest one that ends before the event sought, in the data of events
@@ -55,32 +54,34 @@ DOUBT = FAIL + 1
 LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
 
 
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: Record, span: Span, run: Run) -> None:
     """Do nothing: a scheme without memory needs nothing at the start."""
 
 
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Record, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Stand for the step of a scheme."""
     return DIVERGED
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Record, span: Span, run: Run, t: float, changed: bool) -> None:
     """Do nothing: a scheme without memory keeps nothing of a step."""
 
 
-def refuse(run: Any) -> None:
+def refuse(run: Run) -> None:
     """Do nothing: the memory of a scheme is valid for another attempt as well."""
 
 
 def interpolate(
-    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+    system: ModelSystem, scheme: Record, span: Span, run: Run, outputs: Outputs, t: float, following: float, h: float
 ) -> None:
     """Stand for the dense output of a scheme."""
 
 
-def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+def inside(
+    system: ModelSystem, scheme: Record, run: Run, t: float, following: float, h: float, i: int, y: Array
+) -> float:
     """Set `y` to the state at inner point i of a good attempt, before its correction; return its part of the step.
 
     0 where the scheme has none: then states are those of a cubic through both ends and their rates.
@@ -88,22 +89,22 @@ def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: fl
     return 0.0
 
 
-def located(system: Any, scheme: Any, run: Any, following: float, h: float, search: int) -> int:
+def located(system: ModelSystem, scheme: Record, run: Run, following: float, h: float, search: int) -> int:
     """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
     return NOTHING
 
 
-def prepare_search(system: Any, run: Any, doing: int) -> int:
+def prepare_search(system: ModelSystem, run: Run, doing: int) -> int:
     """Do nothing: placeholder for the initial sides of events (`LOOK`), `REMEMBER` and `RECALL`."""
     return NOTHING
 
 
-def step_to_point(system: Any, run: Any, h: float) -> float:
+def step_to_point(system: ModelSystem, run: Run, h: float) -> float:
     """Return the step to try in place of one of `h` seconds, proposed by the error estimate."""
     return h
 
 
-def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
+def is_astray(span: Span, run: Run, adaptive: bool) -> bool:
     """Return False: only rows that may jump are examined."""
     return False
 
@@ -112,7 +113,7 @@ def is_astray(span: Any, run: Any, adaptive: bool) -> bool:
 
 
 @viewing
-def opened(sizes: Any, state: Any) -> Any:
+def opened(sizes: Sizes, state: State) -> Run:
     """Return the state of a run, its working memory divided into parts."""
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
@@ -120,13 +121,13 @@ def opened(sizes: Any, state: Any) -> Any:
     return Run(*kept, s.share, s.metric, s.scales, room)
 
 
-def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
+def evaluate(system: ModelSystem, run: Run | State, t: float, y: Array, rate: Array) -> None:
     """Set `rate` to the rate of the state `y`."""
     if system.rhs(t, y, run.p, run.w, run.iw, rate) != 0:
         system.confirm(t, y, run.p, run.w, run.iw, rate)
 
 
-def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+def correct(system: ModelSystem, run: Run, t: float, y: Array, between: bool) -> int:
     """Correct and measure a state, without a trace if it is between steps; return the bits of ``accept``."""
     run.iw[abi.PROBING] = 1 if between else 0
     bits = system.accept(t, y, run.p, run.w, run.iw)
@@ -134,12 +135,12 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
     return int(bits)
 
 
-def note_step(run: Any, h: float) -> None:
+def note_step(run: Run, h: float) -> None:
     """Store the present step for emitted functions."""
     run.w[abi.STEP_STATUS] = h
 
 
-def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
     """Write output `k`: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[k, i] = y[i]
@@ -149,7 +150,7 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
-def store_behind(outputs: Any, count: int, now: float, near: float, y: Any, w: Any) -> None:
+def store_behind(outputs: Outputs, count: int, now: float, near: float, y: Array, w: Array) -> None:
     """Have outputs at the time of a reset hold the state behind it, from which the motion goes on.
 
     Parameters
@@ -171,7 +172,7 @@ def store_behind(outputs: Any, count: int, now: float, near: float, y: Any, w: A
             outputs.status[out, abi.N_STATUS + i] = w[abi.WINDING + i]
 
 
-def store_between(sizes: Any, run: Any, outputs: Any) -> None:
+def store_between(sizes: Sizes, run: Run, outputs: Outputs) -> None:
     """Measure and store the trial state as an output between steps."""
     out = run.control[abi.OUTPUTS]
     keep_maxima(sizes, run, run.trial)
@@ -179,7 +180,7 @@ def store_between(sizes: Any, run: Any, outputs: Any) -> None:
     run.control[abi.OUTPUTS] = out + 1
 
 
-def taken_back(run: Any, times: Any, t: float) -> None:
+def taken_back(run: Run, times: Array, t: float) -> None:
     """Remove the outputs after the time `t` [s].
 
     Outputs inside a step are written before its end is fixed: a step that is refused, or shortened to an event, has
@@ -191,7 +192,7 @@ def taken_back(run: Any, times: Any, t: float) -> None:
     run.control[abi.OUTPUTS] = out
 
 
-def largest_turn(sizes: Any, span: Any, run: Any) -> float:
+def largest_turn(sizes: Sizes, span: Span, run: Run) -> float:
     """Return the largest change of an angle from the state to the trial state [rad]."""
     largest = 0.0
     for i in range(sizes.nq):
@@ -200,7 +201,7 @@ def largest_turn(sizes: Any, span: Any, run: Any) -> float:
     return largest
 
 
-def refused(run: Any, times: Any, t: float, phi: float, drift: float, energy: float) -> None:
+def refused(run: Run, times: Array, t: float, phi: float, drift: float, energy: float) -> None:
     """Refuse the step from the time `t` [s]; restore the largest violations and energy error from before it."""
     run.control[abi.REJECTED] += 1
     run.control[abi.REFUSED] = 1

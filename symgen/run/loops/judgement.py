@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
+from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
+from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.loops.frame_parts import (
     ADAPTIVE,
     DIVIDE,
@@ -36,7 +37,14 @@ AGAIN, REFUSE = 101, 102
 
 
 def judge_attempt(
-    system: Any, scheme: Any, span: Any, run: Any, step: Any, error: float, search: int, doubtful: bool
+    system: ModelSystem,
+    scheme: Record,
+    span: Span,
+    run: Run,
+    step: tuple[float, float, bool, bool],
+    error: float,
+    search: int,
+    doubtful: bool,
 ) -> tuple[int, int, bool]:
     """Judge the attempt at a step by its error estimate.
 
@@ -78,7 +86,8 @@ def judge_attempt(
             if search != TAKE and math.isfinite(error):  # a switch inside may cause the error
                 search = located(system, scheme, run, following, h, DOUBT if search == NOTHING else search)
                 doubtful = search != NOTHING
-                if doubtful and run.hunt[LOW] != h:  # an attempt that ends before the switch has its own error
+                # an attempt that ends before the switch has its own error
+                if doubtful and run.hunt[LOW] != h:  # type: ignore[attr-defined]  # an `EventRun`
                     verdict = AGAIN
             if verdict != AGAIN:
                 search = NOTHING
@@ -95,7 +104,7 @@ def judge_attempt(
 
 
 def judge_state(
-    system: Any, scheme: Any, run: Any, h: float, following: float, bits: int, search: int
+    system: ModelSystem, scheme: Record, run: Run, h: float, following: float, bits: int, search: int
 ) -> tuple[int, int]:
     """Judge the state at the end of a good attempt: its correction, and events that its step may pass.
 
@@ -126,7 +135,7 @@ def judge_state(
             verdict = AGAIN
         elif search == DIVIDE:
             verdict = REFUSE
-            run.clock[abi.NEXT] = run.hunt[TRY]
+            run.clock[abi.NEXT] = run.hunt[TRY]  # type: ignore[attr-defined]  # an `EventRun`
         elif search == FAIL:
             run.clock[abi.TIME] = following
             verdict = abi.UNDEFINED

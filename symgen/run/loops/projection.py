@@ -7,10 +7,10 @@ with the longest remainder first.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.store.jit import jit
 
 #: What the functions return.
@@ -30,7 +30,7 @@ def room(n: int, m: int, k: int = 0) -> int:
 
 
 @jit()
-def orthonormal(rows: Any, right: Any, count: int, n: int) -> int:
+def orthonormal(rows: Array, right: Array, count: int, n: int) -> int:
     """Replace rows, and right-hand sides of their equations, by orthonormal ones; return their number.
 
     They come first, in the order in which they were taken; rows that depend on them are left behind as rounding.
@@ -72,7 +72,7 @@ def orthonormal(rows: Any, right: Any, count: int, n: int) -> int:
 
 
 @jit()
-def placed_on(rows: Any, right: Any, count: int, x: Any, n: int) -> None:
+def placed_on(rows: Array, right: Array, count: int, x: Array, n: int) -> None:
     """Move a vector the shortest way to where orthonormal rows have their right-hand sides."""
     for i in range(count):
         along = -right[i]
@@ -82,8 +82,8 @@ def placed_on(rows: Any, right: Any, count: int, x: Any, n: int) -> None:
             x[j] -= along * rows[i * n + j]
 
 
-@jit(_SIGNATURE)
-def accelerations(sizes: Any, w: Any, out: Any) -> int:
+@jit(entry=True)
+def accelerations(sizes: Integers, w: Array, out: Array) -> int:
     """Set `out` to v' of M v' + D^T lambda = f, D v' = gamma.
 
     Parameters
@@ -132,8 +132,8 @@ def accelerations(sizes: Any, w: Any, out: Any) -> int:
     return DONE
 
 
-@jit(_SIGNATURE)
-def efforts(sizes: Any, w: Any, out: Any) -> int:
+@jit(entry=True)
+def efforts(sizes: Integers, w: Array, out: Array) -> int:
     """Set `out` to the shortest efforts that balance M a - f with the help of rows.
 
     Parameters

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.run.loops.event_loop import EventState
+
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel
 
@@ -76,7 +78,7 @@ class RunFormulas(Protocol):
 class ChangingRows(Protocol):
     """Rows whose formulas may jump or have kinks over the state (`symgen.run.single.row_jumps`)."""
 
-    def sentence(self, compiled: CompiledModel, state: Any) -> str:
+    def sentence(self, compiled: CompiledModel, state: EventState) -> str:
         """Return the sentence on a row that jumps or has a kink in the last step of a run; empty without one."""
 
 

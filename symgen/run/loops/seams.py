@@ -15,10 +15,11 @@ import numpy as np
 from symgen.compile.loopcode.bare import bare
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
-from symgen.compile.store.jit import jit
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.start_records import record_type
+from symgen.run.layout.records import Outputs, Span, State, System
 from symgen.run.loops.step_control import part_of
 
 if TYPE_CHECKING:
@@ -30,25 +31,45 @@ ROW, VARYING, CHOOSES = range(3)
 _A, _K = types.float64[::1], types.int64[::1]
 
 
-#: The seams of all rows one after the other; a single run is one row.
-#: - head: `ROW`, `VARYING` and `CHOOSES`.
-#: - rows (shape (rows + 1,)): First seam of each row.
-#: - times: Of seams, in order in each row [s].
-#: - skips (shape (seams,)): 1 for seams behind which a run goes on at the next one, without a step; 2 where rates of
-#:   gaps jump between the two.
-#: - changes (shape (seams + 1,)): First change of each seam.
-#: - places, values: Changes: an index in ``p``, and the value there from then on.
-SEAMS = record_type("Seams", __name__, ("head rows", _K), ("times", _A), ("skips changes places", _K), ("values", _A))
-Seams: Any = SEAMS.constructor
+class Seams(Record):
+    """The seams of all rows one after the other; a single run is one row.
+
+    Attributes
+    ----------
+    head : Array of int64
+        `ROW`, `VARYING` and `CHOOSES`.
+    rows : Array of int64, shape (rows + 1,)
+        First seam of each row.
+    times : Array
+        Of seams, in order in each row [s].
+    skips : Array of int64, shape (seams,)
+        1 for seams behind which a run goes on at the next one, without a step; 2 where rates of gaps jump
+        between the two.
+    changes : Array of int64, shape (seams + 1,)
+        First change of each seam.
+    places, values : Array of int64, Array
+        Changes: an index in ``p``, and the value there from then on.
+    """
+
+    head: Integers
+    rows: Integers
+    times: Array
+    skips: Integers
+    changes: Integers
+    places: Integers
+    values: Array
 
 
-def due(seams: Any, count: int) -> float:
+SEAMS = record_type(Seams)
+
+
+def due(seams: Seams, count: int) -> float:
     """Return the time of seam number `count` of the present row [s]; infinity behind the last one."""
     at = seams.rows[seams.head[ROW]] + count
     return float(seams.times[at]) if at < seams.rows[seams.head[ROW] + 1] else math.inf
 
 
-def change(seams: Any, count: int, p: Any) -> bool:
+def change(seams: Seams, count: int, p: Array) -> bool:
     """Write the values of seam number `count` to `p`; return whether any has changed."""
     at, other = seams.rows[seams.head[ROW]] + count, False
     for i in range(seams.changes[at], seams.changes[at + 1]):
@@ -57,19 +78,19 @@ def change(seams: Any, count: int, p: Any) -> bool:
     return other
 
 
-def has_gap(seams: Any, count: int) -> bool:
+def has_gap(seams: Seams, count: int) -> bool:
     """Whether a run goes on at the next seam, without a step, behind seam number `count` of the present row."""
     at = seams.rows[seams.head[ROW]] + count
     return bool(at < seams.rows[seams.head[ROW] + 1] and seams.skips[at] != 0)
 
 
-def has_struck(seams: Any, count: int) -> bool:
+def has_struck(seams: Seams, count: int) -> bool:
     """Whether rates of gaps have jumped before seam number `count` of the present row."""
     at = seams.rows[seams.head[ROW]] + count - 1
     return bool(count > 0 and seams.skips[at] == 2)
 
 
-def part_before(seams: Any, count: int, span: Any, clock: Any, control: Any) -> tuple[float, float]:
+def part_before(seams: Seams, count: int, span: Span, clock: Array, control: Integers) -> tuple[float, float]:
     """Return end and steps [s] of a part of a run: towards seam number `count`, behind which the run skips.
 
     A grid of constant steps may have a point there to rounding. No stage may lie behind the seam: the last step is
@@ -88,17 +109,19 @@ def part_before(seams: Any, count: int, span: Any, clock: Any, control: Any) -> 
     return to, step
 
 
-def go_over(seams: Any, count: int, clock: Any) -> None:
+def go_over(seams: Seams, count: int, clock: Array) -> None:
     """Set the time to the next seam behind seam number `count`."""
     clock[abi.TIME] = max(clock[abi.TIME], due(seams, count + 1))
 
 
-def select_row(seams: Any, r: int) -> None:
+def select_row(seams: Seams, r: int) -> None:
     """Select the seams of a row: its own, or the common ones."""
     seams.head[ROW] = r if seams.rows.shape[0] > 2 else 0
 
 
-def parameters_at(seams: Any, span: Any, prepare: Any, prepare_law: Any, t: float, passed: int, p: Any) -> int:
+def parameters_at(
+    seams: Seams, span: Span, prepare: e.Prepare, prepare_law: e.Prepare, t: float, passed: int, p: Array
+) -> int:
     """Set `p` to the parameters at an output, from those behind `passed` seams; at a seam, to those before it.
 
     Returns
@@ -116,7 +139,7 @@ def parameters_at(seams: Any, span: Any, prepare: Any, prepare_law: Any, t: floa
     return passed
 
 
-def is_defined(p: Any) -> bool:
+def is_defined(p: Array) -> bool:
     """Whether all numbers are finite."""
     for i in range(p.shape[0]):
         if not math.isfinite(p[i]):
@@ -124,20 +147,20 @@ def is_defined(p: Any) -> bool:
     return True
 
 
-def same(seams: Any, span: Any, t: float) -> float:
+def same(seams: Seams, span: Span, t: float) -> float:
     """Return the difference up to which times near a time count as the same [s]."""
     if seams.head[VARYING] != 0:
         return abi.RESOLVED_TIME * abs(t)
     return abi.SAME_TIME * float(span.step)
 
 
-@jit(types.int64(_A))
-def by_caller(p: Any) -> int:
+@jit(entry=True)
+def by_caller(p: Array) -> int:
     """Replace a ``prepare`` that the caller of the loop calls."""
     return 1
 
 
-def between_seams(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
+def between_seams(model: System, scheme: Record, span: Span, state: State, outputs: Outputs) -> int:
     """Enter a loop for each part of a run, as for a whole run.
 
     Parameters
@@ -192,7 +215,7 @@ def between_seams(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) 
 _loops: dict[Any, Any] = {}
 
 
-def with_seams(loop: Any) -> Any:
+def with_seams(loop: RuntimeFunction) -> Any:
     """Return the loop that enters another one for each part of a run, made at the first use.
 
     Parameters
@@ -215,7 +238,7 @@ def with_seams(loop: Any) -> Any:
 def with_table(
     compiled: CompiledModel,
     system: tuple[Any, ...],
-    loop: Any,
+    loop: RuntimeFunction,
     adaptive: bool,
     rows: Sequence[Sequence[Seam]],
     alone: bool = True,

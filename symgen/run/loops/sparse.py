@@ -9,12 +9,12 @@ Later matrices reuse the pattern and the pivots without a search, until a pivot 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.bare import part
+from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.store.jit import jit
 
 #: Head of a plan: sizes, then first indices of its parts.
@@ -59,7 +59,7 @@ THRESHOLD = 1e-4
 
 
 @jit()
-def multiply_sources(plan: Any, sources: Any) -> None:
+def multiply_sources(plan: Integers, sources: Array) -> None:
     """Set the sources that are sums of products of others: derivatives along bodies' motions, and D^T D."""
     targets, left = part(plan, plan[TARGETS], plan[PRODUCTS]), part(plan, plan[LEFT], plan[PRODUCTS])
     right = part(plan, plan[RIGHT], plan[PRODUCTS])
@@ -70,7 +70,7 @@ def multiply_sources(plan: Any, sources: Any) -> None:
 
 
 @jit()
-def turn_rows(plan: Any, sources: Any, delta: Any) -> None:
+def turn_rows(plan: Integers, sources: Array, delta: Array) -> None:
     """Convert derivatives by a rotation to derivatives by its rotation vector d.
 
     Where d grows by e, the body turns by T e more, ``T = 1 - d x / 2 + d x d x / 6`` up to terms of third order.
@@ -95,7 +95,7 @@ def turn_rows(plan: Any, sources: Any, delta: Any) -> None:
 
 
 @jit()
-def assemble_matrix(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
+def assemble_matrix(plan: Integers, sources: Array, coefficients: Array, numbers: Array) -> None:
     """Write the entries of the matrix: sums of coefficients times sources.
 
     Parameters
@@ -118,7 +118,7 @@ def assemble_matrix(plan: Any, sources: Any, coefficients: Any, numbers: Any) ->
 
 
 @jit()
-def prepare(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> int:
+def prepare(plan: Integers, sources: Array, coefficients: Array, numbers: Array) -> int:
     """Assemble and factorise a matrix; return the number of skipped pivots, -1 where `enlarged` has to be called."""
     assemble_matrix(plan, sources, coefficients, numbers)
     skipped = factorise(plan, numbers)
@@ -138,7 +138,7 @@ def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDA
 
 
 @jit(unrolled=True)
-def factorise(plan: Any, numbers: Any) -> int:
+def factorise(plan: Integers, numbers: Array) -> int:
     """Factorise the matrix of `assemble_matrix`.
 
     Parameters
@@ -203,7 +203,7 @@ def factorise(plan: Any, numbers: Any) -> int:
 
 
 @jit(unrolled=True)
-def factorise_again(plan: Any, numbers: Any) -> bool:
+def factorise_again(plan: Integers, numbers: Array) -> bool:
     """Factorise with the pivots and the pattern of `factorise_anew`; return whether they are good enough."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     columns, places = part(plan, plan[COLUMNS], n + 1), part(plan, plan[PLACES], size)
@@ -237,7 +237,7 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
 
 
 @jit(unrolled=True)
-def factorise_anew(plan: Any, numbers: Any) -> int:
+def factorise_anew(plan: Integers, numbers: Array) -> int:
     """Factorise with a search for pivots; return the number of skipped ones, -1 without room."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     columns, rows = part(plan, plan[COLUMNS], n + 1), part(plan, plan[ROWS], size)
@@ -315,7 +315,7 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
 
 
 @jit()
-def filled_rows(plan: Any, k: int) -> int:
+def filled_rows(plan: Integers, k: int) -> int:
     """Find the rows in which column `k` has entries after the elimination of earlier columns, in its order.
 
     Returns
@@ -360,7 +360,7 @@ def filled_rows(plan: Any, k: int) -> int:
 
 
 @jit(unrolled=True)
-def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
+def solve(plan: Integers, numbers: Array, right: Array, x: Array) -> None:
     """Solve with the factors of `factorise`; `right` and `x` are different arrays."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)

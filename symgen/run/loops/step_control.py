@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.run.layout import abi
-from symgen.run.layout.records import Span
+from symgen.run.layout.records import Run, Span
 
 #: Smallest factor of a step after a refused attempt; smallest and largest one after an accepted one; error estimate
 #: that counts as 0.
 SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
 
-def shrunk(span: Any, run: Any, error: float) -> float:
+def shrunk(span: Span, run: Run, error: float) -> float:
     """Return the next step over a refused one, by its error over the tolerance."""
     return float(max(SHRINK, span.safety * error ** (-1.0 / run.control[abi.ORDER]))) if math.isfinite(error) else 0.1
 
 
-def grown(span: Any, run: Any, h: float, error: float) -> float:
+def grown(span: Span, run: Run, h: float, error: float) -> float:
     """Return the next step over an accepted one of `h` seconds, by its error over the tolerance."""
     clock = run.clock
     allowed = max(error, FLOOR) ** (-1.0 / run.control[abi.ORDER])
@@ -29,7 +28,7 @@ def grown(span: Any, run: Any, h: float, error: float) -> float:
     return float(min(GROW, max(SHRINK_ACCEPTED, grow)))
 
 
-def part_of(span: Any, until: float, step: float) -> Any:
+def part_of(span: Span, until: float, step: float) -> Span:
     """Return a span that ends at a time [s], with another first step, or constant steps of another length [s]."""
     return Span(
         *(step, span.largest, until, span.end, span.duration, span.rtol, span.atol, span.relative),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.base.ir.numerics import SKIP
 from symgen.compile.loopcode.vectors import finite, largest
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
+from symgen.run.layout.records import Run, Sizes, Span, State
 from symgen.run.layout.scales import LEAST_SPEED
 
 _N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
@@ -27,7 +28,7 @@ PASSAGE = 0.2
 NO_WAY = 1e-4
 
 
-def remember_rank(sizes: Any, run: Any) -> None:
+def remember_rank(sizes: Sizes, run: Run | State) -> None:
     """Take the rank of D D^T at the start as that before the first state."""
     rank = masked = 0
     for i in range(sizes.m):
@@ -38,18 +39,18 @@ def remember_rank(sizes: Any, run: Any) -> None:
     run.control[abi.LAST_RANK], run.control[abi.MASKED] = rank, masked
 
 
-def iterations_in(state: Any) -> int:
+def iterations_in(state: State) -> int:
     """Return the number of iterations of laws, corrections and implicit stages since the start of a state."""
     return int(state.iw[abi.ITERATIONS] + state.iw[abi.LAW_ITERATIONS] + state.control[abi.NEWTON_ITERATIONS])
 
 
-def begin(run: Any) -> None:
+def begin(run: Run) -> None:
     """Take the energies of the first accepted state as the beginning of the balance."""
     run.gauges[abi.ENERGY_START] = run.w[abi.KINETIC] + run.w[abi.POTENTIAL]
     run.gauges[abi.POTENTIAL_START] = run.w[abi.POTENTIAL]
 
 
-def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
+def keep_maxima(sizes: Sizes, run: Run, y: Array) -> float:
     """Update the largest violations and energy error from the status of the state `y`; return the energy error."""
     w, gauges = run.w, run.gauges
     if w[abi.PHI] > gauges[abi.MAX_PHI]:
@@ -62,7 +63,7 @@ def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
     return float(error)
 
 
-def approach(h: float, gauges: Any) -> float:
+def approach(h: float, gauges: Array) -> float:
     """Return the allowed step: near a singular position at most half the distance to it.
 
     Inside the zone that counts as near the step is free again, so a passage costs about as many further steps as
@@ -77,12 +78,12 @@ def approach(h: float, gauges: Any) -> float:
     return h
 
 
-def meets(run: Any) -> bool:
+def meets(run: Run) -> bool:
     """Return whether a step ends practically on a singular position, where rounding would decide the branch."""
     return bool(run.w[abi.PIVOT] < SKIP <= run.gauges[abi.LAST_SINE] ** 2)
 
 
-def stuck(span: Any, run: Any, t: float) -> bool:
+def stuck(span: Span, run: Run, t: float) -> bool:
     """Return whether an adaptive run has taken, or at its present rate would take, too many attempts.
 
     The rate is that of a window of attempts as long as all before it: a passage with many attempts does not decide it.
@@ -97,7 +98,7 @@ def stuck(span: Any, run: Any, t: float) -> bool:
     return False
 
 
-def force(sizes: Any, run: Any, y: Any, before: float) -> float:
+def force(sizes: Sizes, run: Run, y: Array, before: float) -> float:
     """Return the force in a step [N]: its change of potential energy or work over the largest displacement of a body.
 
     What the balance lost in the step is no force: a switch at which velocities change takes no time and no way.
@@ -117,7 +118,7 @@ def force(sizes: Any, run: Any, y: Any, before: float) -> float:
     return change / way if way > 0.0 else 0.0
 
 
-def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
+def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Check an accepted state; return the end code of the loop, or `DONE` to continue.
 
     Parameters

@@ -7,16 +7,15 @@ single runs and rows of sweeps, beside that of `symgen.run.modes.choice`.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, function_type
 from symgen.run.layout.redundancy import farthest
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
-    CHOICE,
     CONSTANT,
     DISAGREED,
     HELD,
@@ -28,6 +27,7 @@ from symgen.run.modes.bounded_rows import (
     REDUNDANT,
     SAME,
     SHARED,
+    Choice,
     sign_of,
 )
 from symgen.run.modes.box import solve_box
@@ -49,8 +49,8 @@ _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int
 _AGREED, _AGREEMENTS = 1e-14, 2000
 
 
-@exact(_N(CHOICE, _A))
-def find_redundant(c: Any, w: Any) -> int:
+@exact(entry=True)
+def find_redundant(c: Choice, w: Array) -> int:
     """Return the first row left out that has no bounds, -1 for none: it leaves reactions undetermined."""
     for i in range(c.layout.m):
         if w[c.layout.mask + i] != 0.0 and c.place_of[i] < 0:
@@ -59,7 +59,7 @@ def find_redundant(c: Any, w: Any) -> int:
 
 
 @exact()
-def store_probe(t: float, c: Any, p: Any, number: int, force: float) -> None:
+def store_probe(t: float, c: Choice, p: Array, number: int, force: float) -> None:
     """Store the accelerations and reactions of the last probe: without forces, or by a unit of force `number`."""
     k = c.count
     if number < 0:
@@ -82,7 +82,7 @@ def store_probe(t: float, c: Any, p: Any, number: int, force: float) -> None:
 
 
 @exact()
-def probe_row(t: float, c: Any, j: int, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+def probe_row(t: float, c: Choice, j: int, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set the column of a row in G, and what its force adds to the reactions."""
     if c.sliding[j] > 0.0 or c.varying[j] != 0:
         for i in range(c.count):
@@ -100,8 +100,8 @@ def probe_row(t: float, c: Any, j: int, y: Any, p: Any, w: Any, iw: Any, control
     return SAME
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
-def probe_reactions(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+@exact(entry=True)
+def probe_reactions(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set G among all rows, and the reactions without efforts by reactions and by their forces.
 
     Returns `SAME`, `NOT_FINITE`, or `JAMMED` where an effort alone would bring about all of its reaction.
@@ -136,7 +136,7 @@ def probe_reactions(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: 
 
 
 @exact()
-def set_bounds(c: Any, n: int) -> None:
+def set_bounds(c: Choice, n: int) -> None:
     """Set the box problem of the rows at rest by the present sizes of reactions."""
     k, box = c.count, c.box
     for i in range(k):
@@ -157,7 +157,7 @@ def set_bounds(c: Any, n: int) -> None:
 
 
 @exact()
-def follow_sizes(c: Any) -> bool:
+def follow_sizes(c: Choice) -> bool:
     """Set the sizes of reactions by the present forces; return whether they agree with the bounds."""
     k, agree = c.count, True
     for i in range(k):
@@ -172,8 +172,8 @@ def follow_sizes(c: Any) -> bool:
     return agree
 
 
-@exact(_N(CHOICE))
-def agree_at_rest(c: Any) -> int:
+@exact(entry=True)
+def agree_at_rest(c: Choice) -> int:
     """Find the forces at rest with bounds that agree with them; set the signs of rows that they do not hold.
 
     Bounds by reactions become forces. Returns `SAME`, `NO_FORCES` or `DISAGREED`.
@@ -214,8 +214,8 @@ def agree_at_rest(c: Any) -> int:
     return SAME
 
 
-@exact(_N(CHOICE))
-def can_move(c: Any) -> int:
+@exact(entry=True)
+def can_move(c: Choice) -> int:
     """Return whether the mechanism can move with the chosen rows in force; assumed of too large ones."""
     layout = c.layout
     if c.room.shape[0] == 0:
@@ -225,8 +225,8 @@ def can_move(c: Any) -> int:
     return 1 if farthest(layout, layout.nv, layout.m, SKIP, 1, c.w, c.room) < layout.nv else 0
 
 
-@exact(_N(CHOICE, _N))
-def follow_reactions(c: Any, resting: int) -> int:
+@exact(entry=True)
+def follow_reactions(c: Choice, resting: int) -> int:
     """Have largest efforts follow the reaction, unless rows share a force; return `SAME` or `SHARED`.
 
     `resting` is the number of coordinates at rest whose bounds depend on reactions.
@@ -251,8 +251,8 @@ def follow_reactions(c: Any, resting: int) -> int:
     return SAME
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
-def choose_pressed(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+@exact(entry=True)
+def choose_pressed(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Choose modes as `choose_modes` does, where bounds depend on reactions; no row is one-sided."""
     c.named[0] = find_redundant(c, w)
     if c.named[0] >= 0:
@@ -276,4 +276,4 @@ def choose_pressed(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: A
 
 
 #: Types of the functions on the arrays of a run.
-KINDS = {"choose_pressed": types.FunctionType(_N(_F8, CHOICE, _A, _A, _A, _K, _K))}
+KINDS = {"choose_pressed": function_type(choose_pressed)}

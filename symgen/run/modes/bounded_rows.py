@@ -9,10 +9,12 @@ import numpy as np
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import compiled_form, exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout import abi
+from symgen.run.layout.records import Span
 from symgen.run.layout.redundancy import room_of_choice
-from symgen.run.layout.start_records import LAYOUT, record_type
-from symgen.run.modes.box import BOX, new_box
+from symgen.run.layout.start_records import Layout
+from symgen.run.modes.box import Box, new_box
 from symgen.run.starts.assembler import layout_of
 from symgen.run.starts.starting import observe_nothing
 
@@ -56,55 +58,134 @@ NOT_APPLIED, NO_IMPULSES = 10, 11
 #: What is out of range: a gap, a restitution, a bound in motion that is 0 beside one at rest, other bounds.
 NEGATIVE_GAP, NO_RESTITUTION, NO_BOUND_IN_MOTION, NO_BOUNDS = range(12, 16)
 
-#: The rows with bounds of a run, k of them, and working memory; those with two bounds first.
-#: - reactions: Components of the reactions that bounds depend on, two each.
-#: - first, count, dry: Place in w of their first number, their number, and that of rows with two bounds.
-#: - changes: 1 where anything but the motion and inputs changes over time.
-#: - pushed, at_rest (shapes (1,)): A coordinate pushed by a probe, -1 for none; number of rows at rest.
-#: - step (shape (1,)): Step that laws assume before the first one [s].
-#: - angular (shape (k,)): 1 where the measure of a row is an angle.
-#: - place_of (shape (m,)): Number among these of each row, -1 for others.
-#: - pushes (shape (k,)): 1 for one-sided rows, which stand last, else 0.
-#: - broken, stopped, left (shapes (k,)): 1 for coordinates that have just broken loose, or whose rate has just become
-#:   zero; for one-sided rows whose force has.
-#: - rest, loose, taken (shapes (k,)): Rows at rest, in their order; 1 for loose rows; for rows put into force.
-#: - passing (shape (k,)): 1 for coordinates whose rate only passes zero, as no force within bounds holds them.
-#: - shut (shape (k,)): 1 for closed gaps, whatever is left of their gaps, as rows are off behind a reset or
-#:   an impact.
-#: - named (shape (k + 1,)): Rows whose forces are not determined, then -1; or the first row of another fault.
-#: - pressed, varying (shapes (k,)): 1 for coordinates whose bounds depend on reactions; for those whose bounds are
-#:   formulas of more than parameters.
-#: - value ... restitution (shapes (k,)): Coordinates and gaps, rates, bounds, restitutions.
-#: - before, after (shape (MODE_NUMBERS k,)): Modes.
-#: - signs, trial, offset, alone, forces (shapes (k,)): Signs of rates; those of a probe; accelerations without forces
-#:   at rest; by a force if no joints held the bodies; forces at rest.
-#: - scale (shape (k,)): Sizes of forces that rounding of a force at rest is relative to.
-#: - depth (shape (1,)): Largest depth behind an open gap, over the mechanism's length.
-#: - matrix, rest_of (shapes (k k,)): G, and what is left of it.
-#: - jam (shape (1,)): Part of a reaction that its own effort brings about.
-#: - apart, parts (shapes (2 k,), (2 k, k)): Reactions without efforts by reactions, and by their forces.
-#: - sizes, bounds (shapes (k,), (2 k,)): Sizes of reactions; bounds at rest, then in motion, over these.
-#: - y, w, rate, out, iw: Of emitted functions.
-#: - room: Of the choice of independent rows.
-CHOICE = record_type(
-    "Choice",
-    __name__,
-    ("layout", LAYOUT),
-    ("rates confirm", abi.RHS),
-    ("geometry", abi.MEASURE),
-    ("states accelerations reactions", abi.OBSERVE),
-    ("box", BOX),
-    ("first count dry changes", _N),
-    ("angular place_of pushes pushed at_rest broken stopped left rest loose taken passing shut", _K),
-    ("named pressed varying", _K),
-    ("step value speed static sliding restitution before after signs trial offset alone forces scale matrix", _A),
-    ("rest_of depth jam apart parts sizes bounds y w rate out room", _A),
-    ("iw", _K),
-)
-Choice: Any = CHOICE.constructor
+
+class Choice(Record):
+    """The k rows with bounds of a run, two-sided ones first, and working memory.
+
+    Attributes
+    ----------
+    layout : Layout
+        Layout of the model.
+    rates, confirm, geometry, states, accelerations : function
+        Emitted functions: rates of v with multipliers, and their confirmation; ``geometry``; values, rates and bounds
+        of the rows; their accelerations.
+    reactions : function
+        Components of the reactions that bounds depend on, two each.
+    box : Box
+        The box problem of the rows at rest.
+    first, count, dry : int
+        Place in w of the first number of the rows, the number of rows, and the number of rows with two bounds.
+    changes : int
+        1 where anything but the motion and inputs changes over time.
+    angular : Array of int64, shape (k,)
+        1 where the measure of a row is an angle.
+    place_of : Array of int64, shape (m,)
+        For each constraint row its number among the rows with bounds, -1 for others.
+    pushes : Array of int64, shape (k,)
+        1 for one-sided rows, which come last, else 0.
+    pushed, at_rest : Array of int64, shapes (1,)
+        Coordinate that a probe pushes, -1 for none; number of rows at rest.
+    broken, stopped, left : Array of int64, shapes (k,)
+        1 for coordinates that have just broken loose; for coordinates whose rate has just become zero; for one-sided
+        rows whose force has just become zero.
+    rest, loose, taken : Array of int64, shapes (k,)
+        Rows at rest, in their order; 1 for loose rows; 1 for rows put into force.
+    passing : Array of int64, shape (k,)
+        1 for coordinates whose rate only passes zero, as no force within bounds holds them.
+    shut : Array of int64, shape (k,)
+        1 for closed gaps, whatever is left of them, as rows are off after a reset or an impact.
+    named : Array of int64, shape (k + 1,)
+        Rows whose forces are not determined, then -1; or the first row of another fault.
+    pressed, varying : Array of int64, shapes (k,)
+        1 for coordinates whose bounds depend on reactions; 1 for coordinates whose bounds are formulas of more than
+        parameters.
+    step : Array, shape (1,)
+        Step that laws assume before the first one [s].
+    value, speed, static, sliding, restitution : Array, shapes (k,)
+        Coordinates and gaps, their rates, bounds at rest and in motion, restitutions.
+    before, after : Array, shapes (MODE_NUMBERS k,)
+        Modes.
+    signs, trial : Array, shapes (k,)
+        Signs of rates, and the signs that a probe assumes.
+    offset, alone : Array, shapes (k,)
+        Accelerations without forces at rest; accelerations by a force if no joints held the bodies.
+    forces, scale : Array, shapes (k,)
+        Forces at rest; sizes of forces that rounding of a force at rest is relative to.
+    matrix, rest_of : Array, shapes (k k,)
+        G, and what is left of it.
+    depth : Array, shape (1,)
+        Largest depth of an open gap below zero, over the mechanism's length.
+    jam : Array, shape (1,)
+        Part of a reaction that its own effort brings about.
+    apart, parts : Array, shapes (2 k,), (2 k, k)
+        Reactions without efforts by reactions, and by their forces.
+    sizes, bounds : Array, shapes (k,), (2 k,)
+        Sizes of reactions; bounds at rest, then in motion, over these.
+    y, w, rate, out, iw : Array, Array of int64
+        Arguments of emitted functions.
+    room : Array
+        Working memory of the choice of independent rows.
+    """
+
+    layout: Layout
+    rates: abi.Rhs
+    confirm: abi.Rhs
+    geometry: abi.Measure
+    states: abi.Observe
+    accelerations: abi.Observe
+    reactions: abi.Observe
+    box: Box
+    first: int
+    count: int
+    dry: int
+    changes: int
+    angular: Integers
+    place_of: Integers
+    pushes: Integers
+    pushed: Integers
+    at_rest: Integers
+    broken: Integers
+    stopped: Integers
+    left: Integers
+    rest: Integers
+    loose: Integers
+    taken: Integers
+    passing: Integers
+    shut: Integers
+    named: Integers
+    pressed: Integers
+    varying: Integers
+    step: Array
+    value: Array
+    speed: Array
+    static: Array
+    sliding: Array
+    restitution: Array
+    before: Array
+    after: Array
+    signs: Array
+    trial: Array
+    offset: Array
+    alone: Array
+    forces: Array
+    scale: Array
+    matrix: Array
+    rest_of: Array
+    depth: Array
+    jam: Array
+    apart: Array
+    parts: Array
+    sizes: Array
+    bounds: Array
+    y: Array
+    w: Array
+    rate: Array
+    out: Array
+    room: Array
+    iw: Integers
 
 
-def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Any:
+def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any], width: int, nw: int) -> Choice:
     """Return the rows with bounds of a run for the functions here.
 
     Parameters
@@ -122,70 +203,114 @@ def new_choice(compiled: CompiledModel, rows: BoundedRows, rates: tuple[Any, Any
     first = info.sections["modes"][0] + MODE_NUMBERS * info.switchable.index(info.bounded[0])
     places = np.full(info.m, -1, dtype=np.int64)
     places[list(info.bounded)] = np.arange(k)
-    reactions = observe_nothing if rows.reactions is None else rows.reactions.function
-    functions = (*rates, compiled.model.geometry, rows.state.function, rows.accelerations.function, reactions)
-    flags = (np.zeros(k, dtype=np.int64) for _ in range(8))
-    numbers = (np.zeros(size * k) for size in (1, 1, 1, 1, 1, MODE_NUMBERS, MODE_NUMBERS, 1, 1, 1, 1, 1, 1, k, k))
     states = 2 * k + 2 * rows.dry + (k - rows.dry)
-    return Choice._make(
-        (
-            *(layout_of(compiled), *(compiled_form(f) for f in functions), new_box(k), first, k, rows.dry),
-            int(rows.changes),
-            *(np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64), places),
-            (np.arange(k) >= rows.dry).astype(np.int64),
-            *(np.full(1, -1), np.zeros(1, dtype=np.int64), *flags, np.zeros(k + 1, dtype=np.int64)),
-            *(np.isin(np.arange(k), these).astype(np.int64) for these in (rows.pressed, rows.varying)),
-            *(
-                np.zeros(1),
-                *numbers,
-                np.full(1, TOUCHING),
-                *(np.zeros(size) for size in (1, 2 * k, 2 * k * k, k, 2 * k)),
-            ),
-            *(np.zeros(size) for size in (width, nw, width, max(states, 1), room_of_choice(info.m, info.nv))),
-            np.zeros(abi.N_COUNTERS, dtype=np.int64),
-        )
+
+    def flags(size: int = k) -> Integers:
+        return np.zeros(size, dtype=np.int64)
+
+    def marks(these: tuple[int, ...]) -> Integers:
+        return np.isin(np.arange(k), these).astype(np.int64)
+
+    numbers = np.zeros
+    return Choice(
+        layout=layout_of(compiled),
+        rates=compiled_form(rates[0]),
+        confirm=compiled_form(rates[1]),
+        geometry=compiled_form(compiled.model.geometry),
+        states=compiled_form(rows.state.function),
+        accelerations=compiled_form(rows.accelerations.function),
+        reactions=compiled_form(observe_nothing if rows.reactions is None else rows.reactions.function),
+        box=new_box(k),
+        first=first,
+        count=k,
+        dry=rows.dry,
+        changes=int(rows.changes),
+        angular=np.array([info.rows[i].unit == "rad" for i in info.bounded], dtype=np.int64),
+        place_of=places,
+        pushes=(np.arange(k) >= rows.dry).astype(np.int64),
+        pushed=np.full(1, -1),
+        at_rest=flags(1),
+        broken=flags(),
+        stopped=flags(),
+        left=flags(),
+        rest=flags(),
+        loose=flags(),
+        taken=flags(),
+        passing=flags(),
+        shut=flags(),
+        named=flags(k + 1),
+        pressed=marks(rows.pressed),
+        varying=marks(rows.varying),
+        step=numbers(1),
+        value=numbers(k),
+        speed=numbers(k),
+        static=numbers(k),
+        sliding=numbers(k),
+        restitution=numbers(k),
+        before=numbers(MODE_NUMBERS * k),
+        after=numbers(MODE_NUMBERS * k),
+        signs=numbers(k),
+        trial=numbers(k),
+        offset=numbers(k),
+        alone=numbers(k),
+        forces=numbers(k),
+        scale=numbers(k),
+        matrix=numbers(k * k),
+        rest_of=numbers(k * k),
+        depth=np.full(1, TOUCHING),
+        jam=numbers(1),
+        apart=numbers(2 * k),
+        parts=numbers(2 * k * k),
+        sizes=numbers(k),
+        bounds=numbers(2 * k),
+        y=numbers(width),
+        w=numbers(nw),
+        rate=numbers(width),
+        out=numbers(max(states, 1)),
+        room=numbers(room_of_choice(info.m, info.nv)),
+        iw=flags(abi.N_COUNTERS),
     )
 
 
-def first_step(span: Any) -> float:
+def first_step(span: Span) -> float:
     """Return the step that laws assume before the first one [s]."""
     return float(span.step if span.step > 0.0 else FIRST * span.duration)
 
 
 @exact()
-def row_scale(c: Any, w: Any, i: int, place: int) -> float:
+def row_scale(c: Choice, w: Array, i: int, place: int) -> float:
     """Return the mechanism's scale of speeds or of lengths in the unit of a row."""
     return float(w[place] / w[abi.LENGTH] if c.angular[i] != 0 else w[place])
 
 
 @exact()
-def usual_of(c: Any, w: Any, i: int) -> float:
+def usual_of(c: Choice, w: Array, i: int) -> float:
     """Return the mechanism's scale of accelerations in the unit of a row."""
     return float(row_scale(c, w, i, abi.SPEED) * (w[abi.SPEED] / w[abi.LENGTH]))
 
 
 @exact()
-def is_held(c: Any, w: Any, i: int) -> bool:
+def is_held(c: Choice, w: Array, i: int) -> bool:
     """Return whether a row is in force, or others carry its force: it is at rest or closed by its mode."""
     at = c.first + MODE_NUMBERS * i
     return bool(w[at + HELD] != 0.0 or (w[at + SIGN] == 0.0 and w[at + CONSTANT] != 0.0))
 
 
 @exact()
-def stays_shut(c: Any, w: Any, i: int) -> bool:
+def stays_shut(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap is closed by its mode, or was before a reset or an impact, whatever its gap is."""
     return bool(is_held(c, w, i) or c.shut[i] != 0)
 
 
 @exact()
-def open_rows(c: Any, w: Any) -> None:
+def open_rows(c: Choice, w: Array) -> None:
     """Take all rows out of force."""
     for i in range(MODE_NUMBERS * c.count):
         w[c.first + i] = 0.0
 
 
-@exact(_N(CHOICE, _A))
-def put_off(c: Any, w: Any) -> int:
+@exact(entry=True)
+def put_off(c: Choice, w: Array) -> int:
     """Take all rows out of force before a reset or an impact, and keep which gaps are closed; return their number."""
     closed = 0
     for i in range(c.count):
@@ -196,7 +321,7 @@ def put_off(c: Any, w: Any) -> int:
 
 
 @exact()
-def is_shut(c: Any, w: Any, i: int) -> bool:
+def is_shut(c: Choice, w: Array, i: int) -> bool:
     """Return whether a gap is closed: by its mode, or as it is 0 within the resolution of positions."""
     return bool(stays_shut(c, w, i) or c.value[i] <= TOUCHING * row_scale(c, w, i, abi.LENGTH))
 

@@ -20,8 +20,8 @@ import numpy as np
 
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.layout.scales import larger
-from symgen.run.layout.start_records import record_type
 
 _A, _K, _N = types.float64[::1], types.int64[::1], types.int64
 
@@ -34,15 +34,33 @@ _CHANGES = 50
 #: Places of a force: between its bounds, at the upper one, at the lower one.
 INSIDE, UPPER, LOWER = 0, 1, -1
 
-#: A problem of k forces, its working memory and its solution.
-#: - matrix, offset, bounds, lower (shapes (k, k), (k,), (k,), (k,)): G, a0, b and l.
-#: - forces, left (shapes (k,)): c and a.
-#: - place (shape (k,)): `INSIDE`, `UPPER` or `LOWER`.
-#: - factor, right, scale, order: Working memory; after `independent_set` the first forces of `order` are independent.
-BOX = record_type(
-    "Box", __name__, ("matrix offset bounds lower forces left factor right scale", _A), ("place order", _K)
-)
-Box: Any = BOX.constructor
+
+class Box(Record):
+    """A problem of k forces, its working memory and its solution.
+
+    Attributes
+    ----------
+    matrix, offset, bounds, lower : Array, shapes (k, k), (k,), (k,), (k,)
+        G, a0, b and l.
+    forces, left : Array, shapes (k,)
+        C and a.
+    place : Array of int64, shape (k,)
+        `INSIDE`, `UPPER` or `LOWER`.
+    factor, right, scale, order : Array, Array of int64
+        Working memory; after `independent_set` the first forces of `order` are independent.
+    """
+
+    matrix: Array
+    offset: Array
+    bounds: Array
+    lower: Array
+    forces: Array
+    left: Array
+    factor: Array
+    right: Array
+    scale: Array
+    place: Integers
+    order: Integers
 
 
 def new_box(k: int) -> Any:
@@ -52,7 +70,7 @@ def new_box(k: int) -> Any:
 
 
 @exact()
-def set_left(k: int, box: Any) -> None:
+def set_left(k: int, box: Box) -> None:
     """Set the accelerations that the present forces leave."""
     for i in range(k):
         total = box.offset[i]
@@ -62,7 +80,7 @@ def set_left(k: int, box: Any) -> None:
 
 
 @exact()
-def independent_set(k: int, count: int, box: Any) -> int:
+def independent_set(k: int, count: int, box: Box) -> int:
     """Order the first `count` forces of ``order`` so that an independent set comes first; return its number.
 
     ``factor`` holds the lower triangle of its Cholesky factor, by places in ``order``.
@@ -98,7 +116,7 @@ def independent_set(k: int, count: int, box: Any) -> int:
 
 
 @exact()
-def solve_independent(k: int, rank: int, box: Any) -> None:
+def solve_independent(k: int, rank: int, box: Box) -> None:
     """Replace ``right`` by the solution of the equations of the first `rank` forces of ``order``."""
     factor, right = box.factor, box.right
     for i in range(rank):
@@ -113,7 +131,7 @@ def solve_independent(k: int, rank: int, box: Any) -> None:
 
 
 @exact()
-def free_forces(k: int, box: Any) -> int:
+def free_forces(k: int, box: Box) -> int:
     """Write the forces inside their bounds to ``order``; return their number."""
     count = 0
     for i in range(k):
@@ -124,7 +142,7 @@ def free_forces(k: int, box: Any) -> int:
 
 
 @exact()
-def moved_free(k: int, box: Any) -> bool:
+def moved_free(k: int, box: Box) -> bool:
     """Move free forces towards the minimum, up to the first bound; return whether one was met."""
     forces, bounds, lower, place, order, right = box.forces, box.bounds, box.lower, box.place, box.order, box.right
     rank = independent_set(k, free_forces(k, box), box)
@@ -150,7 +168,7 @@ def moved_free(k: int, box: Any) -> bool:
 
 
 @exact()
-def magnitude_of(k: int, i: int, box: Any) -> float:
+def magnitude_of(k: int, i: int, box: Box) -> float:
     """Return the sum of the magnitudes whose difference is acceleration number i."""
     size = abs(box.offset[i])
     for j in range(k):
@@ -159,7 +177,7 @@ def magnitude_of(k: int, i: int, box: Any) -> float:
 
 
 @exact()
-def moved_beside(k: int, box: Any) -> bool:
+def moved_beside(k: int, box: Box) -> bool:
     """Move a free force that the independent ones determine to the first bound; return whether there was one.
 
     Its acceleration follows from theirs: where it is not zero, as where a rate only passes zero at a dead centre, no
@@ -196,7 +214,7 @@ def moved_beside(k: int, box: Any) -> bool:
 
 
 @exact()
-def wrong_bound(k: int, box: Any) -> int:
+def wrong_bound(k: int, box: Box) -> int:
     """Return the force at a bound whose acceleration has most of the wrong sign, -1 for none."""
     set_left(k, box)
     worst, most = -1, 0.0
@@ -213,8 +231,8 @@ def wrong_bound(k: int, box: Any) -> int:
     return worst
 
 
-@exact(types.int64(_N, BOX))
-def solve_box(k: int, box: Any) -> int:
+@exact(entry=True)
+def solve_box(k: int, box: Box) -> int:
     """Solve the box problem of `box`, from no force on; return 0, or 1 if that takes too many changes.
 
     A force whose own acceleration is zero stays zero.

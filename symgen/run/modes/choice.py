@@ -12,20 +12,20 @@ A one-sided row is in force where its gap is 0 and stays so, by a force that pus
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import choose_rows, farthest, is_off
 from symgen.run.layout.scales import entry_of, larger
 from symgen.run.loops.afresh import forget_steps
+from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.search_records import COUNT, FORCE, GAP, MARGIN, MEASURE, N_HEAD, PACE, RATE, ROW
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
-    CHOICE,
     CONSTANT,
     DEPENDENT,
     EFFORT,
@@ -45,6 +45,7 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     STILL,
+    Choice,
     is_held,
     is_shut,
     row_scale,
@@ -58,8 +59,8 @@ from symgen.run.modes.holding import hold_rows
 _F8, _A, _K, _N = types.float64, types.float64[::1], types.int64[::1], types.int64
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A))
-def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
+@exact(entry=True)
+def read_rows(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
     """Read coordinates, rates and bounds at a state; return `SAME`, or `OUT_OF_RANGE`."""
     k, dry, out = c.count, c.dry, c.out
     c.states(t, y, p, w, c.rate, out)
@@ -84,8 +85,8 @@ def read_rows(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
     return SAME if valid else OUT_OF_RANGE
 
 
-@exact(_N(CHOICE, _A))
-def find_fault(c: Any, w: Any) -> int:
+@exact(entry=True)
+def find_fault(c: Choice, w: Array) -> int:
     """Return what is out of range at rows that have been read, and name the first such row."""
     for i in range(c.dry, c.count):
         if not (c.value[i] >= -c.depth[0] * row_scale(c, w, i, abi.LENGTH) or stays_shut(c, w, i)):
@@ -108,8 +109,8 @@ def find_fault(c: Any, w: Any) -> int:
     return NO_BOUNDS
 
 
-@exact(_N(CHOICE))
-def find_mobility(c: Any) -> int:
+@exact(entry=True)
+def find_mobility(c: Choice) -> int:
     """Set the acceleration of each coordinate by a force on it if no joints held the bodies.
 
     A body without inertia counts with a part of the mean one: its joints decide how far it moves.
@@ -126,8 +127,8 @@ def find_mobility(c: Any) -> int:
     return int(c.count)
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
-def accelerate(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+@exact(entry=True)
+def accelerate(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Write the accelerations of coordinates with all rows off and efforts of the signs of ``trial`` to ``out``.
 
     A coordinate whose bounds depend on a reaction, or are 0 for a time, may be ``pushed`` by a force of -1.
@@ -156,8 +157,8 @@ def accelerate(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) 
     return SAME
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
-def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+@exact(entry=True)
+def probe(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set G among the rows at rest, and the accelerations without their forces."""
     k, n = c.count, c.at_rest[0]
     for i in range(k * k):
@@ -193,7 +194,7 @@ def probe(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> in
 
 
 @exact()
-def size_forces(c: Any, n: int, w: Any) -> None:
+def size_forces(c: Choice, n: int, w: Array) -> None:
     """Set the forces at rest that make accelerations as large as those without them, and as usual ones."""
     for r in range(n):
         i = c.rest[r]
@@ -201,8 +202,8 @@ def size_forces(c: Any, n: int, w: Any) -> None:
         c.scale[i] = (abs(c.offset[i]) + usual_of(c, w, i)) / own if own > 0.0 else 0.0
 
 
-@exact(_N(CHOICE))
-def symmetrise(c: Any) -> int:
+@exact(entry=True)
+def symmetrise(c: Choice) -> int:
     """Make G symmetric among rows at rest, and 0 for rows that joints hold still, as at a dead centre."""
     k, n, matrix = c.count, c.at_rest[0], c.matrix
     for a in range(n):
@@ -219,8 +220,8 @@ def symmetrise(c: Any) -> int:
     return int(n)
 
 
-@exact(_N(CHOICE, _A))
-def find_rest(c: Any, w: Any) -> int:
+@exact(entry=True)
+def find_rest(c: Choice, w: Array) -> int:
     """Set the rows at rest, which of them are loose, and the signs of all others; return the number at rest."""
     n = 0
     for i in range(c.count):
@@ -250,7 +251,7 @@ def find_rest(c: Any, w: Any) -> int:
 
 
 @exact()
-def moves_at(c: Any, n: int, r: int) -> bool:
+def moves_at(c: Choice, n: int, r: int) -> bool:
     """Whether the acceleration of the row at place `r` among those at rest is more than rounding."""
     box, size = c.box, abs(c.box.offset[r])
     for j in range(n):
@@ -259,7 +260,7 @@ def moves_at(c: Any, n: int, r: int) -> bool:
 
 
 @exact()
-def solve_rest(c: Any, n: int, w: Any) -> int:
+def solve_rest(c: Choice, n: int, w: Array) -> int:
     """Find the forces at rest, and the signs of rows that they do not hold; return `SAME` or `NO_FORCES`."""
     k, box = c.count, c.box
     for r in range(n):
@@ -303,8 +304,8 @@ def solve_rest(c: Any, n: int, w: Any) -> int:
     return SAME
 
 
-@exact(_N(CHOICE, _A))
-def write_modes(c: Any, w: Any) -> int:
+@exact(entry=True)
+def write_modes(c: Choice, w: Array) -> int:
     """Write the chosen modes; return `OTHERS` where they differ from those before, else `SAME`."""
     code = SAME
     for i in range(MODE_NUMBERS * c.count):
@@ -314,8 +315,8 @@ def write_modes(c: Any, w: Any) -> int:
     return code
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
-def choose_modes(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+@exact(entry=True)
+def choose_modes(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Choose the modes of a state whose rows have been read; return `SAME`, `OTHERS`, or why there are none."""
     n = find_rest(c, w)
     if n > 0:
@@ -331,14 +332,14 @@ def choose_modes(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any
 
 
 @exact()
-def add_forces(c: Any) -> None:
+def add_forces(c: Choice) -> None:
     """Add the forces at rest and their bounds to the sizes of forces."""
     for i in range(c.count):
         c.scale[i] += abs(c.forces[i]) + c.static[i]
 
 
-@exact(_N(CHOICE, _A, _A))
-def measure_margins(c: Any, w: Any, hunt: Any) -> int:
+@exact(entry=True)
+def measure_margins(c: Choice, w: Array, hunt: Array) -> int:
     """Set the sizes that the rounding of margins is relative to; return their number."""
     n, at, found = int(hunt[COUNT]), N_HEAD, 0
     for k in range(n):
@@ -356,8 +357,8 @@ def measure_margins(c: Any, w: Any, hunt: Any) -> int:
     return found
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A))
-def follow_modes(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
+@exact(entry=True)
+def follow_modes(t: float, c: Choice, y: Array, p: Array, w: Array) -> int:
     """Evaluate the geometry in new modes, and choose which redundant rows are left out; return 1 where others are.
 
     Rows of too large mechanisms stay the same.
@@ -382,7 +383,7 @@ def follow_modes(t: float, c: Any, y: Any, p: Any, w: Any) -> int:
     return int(changed)
 
 
-def look_anew(state: Any) -> None:
+def look_anew(state: EventState) -> None:
     """Have the scheme begin anew, and passages of singular positions be looked for anew: there are other rows."""
     gauges, w = state.gauges, state.w
     sine, short = math.sqrt(max(w[abi.PIVOT], 0.0)), math.sqrt(max(w[abi.SHORTEST_ROW], 0.0))

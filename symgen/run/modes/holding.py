@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array
 from symgen.run.layout.scales import larger
 from symgen.run.modes.bounded_rows import (
     AT_BOUND,
     AT_REST,
-    CHOICE,
     CONSTANT,
     DEPENDENT,
     EFFORT,
@@ -23,6 +21,7 @@ from symgen.run.modes.bounded_rows import (
     ROUNDED,
     SAME,
     SIGN,
+    Choice,
     usual_of,
 )
 from symgen.run.modes.box import independent_set, solve_independent
@@ -36,19 +35,19 @@ _LEVEL = 1e-6
 
 
 @exact()
-def independence(c: Any, i: int) -> float:
+def independence(c: Choice, i: int) -> float:
     """Return the part of a row at rest that rows put into force do not determine."""
     return float(c.rest_of[i * c.count + i] / c.alone[i]) if c.alone[i] > 0.0 else 0.0
 
 
 @exact()
-def is_followed(c: Any, i: int) -> bool:
+def is_followed(c: Choice, i: int) -> bool:
     """Return whether margins read the bound of a row, as it varies; that by a reaction has a limit besides."""
     return bool(c.varying[i] != 0 and c.pressed[i] == 0)
 
 
 @exact()
-def take_rows(c: Any, n: int, which: int, w: Any) -> None:
+def take_rows(c: Choice, n: int, which: int, w: Array) -> None:
     """Put the most independent rows at rest into force, one after the other.
 
     `which` is `PUSHING` for one-sided rows that push, `WITHIN` for others whose force is within its bounds, else `ALL`.
@@ -80,8 +79,8 @@ def take_rows(c: Any, n: int, which: int, w: Any) -> None:
                 left[i * k + j] -= c.trial[i] * c.offset[j] / pivot
 
 
-@exact(_N(CHOICE, _A))
-def hold_rows(c: Any, w: Any) -> int:
+@exact(entry=True)
+def hold_rows(c: Choice, w: Array) -> int:
     """Put independent rows among those at rest into force; set their constants and largest efforts.
 
     Bounds that vary are no numbers: margins read them, times the largest effort of a row that another one carries.
@@ -126,7 +125,7 @@ def hold_rows(c: Any, w: Any) -> int:
 
 
 @exact()
-def share_force(c: Any, i: int, count: int) -> int:
+def share_force(c: Choice, i: int, count: int) -> int:
     """Give the effort of a row that rows in force determine to the one that carries it.
 
     Where several do, a row with two bounds keeps the effort that it has: as long as theirs are within their bounds all

@@ -10,21 +10,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record
 from symgen.run.effects.accumulation import OF_EVENT, accumulation, add_resets
 from symgen.run.effects.applying import APPLIED, apply_effects
-from symgen.run.effects.resets import KEPT_EFFECT, OF_EFFECTS, new_kept_effect
+from symgen.run.effects.resets import KeptEffect, OfEffects, new_kept_effect
 from symgen.run.layout import abi
 from symgen.run.layout.scales import larger
-from symgen.run.layout.start_records import Instant, record_type
+from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import (
-    CHOICE,
     NO_IMPULSES,
     NOT_APPLIED,
     NOT_FINITE,
@@ -32,6 +31,7 @@ from symgen.run.modes.bounded_rows import (
     SAME,
     SIGN,
     STILL,
+    Choice,
     is_held,
     is_shut,
     put_off,
@@ -53,28 +53,46 @@ _RESOLVED = 2e-15
 _COUNT, _LAST, _BETTER, _LEAST, _BEST = range(5)
 OF_SERIES = 5
 
-#: Impacts of a run, and working memory.
-#: - effects: Those of all events.
-#: - chosen (shape (events,)): 1 for events that happen.
-#: - events, losses, active (shapes (rows,)): Event of each one-sided row, -1 for others; place in the state of the
-#:   energy that it has taken, or -1; 1 for gaps that strike.
-#: - pushing (shape (1,)): Number of rows that push at an impact whose accumulation has not been asked for.
-#: - before, asked (shapes (rows,)): Rates of gaps before the latest impact; those that their events ask for after it.
-#: - series (shape (OF_SERIES rows,)): See above.
-#: - left (shape (rows,)): Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
-#: - struck, rested: The latest impact; what has brought gaps to rest where impacts accumulate.
-STRIKES = record_type(
-    "Strikes",
-    __name__,
-    ("effects", OF_EFFECTS),
-    ("chosen events losses active pushing", _K),
-    ("before asked series left", _A),
-    ("struck rested", KEPT_EFFECT),
-)
-Strikes: Any = STRIKES.constructor
+
+class Strikes(Record):
+    """Impacts of a run, and working memory.
+
+    Attributes
+    ----------
+    effects : OfEffects
+        Those of all events.
+    chosen : Array of int64, shape (events,)
+        1 for events that happen.
+    events, losses, active : Array of int64, shapes (rows,)
+        Event of each one-sided row, -1 for others; place in the state of the energy that it has taken, or -1; 1
+        for gaps that strike.
+    pushing : Array of int64, shape (1,)
+        Number of rows that push at an impact whose accumulation has not been asked for.
+    before, asked : Array, shapes (rows,)
+        Rates of gaps before the latest impact; those that their events ask for after it.
+    series : Array, shape (OF_SERIES rows,)
+        See above.
+    left : Array, shape (rows,)
+        Time until the impacts of a gap that comes to rest would have accumulated [s], else nan.
+    struck, rested : KeptEffect
+        The latest impact; what has brought gaps to rest where impacts accumulate.
+    """
+
+    effects: OfEffects
+    chosen: Integers
+    events: Integers
+    losses: Integers
+    active: Integers
+    pushing: Integers
+    before: Array
+    asked: Array
+    series: Array
+    left: Array
+    struck: KeptEffect
+    rested: KeptEffect
 
 
-def new_strikes(effects: Any, hits: Sequence[int], losses: Sequence[int], keeps: bool) -> Any:
+def new_strikes(effects: OfEffects, hits: Sequence[int], losses: Sequence[int], keeps: bool) -> Strikes:
     """Return the impacts of a run.
 
     Parameters
@@ -86,14 +104,25 @@ def new_strikes(effects: Any, hits: Sequence[int], losses: Sequence[int], keeps:
     keeps : bool
         Whether somebody reads the impacts.
     """
-    k, events = len(hits), np.zeros(len(effects.chosen), dtype=np.int64)
-    integers = (np.array(x, dtype=np.int64) for x in (hits, losses, [0] * k, [0]))
-    kept = (new_kept_effect(effects.model[0], effects.work, keeps) for _ in range(2))
-    return Strikes(effects, events, *integers, *map(np.zeros, (k, k, OF_SERIES * k, k)), *kept)
+    k = len(hits)
+    return Strikes(
+        effects=effects,
+        chosen=np.zeros(len(effects.chosen), dtype=np.int64),
+        events=np.array(hits, dtype=np.int64),
+        losses=np.array(losses, dtype=np.int64),
+        active=np.zeros(k, dtype=np.int64),
+        pushing=np.zeros(1, dtype=np.int64),
+        before=np.zeros(k),
+        asked=np.zeros(k),
+        series=np.zeros(OF_SERIES * k),
+        left=np.zeros(k),
+        struck=new_kept_effect(effects.model[0], effects.work, keeps),
+        rested=new_kept_effect(effects.model[0], effects.work, keeps),
+    )
 
 
-@exact(_N(_F8, CHOICE, _A, _A, _A, _K, _K))
-def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any) -> int:
+@exact(entry=True)
+def find_struck(t: float, c: Choice, y: Array, p: Array, w: Array, iw: Integers, control: Integers) -> int:
     """Set the gaps that touch, and G among them, where one strikes: `OTHERS`; else `SAME`, or `NOT_FINITE`."""
     n, strikes = 0, False
     for i in range(c.dry, c.count):
@@ -112,7 +141,7 @@ def find_struck(t: float, c: Any, y: Any, p: Any, w: Any, iw: Any, control: Any)
 
 
 @exact()
-def find_active(c: Any, s: Any) -> int:
+def find_active(c: Choice, s: Strikes) -> int:
     """Find the rows that push at the impact; return their number, -1 where there are no impulses."""
     k, n, box, most, count = c.count, c.at_rest[0], c.box, 0.0, 0
     for r in range(n):
@@ -135,7 +164,7 @@ def find_active(c: Any, s: Any) -> int:
 
 
 @exact()
-def choose_events(c: Any, s: Any, only_struck: bool) -> None:
+def choose_events(c: Choice, s: Strikes, only_struck: bool) -> None:
     """Choose the events of rows that push; `only_struck`: of those whose gap becomes smaller before."""
     for event in range(s.chosen.shape[0]):
         s.chosen[event] = 0
@@ -145,7 +174,7 @@ def choose_events(c: Any, s: Any, only_struck: bool) -> None:
 
 
 @exact()
-def ask_rates(t: float, c: Any, s: Any, now: Any) -> None:
+def ask_rates(t: float, c: Choice, s: Strikes, now: Instant) -> None:
     """Set the rates of gaps after an impact at the present state: the law of impacts is the formula of the event."""
     _, _, formulas, _, changes = s.effects.model
     work, count = s.effects.work, changes.owners.shape[0]
@@ -159,7 +188,7 @@ def ask_rates(t: float, c: Any, s: Any, now: Any) -> None:
 
 
 @exact()
-def lose(c: Any, s: Any, first: bool, y: Any) -> None:
+def lose(c: Choice, s: Strikes, first: bool, y: Array) -> None:
     """Add what an impact takes to the losses of its rows, by the sums of their rates before and behind it."""
     place = c.layout.m
     for i in range(c.dry, c.count):
@@ -171,7 +200,7 @@ def lose(c: Any, s: Any, first: bool, y: Any) -> None:
 
 
 @exact()
-def follow_series(c: Any, s: Any, t: float, count: int) -> float:
+def follow_series(c: Choice, s: Strikes, t: float, count: int) -> float:
     """Return the end of the series of flights of the only row that pushes, by all of its impacts; else nan.
 
     It follows at each impact from the rate and its change. Its errors fall with the square of the duration of a flight,
@@ -199,7 +228,7 @@ def follow_series(c: Any, s: Any, t: float, count: int) -> float:
 
 
 @exact()
-def end_of_flights(t: float, c: Any, s: Any) -> float:
+def end_of_flights(t: float, c: Choice, s: Strikes) -> float:
     """Return the end of the series of flights that `follow_series` has followed up to now; without any, the time."""
     for i in range(c.count):
         at = OF_SERIES * i
@@ -209,7 +238,7 @@ def end_of_flights(t: float, c: Any, s: Any) -> float:
 
 
 @exact()
-def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
+def come_to_rest(t: float, c: Choice, s: Strikes, end: float, now: Instant) -> int:
     """Bring the gaps that push to rest: what is left of their rates is taken by another impact."""
     choose_events(c, s, False)
     for i in range(c.dry, c.count):
@@ -229,8 +258,8 @@ def come_to_rest(t: float, c: Any, s: Any, end: float, now: Any) -> int:
     return SAME
 
 
-@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
-def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
+@exact(entry=True)
+def strike(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
     """Change the velocities by the impact of `find_struck`; all rows with bounds are off behind it.
 
     Returns `SAME`, `NO_IMPULSES` where none are found, or `NOT_APPLIED` where joints do not allow the impact.
@@ -255,8 +284,8 @@ def strike(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
     return SAME
 
 
-@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K, _A))
-def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any) -> int:
+@exact(entry=True)
+def gather(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers, hunt: Array) -> int:
     """Bring the gaps of the latest impact to rest where impacts accumulate in the modes chosen behind it.
 
     Returns `OTHERS` where velocities have changed, with all rows with bounds off; else `SAME`, or `NOT_APPLIED`.
@@ -276,8 +305,8 @@ def gather(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any, hunt: Any)
     return OTHERS if come_to_rest(t, c, s, series if series == series else end, now) == SAME else NOT_APPLIED
 
 
-@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A))
-def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
+@exact(entry=True)
+def end_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array) -> int:
     """Bring the gaps of the latest impact to rest where an importer's tolerance loses their flights.
 
     A low flight takes twice the rate at its end over the acceleration. Where an importer finds another duration, its
@@ -301,7 +330,7 @@ def end_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any) -> int:
 
 
 @exact()
-def find_lost(t: float, c: Any, s: Any, w: Any) -> bool:
+def find_lost(t: float, c: Choice, s: Strikes, w: Array) -> bool:
     """Find the open gaps that are 0 again on the way up, while their flight is low: an importer has lost it.
 
     Since the impact a gap has grown by more than its rate times the time, as rates fall in a flight; where less than
@@ -320,8 +349,8 @@ def find_lost(t: float, c: Any, s: Any, w: Any) -> bool:
     return lost
 
 
-@exact(_N(_F8, CHOICE, STRIKES, _A, _A, _A, _K))
-def end_lost_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any) -> int:
+@exact(entry=True)
+def end_lost_flights(t: float, c: Choice, s: Strikes, y: Array, p: Array, w: Array, iw: Integers) -> int:
     """Bring gaps to rest whose flight an importer has lost, see `find_lost`; rows have been read.
 
     Returns as `gather` does.
@@ -336,7 +365,7 @@ def end_lost_flights(t: float, c: Any, s: Any, y: Any, p: Any, w: Any, iw: Any) 
 
 
 @exact()
-def accelerate_in_force(t: float, c: Any, now: Any, iw: Any) -> None:
+def accelerate_in_force(t: float, c: Choice, now: Instant, iw: Integers) -> None:
     """Write the accelerations of coordinates and gaps in the present modes to ``out``."""
     for i in range(c.w.shape[0]):
         c.w[i] = now.w[i]
@@ -349,8 +378,8 @@ def accelerate_in_force(t: float, c: Any, now: Any, iw: Any) -> None:
     c.accelerations(t, c.y, now.p, c.w, c.rate, c.out)
 
 
-@exact(_N(CHOICE, _A))
-def forget_passed(c: Any, w: Any) -> int:
+@exact(entry=True)
+def forget_passed(c: Choice, w: Array) -> int:
     """Forget which coordinates an event has found at rest where the impact at its time has set them in motion."""
     for i in range(c.dry):
         if abs(c.speed[i]) > STILL * row_scale(c, w, i, abi.SPEED):

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.exact import exact
 from symgen.compile.native import types
-from symgen.run.layout.start_records import record_type
-from symgen.run.modes.bounded_rows import CHOICE, SIGN, is_held, stays_shut
+from symgen.compile.native.annotations import Array, Integers, Record
+from symgen.run.modes.bounded_rows import SIGN, Choice, is_held, stays_shut
 
 _F8, _N, _A, _K = types.float64, types.int64, types.float64[::1], types.int64[::1]
 
@@ -20,22 +18,42 @@ SLIP, STICK, REVERSE, HIT, REST, LEAVE = range(6)
 #: Transitions that are kept, the latest ones.
 OF_LOG = 64
 
-#: The latest transitions.
-#: - times, rows, words (shapes (length,)): When [s], of which row, and what it does; number k is at k % length.
-#: - count (shape (1,)): Number of transitions of the run so far.
-#: - signs, shut (shapes (rows,)): Signs of rows, and 1 for closed gaps, before the choice.
-TRANSITIONS = record_type("Transitions", __name__, ("times", _A), ("rows words count", _K), ("signs", _A), ("shut", _K))
-Transitions: Any = TRANSITIONS.constructor
+
+class Transitions(Record):
+    """The latest transitions.
+
+    Attributes
+    ----------
+    times, rows, words : Array, Array of int64, shapes (length,)
+        When [s], of which row, and what it does; number k is at k % length.
+    count : Array of int64, shape (1,)
+        Number of transitions of the run so far.
+    signs, shut : Array, Array of int64, shapes (rows,)
+        Signs of rows, and 1 for closed gaps, before the choice.
+    """
+
+    times: Array
+    rows: Integers
+    words: Integers
+    count: Integers
+    signs: Array
+    shut: Integers
 
 
-def new_transitions(rows: int, length: int = OF_LOG) -> Any:
+def new_transitions(rows: int, length: int = OF_LOG) -> Transitions:
     """Return memory for the latest transitions of some rows with bounds."""
-    integers = (np.zeros(size, dtype=np.int64) for size in (length, length, 1))
-    return Transitions(np.zeros(length), *integers, np.zeros(rows), np.zeros(rows, dtype=np.int64))
+    return Transitions(
+        times=np.zeros(length),
+        rows=np.zeros(length, dtype=np.int64),
+        words=np.zeros(length, dtype=np.int64),
+        count=np.zeros(1, dtype=np.int64),
+        signs=np.zeros(rows),
+        shut=np.zeros(rows, dtype=np.int64),
+    )
 
 
-@exact(_N(_F8, TRANSITIONS, _N, _N))
-def log_transition(t: float, log: Any, row: int, word: int) -> int:
+@exact(entry=True)
+def log_transition(t: float, log: Transitions, row: int, word: int) -> int:
     """Add a transition to the latest ones; return the number of transitions."""
     at = log.count[0] % log.times.shape[0]
     log.times[at], log.rows[at], log.words[at] = t, row, word
@@ -43,8 +61,8 @@ def log_transition(t: float, log: Any, row: int, word: int) -> int:
     return int(log.count[0])
 
 
-@exact(_N(CHOICE, _A, TRANSITIONS))
-def remember_modes(c: Any, w: Any, log: Any) -> int:
+@exact(entry=True)
+def remember_modes(c: Choice, w: Array, log: Transitions) -> int:
     """Keep what rows do before a choice; return their number."""
     for i in range(c.count):
         log.signs[i] = w[c.first + MODE_NUMBERS * i + SIGN]
@@ -52,8 +70,8 @@ def remember_modes(c: Any, w: Any, log: Any) -> int:
     return int(c.count)
 
 
-@exact(_N(_F8, CHOICE, _A, TRANSITIONS))
-def log_changes(t: float, c: Any, w: Any, log: Any) -> int:
+@exact(entry=True)
+def log_changes(t: float, c: Choice, w: Array, log: Transitions) -> int:
     """Log the rows that a choice has changed; return the number of transitions."""
     for i in range(c.count):
         sign, before = w[c.first + MODE_NUMBERS * i + SIGN], log.signs[i]

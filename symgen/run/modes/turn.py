@@ -8,13 +8,13 @@ sweeps, C, FMUs and pages call these functions; single runs make sentences of th
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import Meanings, called
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
 from symgen.run.effects.resets import (
-    OF_EFFECTS,
+    OfEffects,
     apply_resets,
     change_nothing,
     choose_resets,
@@ -25,14 +25,14 @@ from symgen.run.effects.resets import (
 )
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import SIZES
-from symgen.run.layout.start_records import Instant, record_type
+from symgen.run.layout.records import Sizes
+from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
+from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
-    CHOICE,
     DEEP,
     JAMMED,
     NEGATIVE_GAP,
@@ -47,38 +47,52 @@ from symgen.run.modes.bounded_rows import (
     SHARED,
     SIGN,
     TOUCHING,
+    Choice,
     put_off,
 )
 from symgen.run.modes.choice import choose_modes, find_fault, follow_modes, look_anew, measure_margins, read_rows
-from symgen.run.modes.strikes import STRIKES, find_struck, forget_passed, gather, strike
-from symgen.run.modes.transition_log import HIT, TRANSITIONS, log_changes, log_transition, remember_modes
+from symgen.run.modes.strikes import Strikes, find_struck, forget_passed, gather, strike
+from symgen.run.modes.transition_log import HIT, Transitions, log_changes, log_transition, remember_modes
 
 _K = types.int64[::1]
 
-#: Rows with bounds of a run, what its events change, and working memory.
-#: - sizes: See `symgen.run.layout.records`.
-#: - choice, strikes: Modes, and impacts with the effects of all events.
-#: - transitions: The latest ones.
-#: - choosing (shape (events,)): 1 for events at which modes are chosen.
-#: - breaks, reverses, jams, leaves (shapes (events,)): Row that breaks loose, whose rate becomes zero, whose effort
-#:   jams, or whose force becomes zero, at each event; else -1.
-#: - renewed (shape (1,)): 1 where other redundant rows have been left out since somebody looked.
-OF_MODES = record_type(
-    "OfModes",
-    __name__,
-    ("sizes", SIZES),
-    ("choice", CHOICE),
-    ("strikes", STRIKES),
-    ("transitions", TRANSITIONS),
-    ("choosing breaks reverses jams leaves renewed", _K),
-)
-OfModes: Any = OF_MODES.constructor
+
+class OfModes(Record):
+    """Rows with bounds of a run, what its events change, and working memory.
+
+    Attributes
+    ----------
+    sizes : Sizes
+        See `symgen.run.layout.records`.
+    choice, strikes : Choice, Strikes
+        Modes, and impacts with the effects of all events.
+    transitions : Transitions
+        The latest ones.
+    choosing : Array of int64, shape (events,)
+        1 for events at which modes are chosen.
+    breaks, reverses, jams, leaves : Array of int64, shapes (events,)
+        Row that breaks loose, whose rate becomes zero, whose effort jams, or whose force becomes zero, at each
+        event; else -1.
+    renewed : Array of int64, shape (1,)
+        1 where other redundant rows have been left out since somebody looked.
+    """
+
+    sizes: Sizes
+    choice: Choice
+    strikes: Strikes
+    transitions: Transitions
+    choosing: Integers
+    breaks: Integers
+    reverses: Integers
+    jams: Integers
+    leaves: Integers
+    renewed: Integers
 
 
 # -- why there are no modes --------------------------------------------------------------------------------------------
 
 
-def set_of(numbers: Any, count: int) -> float:
+def set_of(numbers: Integers, count: int) -> float:
     """Return some numbers, up to the first negative one, as a sum of powers of 2."""
     total = 0.0
     for j in range(count):
@@ -91,7 +105,7 @@ def set_of(numbers: Any, count: int) -> float:
     return total
 
 
-def refuse_fault(code: int, which: float, first: float, second: float, modes: Any) -> int:
+def refuse_fault(code: int, which: float, first: float, second: float, modes: OfModes) -> int:
     """Keep why there are no modes, with rows and numbers of the sentence; return `NO_MODES`."""
     ends = modes.strikes.effects.ends
     ends[e.FAILURE], ends[e.WHICH], ends[e.FIRST_NUMBER], ends[e.SECOND_NUMBER] = float(code), which, first, second
@@ -99,7 +113,7 @@ def refuse_fault(code: int, which: float, first: float, second: float, modes: An
 
 
 @called
-def refuse_modes(code: int, modes: Any, state: Any) -> int:
+def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
     """Keep why there are no modes, and at which rows; return `NO_MODES`."""
     c, first, second = modes.choice, math.nan, math.nan
     code = find_fault(c, state.w) if code == OUT_OF_RANGE else code
@@ -128,17 +142,17 @@ def refuse_modes(code: int, modes: Any, state: Any) -> int:
 # -- impacts -----------------------------------------------------------------------------------------------------------
 
 
-def meet_impacts(t: float, modes: Any, state: Any) -> int:
+def meet_impacts(t: float, modes: OfModes, state: EventState) -> int:
     """Return `SAME`: a run without gaps has no impacts."""
     return SAME
 
 
-def gather_impacts(t: float, modes: Any, state: Any) -> int:
+def gather_impacts(t: float, modes: OfModes, state: EventState) -> int:
     """Return `SAME`: a run without gaps has no impacts that accumulate."""
     return SAME
 
 
-def strike_gaps(t: float, modes: Any, state: Any) -> int:
+def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Apply the impact of gaps that strike at the present state, and log them; return `SAME`, or why there is none."""
     c, s, control = modes.choice, modes.strikes, state.control
     code = find_struck(t, c, state.y, state.p, state.w, state.iw, control)
@@ -162,7 +176,7 @@ def strike_gaps(t: float, modes: Any, state: Any) -> int:
     return SAME
 
 
-def rest_gaps(t: float, modes: Any, state: Any) -> int:
+def rest_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Bring gaps to rest whose impacts accumulate; return `OTHERS` where any are, else `SAME`, or another code."""
     c, s = modes.choice, modes.strikes
     keep_before(s.rested, state.y)
@@ -177,13 +191,13 @@ def rest_gaps(t: float, modes: Any, state: Any) -> int:
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
-def clear_flags(c: Any) -> None:
+def clear_flags(c: Choice) -> None:
     """Forget which rows an event has found."""
     for i in range(c.count):
         c.broken[i] = c.stopped[i] = c.left[i] = 0
 
 
-def take_chosen(modes: Any, state: Any) -> int:
+def take_chosen(modes: OfModes, state: EventState) -> int:
     """Choose modes at a state whose rows have been read, and have the run go on in them; return `SAME` or a code."""
     c, t = modes.choice, state.clock[abi.TIME]
     code = choose_modes(t, c, state.y, state.p, state.w, state.iw, state.control)
@@ -201,7 +215,7 @@ def take_chosen(modes: Any, state: Any) -> int:
 
 
 @called
-def choose_here(modes: Any, state: Any) -> int:
+def choose_here(modes: OfModes, state: EventState) -> int:
     """Choose modes at the present state, with its impacts, and log what changes; return `DONE` or `NO_MODES`."""
     c, t = modes.choice, state.clock[abi.TIME]
     remember_modes(c, state.w, modes.transitions)
@@ -223,7 +237,7 @@ def choose_here(modes: Any, state: Any) -> int:
     return int(abi.DONE)
 
 
-def begin_modes(modes: Any, state: Any) -> int:
+def begin_modes(modes: OfModes, state: EventState) -> int:
     """Choose modes where a run begins, or something has changed; return `DONE` or `NO_MODES`."""
     c = modes.choice
     clear_flags(c)
@@ -233,12 +247,12 @@ def begin_modes(modes: Any, state: Any) -> int:
     return int(choose_here(modes, state))
 
 
-def open_rows_of(modes: Any, state: Any) -> None:
+def open_rows_of(modes: OfModes, state: EventState) -> None:
     """Take all rows out of force, where closed gaps may strike, and keep which gaps are closed."""
     put_off(modes.choice, state.w)
 
 
-def forget_modes(modes: Any) -> None:
+def forget_modes(modes: OfModes) -> None:
     """Forget impacts, transitions and resets of the run before."""
     forget_resets(modes.strikes.effects)
     for i in range(modes.strikes.series.shape[0]):
@@ -249,13 +263,13 @@ def forget_modes(modes: Any) -> None:
 # -- the turn ----------------------------------------------------------------------------------------------------------
 
 
-def is_sliding(c: Any, w: Any, i: int) -> bool:
+def is_sliding(c: Choice, w: Array, i: int) -> bool:
     """Return whether a coordinate slides."""
     return bool(w[c.first + MODE_NUMBERS * i + SIGN] != 0.0)
 
 
 @called
-def take_turn(code: int, modes: Any, state: Any) -> int:
+def take_turn(code: int, modes: OfModes, state: EventState) -> int:
     """Do what happens at the events noted by a loop: resets, then impacts and modes.
 
     Parameters
@@ -304,14 +318,14 @@ def take_turn(code: int, modes: Any, state: Any) -> int:
 
 
 @called
-def take_resets(code: int, effects: Any, state: Any) -> int:
+def take_resets(code: int, effects: OfEffects, state: EventState) -> int:
     """Do what happens at the events of a run without rows with bounds; parameters and result as of `take_turn`."""
     if code != abi.MET:
         return code
     return int(apply_resets(choose_resets(effects, state), effects, state))
 
 
-def change_state(last: int, effects: Any, state: Any) -> int:
+def change_state(last: int, effects: OfEffects, state: EventState) -> int:
     """Return whether events end a run that no event changes, see `change_nothing`."""
     return int(change_nothing(last, effects, state))
 
@@ -324,4 +338,4 @@ STRIKING = Meanings(
 )
 PRESSED = Meanings("runs with bounds that depend on reactions", choose_modes=choose_pressed)
 #: Type of what follows the functions of a model, where events change a run, and where rows have bounds.
-FURTHER = {"effects": OF_EFFECTS, "modes": OF_MODES}
+FURTHER = {"effects": record_type(OfEffects), "modes": record_type(OfModes)}

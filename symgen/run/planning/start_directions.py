@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from symgen.base.errors import InputError
 from symgen.base.vocabulary.rotations import composed_rotation
+from symgen.compile.native import types
 from symgen.describe.formulas.duals import Dual, Duals, dual, dual_slopes, parameter_duals
 from symgen.describe.formulas.evaluate import parameter_values, scalars
 from symgen.describe.formulas.start import described_start
@@ -119,7 +120,7 @@ class StartDirections:
     def _model(self) -> DirectedModel:
         return DirectedModel(self.compiled, lanes_of(8))
 
-    def _derived(self, function: Any, kind: Any, y: Array, p: Array, length: int = 0) -> Array:
+    def _derived(self, function: Any, kind: types.FunctionType, y: Array, p: Array, length: int = 0) -> Array:
         """Return the directions of what a function writes, to ``out`` or to the scratch array, shape (rows, n).
 
         Parameters

@@ -14,20 +14,21 @@ from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import Meanings, called, compiled_loop
 from symgen.compile.loopcode.vectors import copied
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
-from symgen.run.layout.records import CHUNK, SPAN, ModelSystem
-from symgen.run.layout.start_records import record_type
+from symgen.run.layout.records import CHUNK, SPAN, RowChunk, Span, System
 from symgen.run.loops import search_records as records
-from symgen.run.loops.event_loop import EVENT_STATE, decided, evaluate_events
-from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct, opened, prepare_search
+from symgen.run.loops.event_loop import EVENT_STATE, EventRun, EventState, EventSystem, decided, evaluate_events, opened
+from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct, prepare_search
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.switching import is_sought, taken_for
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
 from symgen.run.modes.choice import read_rows
 from symgen.run.modes.strikes import end_flights, end_lost_flights
-from symgen.run.modes.turn import rest_gaps
-from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, meet, recipe_of, system_of_steps
-from symgen.run.rows.row_events import begin_row_in_modes
+from symgen.run.modes.turn import OfModes, rest_gaps
+from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet, recipe_of, system_of_steps
+from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
 
@@ -44,32 +45,37 @@ NEXT, BEHIND, RESTS = range(3)
 #: has fallen to 0 at this part of what lifts it; and the least value.
 _NEAR, _FALLEN, _TINY = 2.0**-36, 0.25, 1e-300
 
-#: Times for an importer [s].
-EXCHANGE = record_type("Exchange", __name__, ("times", _A))
-Exchange: Any = EXCHANGE.constructor
+
+class Exchange(Record):
+    """Times for an importer [s]."""
+
+    times: Array
+
+
+EXCHANGE = record_type(Exchange)
 
 
 # -- seams -------------------------------------------------------------------------------------------------------------
 
 
-def next_time(model: Any, state: Any) -> float:
+def next_time(model: System, state: EventState) -> float:
     """Return infinity: formulas of a run without seams neither jump nor have kinks over time."""
     return math.inf
 
 
-def next_seam(model: Any, state: Any) -> float:
+def next_seam(model: System, state: EventState) -> float:
     """Return the time of the next seam [s]."""
     _, seams, _, _, _ = model
     return float(due(seams, state.control[abi.PASSED]))
 
 
-def pass_seams(model: Any, span: Any, state: Any) -> int:
+def pass_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
     """Return `QUIET`: a run without seams passes none."""
     return QUIET
 
 
 @called
-def pass_due_seams(model: Any, span: Any, state: Any) -> int:
+def pass_due_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
     """Pass the seams that are due; return `HAPPENED` where modes have to be chosen behind them, or `STUCK`."""
     system, _, modes = model
     _, seams, _, prepare, prepare_law = system
@@ -93,25 +99,25 @@ def pass_due_seams(model: Any, span: Any, state: Any) -> int:
 # -- rests -------------------------------------------------------------------------------------------------------------
 
 
-def forget_rests(modes: Any, times: Any, is_begun: bool) -> None:
+def forget_rests(modes: OfModes, times: Array, is_begun: bool) -> None:
     """Do nothing: no gap of a run without gaps comes to rest."""
 
 
-def rest_lost_gaps(t: float, modes: Any, state: Any) -> int:
+def rest_lost_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Return `SAME`: a run without gaps has no flights."""
     return SAME
 
 
-def note_rests(t: float, modes: Any, times: Any) -> None:
+def note_rests(t: float, modes: OfModes, times: Array) -> None:
     """Do nothing: no gap of a run without gaps comes to rest."""
 
 
-def next_rest(t: float, modes: Any, times: Any) -> float:
+def next_rest(t: float, modes: OfModes, times: Array) -> float:
     """Return infinity: no gap of a run without gaps comes to rest."""
     return math.inf
 
 
-def forget_rests_of_gaps(modes: Any, times: Any, is_begun: bool) -> None:
+def forget_rests_of_gaps(modes: OfModes, times: Array, is_begun: bool) -> None:
     """Forget which gaps have just come to rest; and where a run begins, all of them."""
     left = modes.strikes.left
     for i in range(left.shape[0]):
@@ -119,7 +125,7 @@ def forget_rests_of_gaps(modes: Any, times: Any, is_begun: bool) -> None:
         times[RESTS + i] = times[RESTS + i] if is_begun else 0.0
 
 
-def rest_gaps_in_flight(t: float, modes: Any, state: Any) -> int:
+def rest_gaps_in_flight(t: float, modes: OfModes, state: EventState) -> int:
     """Bring gaps to rest that an importer finds at 0 on the way up; return `OTHERS` where any are, or another code."""
     c = modes.choice
     c.depth[0] = math.inf
@@ -129,14 +135,14 @@ def rest_gaps_in_flight(t: float, modes: Any, state: Any) -> int:
     return int(code)
 
 
-def note_rests_of_gaps(t: float, modes: Any, times: Any) -> None:
+def note_rests_of_gaps(t: float, modes: OfModes, times: Array) -> None:
     """Note when the flights end of gaps that have just come to rest."""
     left = modes.strikes.left
     for i in range(left.shape[0]):
         times[RESTS + i] = t + left[i] if left[i] > 0.0 else times[RESTS + i]
 
 
-def next_rest_of_gaps(t: float, modes: Any, times: Any) -> float:
+def next_rest_of_gaps(t: float, modes: OfModes, times: Array) -> float:
     """Return the first time behind `t` at which flights end that have been left out; else infinity."""
     first = math.inf
     for i in range(modes.strikes.left.shape[0]):
@@ -149,12 +155,12 @@ def next_rest_of_gaps(t: float, modes: Any, times: Any) -> float:
 
 
 @called
-def indicate_run(t: float, y: Any, model: Any, state: Any, values: Any) -> int:
+def indicate_run(t: float, y: Array, model: ModelWithModes, state: EventState, values: Array) -> int:
     """Write the switching functions at a state, counted as the search for events counts them; return their number.
 
     They pass 0 at events alone: a margin that its mode makes positive, whatever rounding makes of it, is positive.
     """
-    system = ModelSystem(*system_of_steps(model[0]))
+    system = EventSystem(*system_of_steps(model[0]))
     run = opened(system.sizes, state)
     hunt, n, h = run.hunt, int(run.hunt[records.COUNT]), max(t - run.clock[abi.TIME], 0.0)
     evaluate_events(system, run, t, y)
@@ -164,7 +170,7 @@ def indicate_run(t: float, y: Any, model: Any, state: Any, values: Any) -> int:
     return n
 
 
-def reach(hunt: Any, n: int) -> None:
+def reach(hunt: Array, n: int) -> None:
     """Have functions that are about to pass 0, and are 0 up to rounding, pass it here.
 
     An importer that has located an event stands on it up to rounding, on either side. A margin that sleeps passes where
@@ -188,7 +194,7 @@ def reach(hunt: Any, n: int) -> None:
 
 
 @called
-def look_at(system: Any, run: Any, t: float) -> int:
+def look_at(system: EventSystem, run: EventRun, t: float) -> int:
     """Note the events between the last state and this one; return `QUIET`, `HAPPENED` or `STUCK`."""
     hunt, n, h = run.hunt, int(run.hunt[records.COUNT]), max(t - run.clock[abi.TIME], 0.0)
     m = records.N_VALUES * n
@@ -213,7 +219,16 @@ def look_at(system: Any, run: Any, t: float) -> int:
 
 
 @called
-def handle(t: float, system: Any, run: Any, model: Any, span: Any, chunk: Any, state: Any, visible: Any) -> int:
+def handle(
+    t: float,
+    system: EventSystem,
+    run: EventRun,
+    model: ModelWithModes,
+    span: Span,
+    chunk: RowChunk,
+    state: EventState,
+    visible: Visible,
+) -> int:
     """Handle the event at which an importer stands: modes, impacts, resets, seams; return as `exchange_run`."""
     _, _, modes = model
     control, numbers, code = state.control, visible.numbers, QUIET
@@ -247,7 +262,14 @@ def handle(t: float, system: Any, run: Any, model: Any, span: Any, chunk: Any, s
 
 
 def exchange_run(
-    doing: int, t: float, model: Any, span: Any, chunk: Any, state: Any, visible: Any, exchange: Any
+    doing: int,
+    t: float,
+    model: ModelWithModes,
+    span: Span,
+    chunk: RowChunk,
+    state: EventState,
+    visible: Visible,
+    exchange: Exchange,
 ) -> int:
     """Take the state of an importer, and do what it asks for.
 
@@ -267,7 +289,7 @@ def exchange_run(
     int
         `QUIET`, `HAPPENED`, `OVER` or `STUCK`.
     """
-    system = ModelSystem(*system_of_steps(model[0]))
+    system = EventSystem(*system_of_steps(model[0]))
     run, code = opened(system.sizes, state), QUIET
     _, _, modes = model
     if doing != ASK:
@@ -295,7 +317,7 @@ def exchange_run(
     return int(code)
 
 
-def rest_low_gaps(t: float, modes: Any, state: Any) -> int:
+def rest_low_gaps(t: float, modes: OfModes, state: EventState) -> int:
     """Bring gaps to rest as `rest_gaps` does, and where an importer's tolerance loses their flights."""
     c, count = modes.choice, modes.strikes.pushing[0]
     code = rest_gaps(t, modes, state)
@@ -321,7 +343,7 @@ _RESTING = Meanings(
 _SEAMED = Meanings("FMUs for model exchange with inputs that jump", next_time=next_seam, pass_seams=pass_due_seams)
 
 
-def exchanged_run(loop: Any, traits: Traits) -> tuple[Any, Any]:
+def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:
     """Return `indicate_run` and `exchange_run` for a scheme, made at the first use; parameters as for `kept_run`."""
     key = loop, traits
     if key not in _loops:

@@ -5,25 +5,22 @@ It asks and answers as a run with modes does, see `symgen.run.printed.exchanged_
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.exact import copy_numbers, exact
-from symgen.compile.native import types
-from symgen.run.effects.applying import EFFECT_MODEL, EFFECT_WORK, apply_effects
-from symgen.run.effects.stepping import STEP_MODEL, STEP_WORK, passes
+from symgen.compile.native.annotations import Integers
+from symgen.run.effects.applying import EffectModel, EffectWork, apply_effects
+from symgen.run.effects.stepping import StepModel, StepWork, passes
 from symgen.run.layout import abi
-from symgen.run.layout.start_records import INSTANT
+from symgen.run.layout.start_records import Instant
 from symgen.run.printed.exchanged_run import COMPLETE, HANDLE, HAPPENED, OVER, QUIET, STUCK
-from symgen.run.printed.partition import PARTITION, PARTITION_MODEL, POOR, quality_of_choice
-
-_F, _N, _K = types.float64, types.int64, types.int64[::1]
+from symgen.run.printed.partition import POOR, quality_of_choice
+from symgen.run.printed.partition_tables import Partition, PartitionModel
 
 #: Coordinates, steps, the effects of events, and 1 for each event that ends the run, else 0.
-EXCHANGED_MODEL = types.RecordType((PARTITION_MODEL, STEP_MODEL, EFFECT_MODEL, _K))
+ExchangedModel = tuple[PartitionModel, StepModel, EffectModel, Integers]
 
 
 @exact()
-def look(steps: Any, t: float, now: Any, happened: Any, work: Any) -> int:
+def look(steps: StepModel, t: float, now: Instant, happened: Integers, work: StepWork) -> int:
     """Note the events that have happened since the last look; return their number."""
     _, _, _, _, happens, directions = steps
     count = 0
@@ -38,7 +35,9 @@ def look(steps: Any, t: float, now: Any, happened: Any, work: Any) -> int:
 
 
 @exact()
-def handle(model: Any, t: float, now: Any, happened: Any, work: Any, impact: Any) -> int:
+def handle(
+    model: ExchangedModel, t: float, now: Instant, happened: Integers, work: StepWork, impact: EffectWork
+) -> int:
     """Apply the events that have happened; return as `exchange_run` does."""
     _, steps, effects, ends = model
     _, _, _, _, changes = effects
@@ -55,16 +54,24 @@ def handle(model: Any, t: float, now: Any, happened: Any, work: Any, impact: Any
     return int(code)
 
 
-@exact(types.int64(EXCHANGED_MODEL, _N, _F, INSTANT, _K, _K, STEP_WORK, EFFECT_WORK, PARTITION))
+@exact(entry=True)
 def exchange_steps(
-    model: Any, doing: int, t: float, now: Any, iw: Any, happened: Any, work: Any, impact: Any, part: Any
+    model: ExchangedModel,
+    doing: int,
+    t: float,
+    now: Instant,
+    iw: Integers,
+    happened: Integers,
+    work: StepWork,
+    impact: EffectWork,
+    part: Partition,
 ) -> int:
     """Take the state of an importer, and do what it asks for.
 
     Parameters
     ----------
     model : tuple
-        See `EXCHANGED_MODEL`.
+        See `ExchangedModel`.
     doing : int
         `COMPLETE`, `HANDLE`, or `ASK`, from which on events are looked for.
     t : float

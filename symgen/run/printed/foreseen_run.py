@@ -12,11 +12,11 @@ from typing import Any
 
 from symgen.compile.loopcode.loop_instances import called, compiled_loop
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
 from symgen.run.layout import abi
-from symgen.run.layout.records import STATE
-from symgen.run.layout.start_records import record_type
+from symgen.run.layout.records import STATE, State
 from symgen.run.loops.event_loop import EVENT_STATE
-from symgen.run.loops.seams import SEAMS
+from symgen.run.loops.seams import SEAMS, Seams
 
 _A, _K, _F, _N = types.float64[::1], types.int64[::1], types.float64, types.int64
 
@@ -31,36 +31,66 @@ _ROUNDING = 2.0**-52
 #: Parts of a sample's interval and of a golden section.
 _SPREAD, _GOLDEN = 0.6180339887498949, 0.3819660112501051
 
-#: Passages of formulas in time.
-#: - lines: Values of formulas: of a straight line that at 0 and the slope.
-#: - until, shortest: End of a run, where it is not in `ends`, and the largest distance of samples [s].
-#: - step: Distance of the grid of constant steps [s], 0 where steps vary.
-#: - same, beside, apart: Distances as parts of a run: passages that are one, steps beside a side, and on both sides of
-#:   what is skipped.
-#: - end: Place of the end of a run in `ends`, -1 where it is not there.
-#: - slots, straight, kinds (shapes (k,)): Of each formula its place in `out`, 1 for a straight line, what it does.
-#: - first (shape (k + 1,)): First level of each formula.
-#: - levels, periods: Levels in ascending order; period of the levels of each formula, 0 without one.
-#: - out, ends: Values of all formulas; what a run shows.
-#: - known (shape (2,)): End and begin of the present window [s].
-#: - moments, flags (shapes (room,)), found (shape (2,)): Passages in the window, their number, and 1 where some of them
-#:   have no room.
-FORESIGHT = record_type(
-    "Foresight",
-    __name__,
-    ("lines", abi.OBSERVE),
-    ("until shortest step same beside apart", _F),
-    ("end", _N),
-    ("slots straight kinds first", _K),
-    ("levels periods out ends known moments", _A),
-    ("flags found", _K),
-)
-Foresight: Any = FORESIGHT.constructor
+
+class Foresight(Record):
+    """Passages of formulas in time.
+
+    Attributes
+    ----------
+    lines : function
+        Values of formulas: of a straight line that at 0 and the slope.
+    until, shortest : float
+        End of a run, where it is not in `ends`, and the largest distance of samples [s].
+    step : float
+        Distance of the grid of constant steps [s], 0 where steps vary.
+    same, beside, apart : float
+        Distances as parts of a run: passages that are one, steps beside a side, and on both sides of what is
+        skipped.
+    end : int
+        Place of the end of a run in `ends`, -1 where it is not there.
+    slots, straight, kinds : Array of int64, shapes (k,)
+        Of each formula its place in `out`, 1 for a straight line, what it does.
+    first : Array of int64, shape (k + 1,)
+        First level of each formula.
+    levels, periods : Array
+        Levels in ascending order; period of the levels of each formula, 0 without one.
+    out, ends : Array
+        Values of all formulas; what a run shows.
+    known : Array, shape (2,)
+        End and begin of the present window [s].
+    moments, flags : Array, Array of int64, shapes (room,), found (shape (2,))
+        Passages in the window, their number, and 1 where some of them have no room.
+    """
+
+    lines: abi.Observe
+    until: float
+    shortest: float
+    step: float
+    same: float
+    beside: float
+    apart: float
+    end: int
+    slots: Integers
+    straight: Integers
+    kinds: Integers
+    first: Integers
+    levels: Array
+    periods: Array
+    out: Array
+    ends: Array
+    known: Array
+    moments: Array
+    flags: Integers
+    found: Integers
+
+
+FORESIGHT = record_type(Foresight)
+
 COUNT, DROPPED = range(2)
 TO, FROM = range(2)
 
 
-def length_of(f: Any) -> float:
+def length_of(f: Foresight) -> float:
     """Return the length of a run [s]."""
     return float(f.ends[f.end] if f.end >= 0 else f.until)
 
@@ -69,7 +99,7 @@ def length_of(f: Any) -> float:
 
 
 @called
-def levels_below(f: Any, j: int, x: float) -> int:
+def levels_below(f: Foresight, j: int, x: float) -> int:
     """Return the number of levels of formula j below a value; 0 where the value is undefined."""
     begin, count, period, number = f.first[j], f.first[j + 1] - f.first[j], f.periods[j], 0
     if not math.isfinite(x):
@@ -93,7 +123,7 @@ def levels_below(f: Any, j: int, x: float) -> int:
 
 
 @called
-def level_at(f: Any, j: int, number: int) -> float:
+def level_at(f: Foresight, j: int, number: int) -> float:
     """Return the level of formula j with a number."""
     begin, count, period = f.first[j], f.first[j + 1] - f.first[j], f.periods[j]
     if period > 0.0:
@@ -107,7 +137,7 @@ def level_at(f: Any, j: int, number: int) -> float:
 
 
 @called
-def note_instant(f: Any, t: float, kind: int) -> None:
+def note_instant(f: Foresight, t: float, kind: int) -> None:
     """Note a passage; those at the same time are one. Where there is no room, the last one is dropped.
 
     At the start of a run of constant steps sides and gaps count; no step could end there for others.
@@ -143,7 +173,7 @@ def joined(flags: int, kind: int) -> int:
 
 
 @called
-def note_line(f: Any, j: int, start: float, end: float) -> None:
+def note_line(f: Foresight, j: int, start: float, end: float) -> None:
     """Note the passages of a straight line behind `start` up to `end`."""
     value, slope, begin, kind = f.out[f.slots[j]], f.out[f.slots[j] + 1], f.first[j], f.kinds[j]
     if slope == 0.0 or not math.isfinite(slope) or not math.isfinite(value):
@@ -161,14 +191,14 @@ def note_line(f: Any, j: int, start: float, end: float) -> None:
 
 
 @called
-def formula_at(f: Any, state: Any, j: int, t: float) -> float:
+def formula_at(f: Foresight, state: State, j: int, t: float) -> float:
     """Return the value of formula j at a time."""
     f.lines(t, state.y, state.p, state.w, state.y, f.out)
     return float(f.out[f.slots[j]])
 
 
 @called
-def passed_at(f: Any, state: Any, j: int, number: int, low: float, high: float) -> float:
+def passed_at(f: Foresight, state: State, j: int, number: int, low: float, high: float) -> float:
     """Return the first time, to rounding, at which formula j is on the side of a level on which it is at `high`."""
     at = level_at(f, j, number)
     above = 1 if formula_at(f, state, j, high) > at else 0
@@ -183,7 +213,7 @@ def passed_at(f: Any, state: Any, j: int, number: int, low: float, high: float) 
 
 
 @called
-def pass_levels(f: Any, state: Any, j: int, notes: int, a: float, b: float, below: int, above: int) -> int:
+def pass_levels(f: Foresight, state: State, j: int, notes: int, a: float, b: float, below: int, above: int) -> int:
     """Note, where `notes` is 1, when formula j passes the levels with numbers between two; return their number."""
     low, high = min(below, above), max(below, above)
     if notes != 0:
@@ -193,7 +223,7 @@ def pass_levels(f: Any, state: Any, j: int, notes: int, a: float, b: float, belo
 
 
 @called
-def turned_at(f: Any, state: Any, j: int, sign: float, low: float, high: float) -> float:
+def turned_at(f: Foresight, state: State, j: int, sign: float, low: float, high: float) -> float:
     """Return the time at which formula j times a sign is least, by golden sections."""
     for _ in range(60):
         a, b = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
@@ -205,7 +235,7 @@ def turned_at(f: Any, state: Any, j: int, sign: float, low: float, high: float) 
 
 
 @called
-def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, notes: int) -> int:
+def sample(f: Foresight, state: State, j: int, start: float, end: float, count: int, notes: int) -> int:
     """Return the number of passages of formula j between samples, `count` of them; note them where `notes` is 1."""
     passages = 0
     ta = tb = start
@@ -230,7 +260,7 @@ def sample(f: Any, state: Any, j: int, start: float, end: float, count: int, not
 
 
 @called
-def search_curve(f: Any, state: Any, j: int, start: float, end: float) -> None:
+def search_curve(f: Foresight, state: State, j: int, start: float, end: float) -> None:
     """Note the passages of a formula that is no straight line; where they are too many, none is noted."""
     before, count, most = -1, _FIRST, min((end - start) / f.shortest, 0.5 * _MOST)
     while count < most:
@@ -247,7 +277,7 @@ def search_curve(f: Any, state: Any, j: int, start: float, end: float) -> None:
 # -- seams -------------------------------------------------------------------------------------------------------------
 
 
-def add_seam(seams: Any, t: float, skips: int) -> None:
+def add_seam(seams: Seams, t: float, skips: int) -> None:
     """Add a seam behind the last one; at the time of the last one there is none to add unless a run skips."""
     n = seams.rows[1]
     before = seams.times[n - 1] if n > 0 else -1.0
@@ -258,7 +288,7 @@ def add_seam(seams: Any, t: float, skips: int) -> None:
 
 
 @called
-def lay_seams(f: Any, seams: Any, end: float) -> None:
+def lay_seams(f: Foresight, seams: Seams, end: float) -> None:
     """Lay out the seams at the passages of a window, and one at its end."""
     n, whole = f.found[COUNT], length_of(f)
     for i in range(n):
@@ -282,7 +312,7 @@ def lay_seams(f: Any, seams: Any, end: float) -> None:
         add_seam(seams, end, 0)
 
 
-def foresee_run(is_start: int, t: float, foresight: Any, seams: Any, state: Any) -> int:
+def foresee_run(is_start: int, t: float, foresight: Foresight, seams: Seams, state: State) -> int:
     """Lay out the seams of a run at its start, or of the next window where the present one ends.
 
     Parameters

@@ -9,36 +9,42 @@ from typing import Any
 
 from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, viewing
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.effects.applying import APPLIED, apply_effects
+from symgen.run.effects.resets import OfEffects
+from symgen.run.layout.records import State
 from symgen.run.layout.start_records import Instant
 from symgen.run.modes.bounded_rows import open_rows
+from symgen.run.modes.turn import OfModes
 from symgen.run.printed.kept_run import Traits, recipe_of
+from symgen.run.rows.row_events import ModelWithEffects
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
 
 
 @viewing
-def effects_alone(further: Any) -> Any:
+def effects_alone(further: OfEffects) -> OfEffects:
     """Return the effects of events in a run without rows with bounds."""
     return further
 
 
 @viewing
-def effects_beside_modes(further: Any) -> Any:
+def effects_beside_modes(further: OfModes) -> OfEffects:
     """Return the effects of events in a run with rows with bounds."""
     return further.strikes.effects
 
 
-def leave_alone(further: Any, w: Any) -> None:
+def leave_alone(further: OfEffects, w: Array) -> None:
     """Do nothing: a run without rows with bounds has no modes."""
 
 
-def open_chosen(further: Any, w: Any) -> None:
+def open_chosen(further: OfModes, w: Array) -> None:
     """Take the rows with bounds of a run out of force."""
     open_rows(further.choice, w)
 
 
-def reset_run(event: int, t: float, y: Any, model: Any, state: Any) -> int:
+def reset_run(event: int, t: float, y: Array, model: ModelWithEffects, state: State) -> int:
     """Change a state as an event does; return 0, or 1 where joints or other effects do not allow it.
 
     Parameters
@@ -67,7 +73,7 @@ _MODED = Meanings("resets of FMUs with bounded rows", effects_alone=effects_besi
 _loops: dict[Any, Any] = {}
 
 
-def kept_reset(loop: Any, traits: Traits) -> Any:
+def kept_reset(loop: RuntimeFunction, traits: Traits) -> Any:
     """Return `reset_run` for a scheme, made at the first use; parameters as for `kept_run`."""
     key = loop, traits
     if key not in _loops:

@@ -14,12 +14,14 @@ from typing import Any, NamedTuple
 
 from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, viewing
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import CHUNK, SPAN, STATE, Span
-from symgen.run.layout.start_records import record_type
+from symgen.run.layout.records import CHUNK, SPAN, STATE, RowChunk, Sizes, Span, State, System
+from symgen.run.layout.scheme_records import TableauRecord
 from symgen.run.loops import frame
-from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS
+from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS, EventState
 from symgen.run.loops.frame_parts import ADAPTIVE
 from symgen.run.loops.schemes.readable import forget_step
 from symgen.run.loops.seams import SEAMS, between_seams, due
@@ -40,21 +42,44 @@ REACHED, ENDED, FAILED = range(3)
 SHOWN_TIME, END_TIME = range(2)
 END_CODE, ENDING, STANDS, CHANGED = range(4)
 
-#: The output of a call: its time, the state, and the status with modes behind it.
-KEPT_OUTPUT = record_type("KeptOutput", __name__, ("times states status", _A))
-KeptOutput: Any = KEPT_OUTPUT.constructor
-#: What a caller sees and may change, and what ends runs.
-#: - y, clock (shapes (ny,), (1,) or (2,)): State and times [s], see above.
-#: - numbers (shape (4,)): See above.
-#: - ends (shape (events,)): 1 for events that end the run.
-VISIBLE = record_type("Visible", __name__, ("y clock", _A), ("numbers ends", _K))
-Visible: Any = VISIBLE.constructor
+
+class KeptOutput(Record):
+    """The output of a call: its time, the state, and the status with modes behind it."""
+
+    times: Array
+    states: Array
+    status: Array
+
+
+KEPT_OUTPUT = record_type(KeptOutput)
+
+
+class Visible(Record):
+    """What a caller sees and may change, and what ends runs.
+
+    Attributes
+    ----------
+    y, clock : Array, shapes (ny,), (1,) or (2,)
+        State and times [s], see above.
+    numbers : Array of int64, shape (4,)
+        See above.
+    ends : Array of int64, shape (events,)
+        1 for events that end the run.
+    """
+
+    y: Array
+    clock: Array
+    numbers: Integers
+    ends: Integers
+
+
+VISIBLE = record_type(Visible)
 
 
 # -- outputs -----------------------------------------------------------------------------------------------------------
 
 
-def show(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+def show(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
     """Write the only output: the state, the measures of ``accept``, angles with counted turns and modes of rows."""
     for i in range(sizes.ny):
         outputs.states[i] = y[i]
@@ -64,12 +89,14 @@ def show(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
-def read_step(system: Any, scheme: Any, state: Any, outputs: Any) -> int:
+def read_step(system: System, scheme: TableauRecord, state: State, outputs: KeptOutput) -> int:
     """Return 0: nothing can be read of a constant step."""
     return 0
 
 
-def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs: Any) -> int:
+def return_to_shown(
+    until: float, scheme: TableauRecord, visible: Visible, state: EventState, outputs: KeptOutput
+) -> int:
     """Have the run go on from what is shown, where the caller has changed it, or the run stands behind a time [s].
 
     Returns 1 where the caller has changed the state, else 0.
@@ -95,35 +122,35 @@ def return_to_shown(until: float, scheme: Any, visible: Any, state: Any, outputs
     return 0 if unchanged or control[abi.BEGUN] == 0 else 1
 
 
-def let_go(model: Any, state: Any) -> None:
+def let_go(model: System, state: State) -> None:
     """Do nothing: a run without rows with bounds has none in force."""
 
 
 # -- seams -------------------------------------------------------------------------------------------------------------
 
 
-def begin_at_seams(model: Any, span: Any, state: Any) -> int:
+def begin_at_seams(model: System, span: Span, state: EventState) -> int:
     """Choose modes where a run without seams begins; return `DONE` or the code of an end."""
     return int(begin_choice(model, span, state))
 
 
-def return_before_seams(system: Any, state: Any) -> None:
+def return_before_seams(system: System, state: EventState) -> None:
     """Do nothing: a run without seams has passed none."""
 
 
 @viewing
-def system_of_steps(system: Any) -> Any:
+def system_of_steps(system: System) -> Any:
     """Return the first argument of the loop over steps."""
     return system
 
 
 @viewing
-def system_between_seams(system: Any) -> Any:
+def system_between_seams(system: System) -> Any:
     """Return the first argument of the loop over steps between two seams."""
     return system[0]
 
 
-def forget_later_seams(system: Any, state: Any) -> None:
+def forget_later_seams(system: System, state: State) -> None:
     """Forget that seams behind the present time have been passed."""
     _, seams, _, _, _ = system
     while state.control[abi.PASSED] > 0 and due(seams, state.control[abi.PASSED] - 1) > state.clock[abi.TIME]:
@@ -133,21 +160,21 @@ def forget_later_seams(system: Any, state: Any) -> None:
 # -- the run -----------------------------------------------------------------------------------------------------------
 
 
-def assume_step(model: Any, span: Any) -> None:
+def assume_step(model: System, span: Span) -> None:
     """Do nothing: no modes depend on the step that is assumed before the first one."""
 
 
-def assume_first_step(model: Any, span: Any) -> None:
+def assume_first_step(model: System, span: Span) -> None:
     """Set the step that laws assume before the first one."""
     model[2].choice.step[0] = first_step(span)
 
 
-def let_rows_go(model: Any, state: Any) -> None:
+def let_rows_go(model: System, state: EventState) -> None:
     """Take all rows out of force, and keep which gaps are closed."""
     open_rows_of(model[2], state)
 
 
-def start_run(model: Any, limits: Any, chunk: Any, state: Any, visible: Any) -> int:
+def start_run(model: System, limits: Array, chunk: RowChunk, state: EventState, visible: Visible) -> int:
     """Forget the run before: what is shown is the start of another one.
 
     Parameters
@@ -168,7 +195,7 @@ def start_run(model: Any, limits: Any, chunk: Any, state: Any, visible: Any) -> 
     return 0
 
 
-def steps_until(span: Any, until: float, pause: float, duration: float) -> Any:
+def steps_until(span: Span, until: float, pause: float, duration: float) -> Span:
     """Return a span to a time [s], or to a number of steps, of a run that takes a time [s]."""
     return Span(
         *(span.step, span.largest, until, span.end, duration, span.rtol, span.atol, span.relative),
@@ -176,7 +203,7 @@ def steps_until(span: Any, until: float, pause: float, duration: float) -> Any:
     )
 
 
-def ending_event(chunk: Any, visible: Any, t: float) -> int:
+def ending_event(chunk: RowChunk, visible: Visible, t: float) -> int:
     """Return the number of the event that ends the run at a time, -1 for none."""
     for k in range(visible.ends.shape[0]):
         at = e.HEAD_OF_EVENTS + e.OF_EVENT * k
@@ -185,7 +212,7 @@ def ending_event(chunk: Any, visible: Any, t: float) -> int:
     return -1
 
 
-def meet(model: Any, chunk: Any, state: Any, visible: Any) -> int:
+def meet(model: System, chunk: RowChunk, state: EventState, visible: Visible) -> int:
     """Take the events at which a step has ended; return `MET` to go on, `DONE` where one ends the run."""
     code = int(take_notes(abi.MET, 0, model, chunk, state))
     visible.numbers[STANDS] = 0
@@ -194,7 +221,15 @@ def meet(model: Any, chunk: Any, state: Any, visible: Any) -> int:
     return code
 
 
-def go_on(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: Any, visible: Any) -> int:
+def go_on(
+    model: System,
+    scheme: TableauRecord,
+    span: Span,
+    chunk: RowChunk,
+    state: EventState,
+    outputs: KeptOutput,
+    visible: Visible,
+) -> int:
     """Make steps up to an output or to the end of a span; return the code of the loop's end, `DONE` at the output."""
     system, observers = model[0], model[1]
     control, clock, until = state.control, state.clock, outputs.times[0]
@@ -233,7 +268,14 @@ def go_on(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: A
 
 
 def advance_run(
-    through: int, model: Any, scheme: Any, span: Any, chunk: Any, state: Any, outputs: Any, visible: Any
+    through: int,
+    model: System,
+    scheme: TableauRecord,
+    span: Span,
+    chunk: RowChunk,
+    state: EventState,
+    outputs: KeptOutput,
+    visible: Visible,
 ) -> int:
     """Take a run on to the end of `span`, and show its state there.
 
@@ -290,7 +332,7 @@ def advance_run(
     return FAILED if code != abi.DONE else ENDED if ended else REACHED
 
 
-def integrate(*arguments: Any) -> int:
+def integrate(*arguments: object) -> int:
     """Mark the place of the loop, which `kept_run` inserts: it is never called."""
     raise NotImplementedError
 
@@ -367,7 +409,7 @@ class KeptLoops(NamedTuple):
     steps: Any
 
 
-def kept_run(loop: Any, traits: Traits) -> KeptLoops:
+def kept_run(loop: RuntimeFunction, traits: Traits) -> KeptLoops:
     """Return the functions around the loop of a scheme, made at the first use.
 
     Parameters
@@ -392,7 +434,7 @@ def kept_run(loop: Any, traits: Traits) -> KeptLoops:
     return _loops[key]
 
 
-def recipe_of(loop: Any, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
+def recipe_of(loop: RuntimeFunction, traits: Traits) -> tuple[str, dict[str, Any], Any, types.Kind]:
     """Return a name of functions around the loop of a scheme, meanings of names, the loop between seams and the model.
 
     Parameters are those of `kept_run`.

@@ -7,24 +7,14 @@ where modes put them into force: some of the independent ones follow from these 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from symgen.compile.loopcode.exact import exact
-from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.scales import fill_jacobian
-from symgen.run.layout.start_records import LAYOUT, record_type
-from symgen.run.starts.assembler import layout_of
+from symgen.run.layout.start_records import Layout
+from symgen.run.printed.partition_tables import Partition, PartitionModel, PartitionTables
 
-if TYPE_CHECKING:
-    from symgen.run.layout.compiled import CompiledModel
-
-_F, _N, _A, _K = types.float64, types.int64, types.float64[::1], types.int64[::1]
-
-#: Smallest singular value that counts for the rank of rows, relative to the largest.
-_RANK = 1e-9
 #: Rounding of numbers of order 1; pivots below the second are rounding, and those of rows in force below the third.
 _EPSILON, _LOST, _DEPENDENT = 2.2e-16, 50 * 2.2e-16, 1e-9
 #: Newton's method: most iterations, gaps that are closed, gaps that may be left if they no longer fall.
@@ -32,89 +22,18 @@ _ROUNDS, _CLOSED, _NEARLY = 25, 2 * _EPSILON, 1e4 * _EPSILON
 #: Another choice of coordinates is made where this one is by this factor worse than where it was made.
 POOR = 0.4
 
-#: What of a model is partitioned.
-#: - nu, rank_q, rank_v, rest: First number of nu in the scratch; numbers of dependent coordinates and velocities, and
-#:   of states of the file and integrals.
-#: - moded: 1 where rows have bounds, else 0.
-#: - holonomic: Rows that are functions of positions.
-#: - spins: First Euler parameter and first angular velocity of each body that turns in space.
-#: - measured: 1 for rows in metres, else 0.
-#: - metres, angular: 1 for coordinates in metres, and for velocities of angles, else 0.
-#: - of_positions: Places of the modes of rows of positions, -1 where a row is always in force.
-PARTITION_TABLES = record_type(
-    "PartitionTables",
-    __name__,
-    ("nu rank_q rank_v rest moded", _N),
-    ("holonomic spins measured metres angular of_positions", _K),
-)
-PartitionTables: Any = PARTITION_TABLES.constructor
-#: Layout, ``geometry`` and these tables.
-PARTITION_MODEL = types.RecordType((LAYOUT, abi.MEASURE, PARTITION_TABLES))
-#: The choice, and working memory.
-#: - matrix, right, change: Rows of an elimination, what they are to become, changes of their columns.
-#: - best: Smallest pivots of positions and velocities where they were chosen, then of those that rows in force hold.
-#: - d: The dense D.
-#: - free_q, free_v, left_q, left_v: Places of independent coordinates and velocities, and of those that rows in force
-#:   leave independent.
-#: - held: Numbers of coordinates and velocities that rows in force take.
-#: - row_at, column_at, is_free, taken: Of an elimination.
-PARTITION = record_type(
-    "Partition",
-    __name__,
-    ("matrix right change best d", _A),
-    ("free_q free_v left_q left_v held row_at column_at is_free taken", _K),
-)
-Partition: Any = PARTITION.constructor
-
-
-def tables_of(compiled: CompiledModel, w: Any, is_moded: bool) -> Any:
-    """Return what is partitioned of a model, with the ranks of its rows at the scratch of a start."""
-    info, rows, switches = compiled.info, compiled.jacobian(w), layout_of(compiled).switches
-    holonomic = [i for i, row in enumerate(info.rows) if row.holonomic]
-    rows[list(info.switchable)] = 0.0  # states of an importer are those that are independent in all modes
-    ranks = _rank(rows[holonomic]) + len(info.spins), _rank(rows)
-    arrays = (
-        holonomic,
-        info.spins,
-        [row.unit == "m" for row in info.rows],
-        [q.unit == "m" for q in info.coordinates],
-        [q.unit != "m/s" for q in info.velocities],
-        [*(switches[row] for row in holonomic), *(-1 for _ in info.spins)],
-    )
-    numbers = info.sections["nu"][0], *ranks, len(info.states) + info.integrals, int(is_moded)
-    return PartitionTables._make((*numbers, *(np.array(x, dtype=np.int64).ravel() for x in arrays)))
-
-
-def _rank(rows: Any) -> int:
-    sizes = np.linalg.svd(rows, compute_uv=False) if rows.size else np.zeros(0)
-    return int(np.sum(sizes > _RANK * sizes.max(initial=0.0)))
-
-
-def count_states(layout: Any, tables: Any) -> int:
-    """Return the number of independent numbers of a state."""
-    return int(layout.nq - tables.rank_q + layout.nv - tables.rank_v + tables.rest)
-
-
-def new_partition(layout: Any, tables: Any) -> Any:
-    """Return working memory."""
-    rows = max(layout.m, len(tables.holonomic) + len(tables.spins) // 2) + 1
-    columns = max(layout.nq, layout.nv)
-    sizes = rows * columns, rows, columns, 4, layout.m * layout.nv
-    numbers = layout.nq, layout.nv, layout.nq, layout.nv, 2, rows, columns, columns, rows
-    return Partition._make((*map(np.zeros, sizes), *(np.zeros(size, dtype=np.int64) for size in numbers)))
-
 
 # -- rows --------------------------------------------------------------------------------------------------------------
 
 
 @exact()
-def counts(switch: int, w: Any, is_imposed: bool) -> bool:
+def counts(switch: int, w: Array, is_imposed: bool) -> bool:
     """Whether a row counts: one with bounds does where it is in force, and imposed."""
     return switch < 0 or (is_imposed and w[switch] != 0.0)
 
 
 @exact()
-def fill_position_row(layout: Any, tables: Any, y: Any, row: int, part: Any, first: int) -> None:
+def fill_position_row(layout: Layout, tables: PartitionTables, y: Array, row: int, part: Partition, first: int) -> None:
     """Write a row of D as one of changes of coordinates: omega = 2 G e' in body axes."""
     spins, matrix, d = tables.spins, part.matrix, part.d
     q, v, count = 0, row * layout.nv, spins.shape[0] // 2
@@ -135,7 +54,9 @@ def fill_position_row(layout: Any, tables: Any, y: Any, row: int, part: Any, fir
 
 
 @exact()
-def position_rows(model: Any, t: float, y: Any, p: Any, w: Any, part: Any, is_imposed: bool) -> float:
+def position_rows(
+    model: PartitionModel, t: float, y: Array, p: Array, w: Array, part: Partition, is_imposed: bool
+) -> float:
     """Write rows of positions, as changes of coordinates in lengths, and what closes the joints; return the gap."""
     layout, geometry, tables = model
     nq, count, spins, matrix, right = layout.nq, tables.holonomic.shape[0], tables.spins, part.matrix, part.right
@@ -167,7 +88,7 @@ def position_rows(model: Any, t: float, y: Any, p: Any, w: Any, part: Any, is_im
 
 
 @exact()
-def velocity_rows(model: Any, y: Any, w: Any, part: Any, is_imposed: bool) -> None:
+def velocity_rows(model: PartitionModel, y: Array, w: Array, part: Partition, is_imposed: bool) -> None:
     """Write rows of velocities, D v = nu, as rows of changes of v."""
     layout, _, tables = model
     nq, nv, matrix, right, d, length = layout.nq, layout.nv, part.matrix, part.right, part.d, w[abi.LENGTH]
@@ -186,7 +107,7 @@ def velocity_rows(model: Any, y: Any, w: Any, part: Any, is_imposed: bool) -> No
 
 
 @exact()
-def normalise(part: Any, rows: int, columns: int) -> None:
+def normalise(part: Partition, rows: int, columns: int) -> None:
     """Divide each row by its largest entry."""
     a, b = part.matrix, part.right
     for i in range(rows):
@@ -201,7 +122,7 @@ def normalise(part: Any, rows: int, columns: int) -> None:
 
 
 @exact()
-def eliminate(part: Any, rows: int, columns: int, rank: int, free: Any, count: int) -> float:
+def eliminate(part: Partition, rows: int, columns: int, rank: int, free: Integers, count: int) -> float:
     """Eliminate `rank` columns with the largest pivots, none of them one of the `count` free ones.
 
     Returns
@@ -247,7 +168,7 @@ def eliminate(part: Any, rows: int, columns: int, rank: int, free: Any, count: i
 
 
 @exact()
-def solve_dependent(part: Any, columns: int, rank: int) -> None:
+def solve_dependent(part: Partition, columns: int, rank: int) -> None:
     """Set the changes of the columns that have been eliminated; free columns do not change."""
     a, b, change, row_at, column_at = part.matrix, part.right, part.change, part.row_at, part.column_at
     for j in range(columns):
@@ -260,7 +181,7 @@ def solve_dependent(part: Any, columns: int, rank: int) -> None:
 
 
 @exact()
-def keep_others(part: Any, columns: int, rank: int, free: Any, left: Any) -> None:
+def keep_others(part: Partition, columns: int, rank: int, free: Integers, left: Integers) -> None:
     """Write the columns that have not been eliminated to both lists, in their order."""
     for j in range(columns):
         part.is_free[j] = 1
@@ -275,7 +196,15 @@ def keep_others(part: Any, columns: int, rank: int, free: Any, left: Any) -> Non
 
 @exact()
 def choose_within(
-    part: Any, rows: int, columns: int, rank: int, switches: Any, free: Any, free_count: int, left: Any, side: int
+    part: Partition,
+    rows: int,
+    columns: int,
+    rank: int,
+    switches: Integers,
+    free: Integers,
+    free_count: int,
+    left: Integers,
+    side: int,
 ) -> None:
     """Choose which of the independent columns `free` follow from rows in force too; `left` receives the others.
 
@@ -321,8 +250,8 @@ def choose_within(
 # -- the choice --------------------------------------------------------------------------------------------------------
 
 
-@exact(types.int64(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
-def choose_states(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> int:
+@exact(entry=True)
+def choose_states(model: PartitionModel, t: float, y: Array, p: Array, w: Array, part: Partition) -> int:
     """Choose independent coordinates and velocities at a state."""
     layout, _, tables = model
     rows = tables.holonomic.shape[0] + tables.spins.shape[0] // 2
@@ -338,8 +267,8 @@ def choose_states(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> in
     return 0
 
 
-@exact(types.int64(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
-def choose_left(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> int:
+@exact(entry=True)
+def choose_left(model: PartitionModel, t: float, y: Array, p: Array, w: Array, part: Partition) -> int:
     """Choose the coordinates and velocities that rows in force leave independent, at a state."""
     layout, _, tables = model
     rows, free_q, free_v = tables.of_positions.shape[0], layout.nq - tables.rank_q, layout.nv - tables.rank_v
@@ -352,7 +281,7 @@ def choose_left(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> int:
 
 
 @exact()
-def eliminate_positions(model: Any, part: Any, free: Any, held: int) -> float:
+def eliminate_positions(model: PartitionModel, part: Partition, free: Integers, held: int) -> float:
     """Eliminate the dependent coordinates, `held` of them by rows in force; return the smallest pivot."""
     layout, _, tables = model
     rows, rank = tables.holonomic.shape[0] + tables.spins.shape[0] // 2, tables.rank_q + held
@@ -360,15 +289,15 @@ def eliminate_positions(model: Any, part: Any, free: Any, held: int) -> float:
 
 
 @exact()
-def eliminate_velocities(model: Any, part: Any, free: Any, held: int) -> float:
+def eliminate_velocities(model: PartitionModel, part: Partition, free: Integers, held: int) -> float:
     """Eliminate the dependent velocities, `held` of them by rows in force; return the smallest pivot."""
     layout, _, tables = model
     rank = tables.rank_v + held
     return float(eliminate(part, layout.m, layout.nv, rank, free, layout.nv - rank))
 
 
-@exact(types.boolean(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
-def complete_state(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> bool:
+@exact(entry=True)
+def complete_state(model: PartitionModel, t: float, y: Array, p: Array, w: Array, part: Partition) -> bool:
     """Complete a state from the independent coordinates and velocities that it holds; return whether that succeeds."""
     layout, _, tables = model
     nq, nv, length, before = layout.nq, layout.nv, w[abi.LENGTH], math.inf
@@ -394,8 +323,8 @@ def complete_state(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> b
     return True
 
 
-@exact(types.float64(PARTITION_MODEL, _F, _A, _A, _A, PARTITION))
-def quality_of_choice(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -> float:
+@exact(entry=True)
+def quality_of_choice(model: PartitionModel, t: float, y: Array, p: Array, w: Array, part: Partition) -> float:
     """Return the quality of a choice at a state over that where it was made; at 0 the others are undetermined."""
     _, _, tables = model
     position_rows(model, t, y, p, w, part, False)
@@ -417,8 +346,8 @@ def quality_of_choice(model: Any, t: float, y: Any, p: Any, w: Any, part: Any) -
     return float(least)
 
 
-@exact(types.int64(PARTITION_MODEL, _A, PARTITION, _A))
-def read_states(model: Any, y: Any, part: Any, values: Any) -> int:
+@exact(entry=True)
+def read_states(model: PartitionModel, y: Array, part: Partition, values: Array) -> int:
     """Write the independent numbers of a state, or of its rates."""
     layout, _, tables = model
     nq, free_q, free_v = layout.nq, layout.nq - tables.rank_q, layout.nv - tables.rank_v
@@ -431,8 +360,8 @@ def read_states(model: Any, y: Any, part: Any, values: Any) -> int:
     return 0
 
 
-@exact(types.int64(PARTITION_MODEL, _A, PARTITION, _A))
-def write_states(model: Any, values: Any, part: Any, y: Any) -> int:
+@exact(entry=True)
+def write_states(model: PartitionModel, values: Array, part: Partition, y: Array) -> int:
     """Set the independent numbers of a state."""
     layout, _, tables = model
     nq, free_q, free_v = layout.nq, layout.nq - tables.rank_q, layout.nv - tables.rank_v

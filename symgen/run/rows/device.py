@@ -16,24 +16,27 @@ from __future__ import annotations
 import math
 import types as python
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple, TypeVar
 
 from numba import config, cuda, float64, int64, types
 
 from symgen.compile.loopcode.loop_instances import Instances, Meanings, viewing
 from symgen.compile.loopcode.vectors import PLAIN
 from symgen.compile.native import types as native
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.probe import rate_functions
-from symgen.run.layout.records import SIZES, SPAN, Kept, Observed, Outputs, State
+from symgen.run.layout.records import SIZES, SPAN, Kept, Observed, Outputs, Run, Sizes, Span, State
 from symgen.run.layout.redundancy import never
-from symgen.run.layout.scheme_records import TABLEAU
+from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops import frame, watch
 from symgen.run.loops.schemes import explicit
 from symgen.run.rows import row_results, rows
 from symgen.run.single import observe
 
+_Value = TypeVar("_Value")
 _A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 #: Numbers of `passages` on a device: the present passage, and the narrowest one so far.
 N_PASSAGES = 2 * abi.N_PASSAGE
@@ -43,26 +46,26 @@ _N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 class Starts(NamedTuple):
     """Starts of runs, shapes (ny, runs), (np, runs), (nw, runs); and the inputs of their observers."""
 
-    ys: Any
-    ps: Any
-    ws: Any
-    limits: Any
-    share: Any
-    metric: Any
-    picks: Any
-    times: Any
+    ys: Array
+    ps: Array
+    ws: Array
+    limits: Array
+    share: Array
+    metric: Array
+    picks: Integers
+    times: Array
 
 
 class DeviceResults(NamedTuple):
     """Results of runs: outputs and observed quantities by output, column and run; other numbers by run."""
 
-    states: Any
-    status: Any
-    accelerations: Any
-    multipliers: Any
-    rows: Any
-    values: Any
-    summary: Any
+    states: Array
+    status: Array
+    accelerations: Array
+    multipliers: Array
+    rows: Array
+    values: Array
+    summary: Array
 
 
 #: Types of a kernel's arguments; see `make_kernel`.
@@ -94,18 +97,18 @@ def simulated() -> bool:
 
 
 @viewing
-def bare_value(value: Any) -> Any:
+def bare_value(value: _Value) -> _Value:
     """Replace `symgen.compile.loopcode.bare.bare`: CUDA counts no references."""
     return value
 
 
 @viewing
-def cut(array: Any, first: int, size: int) -> Any:
+def cut(array: Array, first: int, size: int) -> Array:
     """Replace `symgen.compile.loopcode.bare.part`."""
     return array[first : first + size]
 
 
-def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
+def watch_passages(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Watch as on a processor; keep only the present passage and the narrowest one."""
     code, passages = watch_states(sizes, run, y, t), run.passages
     if (
@@ -117,12 +120,12 @@ def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
     return code
 
 
-def watch_states(sizes: Any, run: Any, y: Any, t: float) -> int:
+def watch_states(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Stand for `symgen.run.loops.watch.watch` with a table of one event."""
     return 0
 
 
-def confirm_nothing(t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
+def confirm_nothing(t: float, y: Array, p: Array, w: Array, iw: Integers, ydot: Array) -> int:
     """Replace ``confirm`` in a law whose ``rhs`` never requires it."""
     return 0
 
@@ -217,7 +220,7 @@ class Need:
         return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_PASSAGES)
 
 
-def make_kernel(law: Any, model: Any, need: Need) -> Any:
+def make_kernel(law: ModuleType, model: ModuleType, need: Need) -> Any:
     """Return the plain Python of the kernel that runs one law, for ``cuda.jit`` or ``cuda.compile_ptx``.
 
     Parameters
@@ -249,7 +252,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     n_metric = 2 * need.width  # a device takes sizes of arrays as they are, no expressions
     wants_rates, wants_joints = need.rates, need.joints
 
-    def kernel(scheme: Any, sizes: Any, span: Any, starts: Any, results: Any) -> None:
+    def kernel(scheme: TableauRecord, sizes: Sizes, span: Span, starts: Starts, results: DeviceResults) -> None:
         i = cuda.grid(1)
         if i >= starts.ys.shape[1]:
             return

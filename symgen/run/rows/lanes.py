@@ -12,20 +12,28 @@ Element i of every array of the lanes is at ``LANES*i + lane``; those of emitted
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
 
 from symgen.base.ir.numerics import SKIP
 from symgen.base.ir.program import LANE_COUNTERS, LANES, lane_bases
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import Instances, Meanings, compiled_loop
 from symgen.compile.loopcode.vectors import combine, copied
-from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Record, function_type, signature_from
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, Outputs, Run, State
+from symgen.run.layout.records import (
+    Kept,
+    Outputs,
+    RowChunk,
+    Run,
+    Sizes,
+    Span,
+    State,
+)
 from symgen.run.layout.redundancy import FALLEN, never
 from symgen.run.layout.scales import open_to
-from symgen.run.layout.scheme_records import TABLEAU
+from symgen.run.layout.scheme_records import TableauRecord
 from symgen.run.loops import watch as watching
 from symgen.run.loops.frame import integrate
 from symgen.run.loops.schemes import explicit
@@ -33,7 +41,21 @@ from symgen.run.rows.row_results import end_run
 from symgen.run.rows.rows import begin_run, take
 
 #: rhs(t, z) and accept(t, z).
-LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]))
+LaneFunction = Callable[[float, Array], int]
+LANE_FUNCTION = function_type(LaneFunction)
+
+
+class LaneSystem(Record):
+    """What lanes have in place of a `ModelSystem`: functions of all lanes."""
+
+    sizes: Sizes
+    rhs: LaneFunction
+    accept: LaneFunction
+
+
+#: Sizes; ``rhs`` and ``accept`` of all lanes; then functions of a single run: the rates with their confirmation,
+#: ``accept`` and ``observe``.
+LaneModel = tuple[Sizes, LaneFunction, LaneFunction, abi.Rhs, abi.Rhs, abi.Accept, abi.Observe]
 
 _L, _SPARE, _NONE_GOES = LANES, len(LANE_COUNTERS), abi.PAUSED
 _PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI * _L, abi.DRIFT * _L, abi.KINETIC * _L, abi.POTENTIAL * _L
@@ -64,7 +86,7 @@ _SHORT = 0.25
 # -- operations of the frame, for all lanes ----------------------------------------------------------------------------
 
 
-def opened(sizes: Any, state: Any) -> Any:
+def opened(sizes: Sizes, state: State) -> Run:
     """Return the states of runs; the trial state is a part of z, for emitted code."""
     s = bare(state)
     trial = part(s.p, 0, sizes.width)
@@ -72,7 +94,7 @@ def opened(sizes: Any, state: Any) -> Any:
     return Run(*kept, s.share, s.metric, s.scales, s.room)
 
 
-def settle_lanes(sizes: Any, span: Any, run: Any) -> None:
+def settle_lanes(sizes: Sizes, span: Span, run: Run) -> None:
     """Set the factors of speeds; raise their scales to speeds of motions that cross the mechanism during the run."""
     for i in range(sizes.nv):
         for lane in range(_L):
@@ -86,26 +108,26 @@ def settle_lanes(sizes: Any, span: Any, run: Any) -> None:
         run.gauges[_SCALE + lane] = run.w[_MEAN_MASS + lane] * open_speed * open_speed
 
 
-def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
+def evaluate(system: LaneSystem, run: Run, t: float, y: Array, rate: Array) -> None:
     """Set `rate` to the rates of the trial states."""
     width = system.sizes.width
     system.rhs(t, run.p)
     copied(width, part(run.p, width, width), rate)
 
 
-def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+def correct(system: LaneSystem, run: Run, t: float, y: Array, between: bool) -> int:
     """Correct and measure the trial states; failures are counted."""
     system.accept(t, run.p)
     return 0
 
 
-def note_step(run: Any, h: float) -> None:
+def note_step(run: Run, h: float) -> None:
     """Store the present step for emitted functions."""
     for lane in range(_L):
         run.w[_STEP_STATUS + lane] = h
 
 
-def largest_turn(sizes: Any, span: Any, run: Any) -> float:
+def largest_turn(sizes: Sizes, span: Span, run: Run) -> float:
     """Return 0: lanes in which an angle changes by too much in a step are left to single runs."""
     for i in range(sizes.nq):
         for lane in range(_L):
@@ -114,18 +136,18 @@ def largest_turn(sizes: Any, span: Any, run: Any) -> float:
     return 0.0
 
 
-def remember_rank(sizes: Any, run: Any) -> None:
+def remember_rank(sizes: Sizes, run: Run) -> None:
     """Do nothing: each lane has the rank of its own start."""
 
 
-def begin(run: Any) -> None:
+def begin(run: Run) -> None:
     """Set the initial energies of the balances: the energies of the first accepted states."""
     for lane in range(_L):
         run.gauges[_START + lane] = run.w[_KINETIC + lane] + run.w[_POTENTIAL + lane]
         run.gauges[_POTENTIAL_START + lane] = run.w[_POTENTIAL + lane]
 
 
-def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
+def keep_maxima(sizes: Sizes, run: Run, y: Array) -> float:
     """Update the largest violations and energy errors."""
     w, gauges, work = run.w, run.gauges, (sizes.nq + sizes.nv) * _L
     for lane in range(_L):
@@ -137,7 +159,7 @@ def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
     return 0.0
 
 
-def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
+def watch(sizes: Sizes, run: Run, y: Array, t: float) -> int:
     """Judge accepted states as `symgen.run.loops.watch.watch` does; mark lanes that cannot continue."""
     w, counters, gauges, behind = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
     run.clock[abi.TIME] = t
@@ -192,7 +214,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     return abi.DONE if going > 0.0 else _NONE_GOES
 
 
-def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+def store(sizes: Sizes, w: Array, outputs: Outputs, k: int, y: Array) -> None:
     """Write output `k` of all lanes: states, measures of ``accept``, and angles with counted turns."""
     n, width = sizes.ny * _L, outputs.status.shape[0] // outputs.times.shape[0]
     for i in range(n):
@@ -226,7 +248,7 @@ _MEANINGS = Meanings(
 # -- groups of rows ----------------------------------------------------------------------------------------------------
 
 
-def load_rows(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> None:
+def load_rows(chunk: RowChunk, sizes: Sizes, state: State, g: int, z: Array, gauges: Array) -> None:
     """Load a group of rows into the lanes; the last group repeats its last row."""
     n, n_p, nw, total = sizes.ny, state.p.shape[0], state.w.shape[0], chunk.selected.shape[0]
     p_at = 2 * sizes.width
@@ -251,7 +273,7 @@ def load_rows(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -
         gauges[_FIRST_RANK + lane], gauges[_ODD + lane], gauges[_LEAST_PART + lane] = rank, 0.0, part_of_best
 
 
-def unload_row(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: Any) -> None:
+def unload_row(lane: int, sizes: Sizes, lanes: State, state: State, outputs: Outputs, kept: Kept) -> None:
     """Copy the run of a lane to the arrays of a single run."""
     n, nw, columns = sizes.ny, state.w.shape[0], kept.outputs.status.shape[1]
     for i in range(nw):
@@ -268,7 +290,7 @@ def unload_row(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept
     state.iw[abi.ITERATIONS] = int(lanes.iw[_ITERATIONS + lane])
 
 
-def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: Any) -> int:
+def run_lanes(model: LaneModel, scheme: TableauRecord, span: Span, chunk: RowChunk, state: State, kept: Kept) -> int:
     """Run the selected rows, `LANES` at a time; rows that are left to single runs get the code `LEFT`.
 
     Parameters
@@ -302,7 +324,7 @@ def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: 
     outputs = Outputs(times, states, status)
     clock, control, rest = state.clock, state.control, part(room, at, room.shape[0] - at)
     more = state.passages, state.memory, state.share, state.metric, state.scales
-    lanes = State(y, z, w, counters, clock, gauges, control, *more, rest)
+    lanes = State(y, z, w, counters, clock, gauges, control, *more, rest)  # type: ignore[arg-type]  # all numbers
     for g in range(0, total, _L):
         if control[abi.STOP] != 0:
             return int(g)
@@ -331,8 +353,7 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
     return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
-_MODEL = types.RecordType((SIZES, LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 lane_runs = compiled_loop(
-    *(__name__, "lane_runs", run_lanes, types.int64(_MODEL, TABLEAU, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
+    *(__name__, "lane_runs", run_lanes, signature_from(run_lanes)),
     integrate=Instances(_MEANINGS).of(integrate),
 )

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import called
-from symgen.run.effects.resets import first_note, forget_resets
+from symgen.compile.native.annotations import Array
+from symgen.run.effects.resets import OfEffects, first_note, forget_resets
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
+from symgen.run.layout.records import Observers, Outputs, RowChunk, Span, System
 from symgen.run.loops import search_records as records
+from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.frame_parts import store_behind
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
-from symgen.run.modes.turn import begin_modes, forget_modes, open_rows_of, take_resets, take_turn
+from symgen.run.modes.turn import OfModes, begin_modes, forget_modes, open_rows_of, take_resets, take_turn
+
+#: What a loop over rows takes first where events change runs, or rows have bounds: the first argument of the loop over
+#: one run, the observers, and the effects or the rows.
+ModelWithEffects = tuple[System, Observers, OfEffects]
+ModelWithModes = tuple[System, Observers, OfModes]
 
 
-def forget_functions(model: Any, state: Any) -> None:
+def forget_functions(model: System, state: EventState) -> None:
     """Clear the sides of switching functions and the notes of the run before."""
     hunt = bare(state).hunt
     n = int(hunt[records.COUNT])
@@ -28,19 +35,19 @@ def forget_functions(model: Any, state: Any) -> None:
         hunt[records.REACH] = 0.0
 
 
-def forget_past(model: Any, state: Any) -> None:
+def forget_past(model: ModelWithEffects, state: EventState) -> None:
     """Clear the data of switching functions, and the past resets of the run before."""
     forget_functions(model, state)
     forget_resets(model[2])
 
 
-def forget_past_modes(model: Any, state: Any) -> None:
+def forget_past_modes(model: ModelWithModes, state: EventState) -> None:
     """Clear the data of switching functions, past resets, impacts and transitions of the run before."""
     forget_functions(model, state)
     forget_modes(model[2])
 
 
-def numbers_of_row(chunk: Any, state: Any) -> int:
+def numbers_of_row(chunk: RowChunk, state: EventState) -> int:
     """Return the count of numbers that a row leaves of events."""
     return int(chunk.events.shape[0] // (chunk.ps.shape[0] // state.p.shape[0]))
 
@@ -53,7 +60,7 @@ def count_of_events(numbers: int) -> int:
 # -- what happens ------------------------------------------------------------------------------------------------------
 
 
-def happen(code: int, model: Any, state: Any) -> int:
+def happen(code: int, model: System, state: EventState) -> int:
     """Return `DONE` where an event ends a run that no event changes, else the code."""
     hunt, t, stops = state.hunt, state.clock[abi.TIME], False
     first, size, n = first_note(state), 2 + state.y.shape[0], int(hunt[records.COUNT])
@@ -64,34 +71,34 @@ def happen(code: int, model: Any, state: Any) -> int:
     return int(abi.DONE) if stops and code == abi.MET else code
 
 
-def keep_ends(model: Any, count: int, row: Any) -> None:
+def keep_ends(model: System, count: int, row: Array) -> None:
     """Do nothing: events end no run but by their time."""
 
 
-def happen_with_resets(code: int, model: Any, state: Any) -> int:
+def happen_with_resets(code: int, model: ModelWithEffects, state: EventState) -> int:
     """Do what happens at events that change a run; see `take_resets`."""
     return int(take_resets(code, model[2], state))
 
 
-def happen_with_modes(code: int, model: Any, state: Any) -> int:
+def happen_with_modes(code: int, model: ModelWithModes, state: EventState) -> int:
     """Do what happens at events where rows have bounds; see `take_turn`."""
     return int(take_turn(code, model[2], state))
 
 
-def keep_ends_of_resets(model: Any, count: int, row: Any) -> None:
+def keep_ends_of_resets(model: ModelWithEffects, count: int, row: Array) -> None:
     """Write why events have ended a run to the first numbers of its row."""
     for i in range(count):
         row[i] = model[2].ends[i]
 
 
-def keep_ends_of_modes(model: Any, count: int, row: Any) -> None:
+def keep_ends_of_modes(model: ModelWithModes, count: int, row: Array) -> None:
     """Write why events, or modes, have ended a run to the first numbers of its row."""
     for i in range(count):
         row[i] = model[2].strikes.effects.ends[i]
 
 
 @called
-def take_notes_of_events(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
+def take_notes_of_events(code: int, r: int, model: System, chunk: RowChunk, state: EventState) -> int:
     """Do what happens at the events noted by a run, and write them to its row.
 
     Parameters
@@ -132,12 +139,12 @@ def take_notes_of_events(code: int, r: int, model: Any, chunk: Any, state: Any) 
 # -- modes -------------------------------------------------------------------------------------------------------------
 
 
-def begin_row_in_modes(model: Any, span: Any, state: Any) -> int:
+def begin_row_in_modes(model: ModelWithModes, span: Span, state: EventState) -> int:
     """Choose modes where a run begins; return `DONE`, or `NO_MODES`."""
     return int(begin_modes(model[2], state))
 
 
-def begin_row_between_seams(model: Any, span: Any, state: Any) -> int:
+def begin_row_between_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
     """Choose modes where a run begins, with the values of inputs there; return `DONE` or the code of an end."""
     system, _, _ = model
     _, seams, _, prepare, prepare_law = system
@@ -156,7 +163,7 @@ def begin_row_between_seams(model: Any, span: Any, state: Any) -> int:
     return begin_row_in_modes(model, span, state)
 
 
-def choose_after_change(model: Any, span: Any, state: Any) -> int:
+def choose_after_change(model: ModelWithModes, span: Span, state: EventState) -> int:
     """Choose modes where inputs have changed; return `CHANGED` to go on, or the code of an end."""
     system, _, modes = model
     now, seams = state.clock[abi.TIME], bare(system[1])
@@ -168,7 +175,7 @@ def choose_after_change(model: Any, span: Any, state: Any) -> int:
     return code
 
 
-def store_after_effects(code: int, span: Any, state: Any, outputs: Any) -> None:
+def store_after_effects(code: int, span: Span, state: EventState, outputs: Outputs) -> None:
     """Have outputs at the present time hold the state behind the effects of events."""
     if code == abi.MET:
         now = state.clock[abi.TIME]
@@ -180,7 +187,7 @@ def store_after_effects(code: int, span: Any, state: Any, outputs: Any) -> None:
 # -- constraints that may jump -----------------------------------------------------------------------------------------
 
 
-def resumed_after_examination(state: Any) -> int:
+def resumed_after_examination(state: EventState) -> int:
     """Return the end code with which an examined run goes on, `DONE` for a new run."""
     if state.control[e.EXAMINATION] == e.HOLDS:
         return int(abi.MET)
@@ -191,7 +198,7 @@ def resumed_after_examination(state: Any) -> int:
 
 
 @called
-def waits_for_examination(code: int, model: Any, chunk: Any, state: Any) -> bool:
+def waits_for_examination(code: int, model: System, chunk: RowChunk, state: EventState) -> bool:
     """Return whether a run has passed a place at which a constraint may jump, which was not yet examined."""
     control, hunt = state.control, state.hunt
     if code != abi.MET:

@@ -3,45 +3,57 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Cube, Integers, Matrix, Record, signature_from
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import SPAN
-from symgen.run.layout.start_records import record_type
-from symgen.run.loops.seams import SEAMS, parameters_at, select_row
+from symgen.run.layout.records import Span
+from symgen.run.loops.seams import Seams, parameters_at, select_row
 
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
 
-#: Results of the runs of an ensemble, and working memory.
-#: - times (shape (1, times) or (runs, times)): Output times, of all runs or of each [s].
-#: - selected: Runs.
-#: - seen (shape (runs, columns, times)): Results; nan at times that a run did not reach.
-#: - first: The first column that is copied.
-#: - places: Destination of each column from there on: (array, index), flat.
-#: - ps, ws (shapes (runs, np), (runs, nw)): Parameters at the start, and scratch, which is overwritten.
-#: - y, rates (shape (ny,)), p (shape (np,)): Working memory.
-LEFT = record_type(
-    "Left",
-    __name__,
-    ("times", _M),
-    ("selected", _I),
-    ("seen", _C),
-    ("first", _I8),
-    ("places", _I),
-    ("ps ws", _M),
-    ("y rates p", _A),
-)
-Left: Any = LEFT.constructor
+
+class Left(Record):
+    """Results of the runs of an ensemble, and working memory.
+
+    Attributes
+    ----------
+    times : Array, shape (1, times) or (runs, times)
+        Output times, of all runs or of each [s].
+    selected : Array of int64
+        Runs.
+    seen : Array, shape (runs, columns, times)
+        Results; nan at times that a run did not reach.
+    first : int
+        The first column that is copied.
+    places : Array of int64
+        Destination of each column from there on: (array, index), flat.
+    ps, ws : Array, shapes (runs, np), (runs, nw)
+        Parameters at the start, and scratch, which is overwritten.
+    y, rates : Array, shape (ny,), p (shape (np,))
+        Working memory.
+    """
+
+    times: Matrix
+    selected: Integers
+    seen: Cube
+    first: int
+    places: Integers
+    ps: Matrix
+    ws: Matrix
+    y: Array
+    rates: Array
+    p: Array
+
 
 #: What changes the parameters of runs: `symgen.run.loops.seams.Seams`, and ``prepare`` of model and law.
-CHANGING = types.RecordType((SEAMS, SPAN, e.PREPARE, e.PREPARE))
+Changing = tuple[Seams, Span, e.Prepare, e.Prepare]
 
 
-def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any, w: Any) -> bool:
+def bring(columns: Cube, r: int, k: int, first: int, places: Integers, y: Array, rates: Array, w: Array) -> bool:
     """Copy results of a run at an output to the arguments of functions; return whether the run reached it."""
     for c in range(places.shape[0] // 2):
         value, at = columns[r, first + c, k], places[2 * c + 1]
@@ -57,7 +69,7 @@ def bring(columns: Any, r: int, k: int, first: int, places: Any, y: Any, rates: 
     return reached
 
 
-def measure_each(model: Any, values: Any, at: int, entries: Any) -> int:
+def measure_each(model: tuple[Left, Changing, abi.Observe, abi.Measure], values: Cube, at: int, entries: Cube) -> int:
     """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
 
     Parameters
@@ -95,6 +107,5 @@ def measure_each(model: Any, values: Any, at: int, entries: Any) -> int:
     return 0
 
 
-_SIGNATURE = _I8(types.RecordType((LEFT, CHANGING, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C)
 #: The loop over rows, compiled.
-measure_rows = compiled_loop(__name__, "measure_rows", measure_each, _SIGNATURE)
+measure_rows = compiled_loop(__name__, "measure_rows", measure_each, signature_from(measure_each))

@@ -8,15 +8,16 @@ from typing import Any
 from symgen.compile.loopcode.bare import bare
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Cube
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SPAN, STATE
+from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SPAN, STATE, Kept, RowChunk, Span, State, System
 from symgen.run.loops.seams import SEAMS
 from symgen.run.rows.row_results import observe_outputs
 from symgen.run.rows.rows import OBSERVERS, SEAMED, take, take_row
 
 
-def observe_left(model: Any, span: Any, chunk: Any, state: Any, series: Any, left: Any) -> int:
+def observe_left(model: System, span: Span, chunk: RowChunk, state: State, series: Kept, left: Cube) -> int:
     """Write the quantities of the selected rows by the motion that a loop in other coordinates has left.
 
     Parameters

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import Observed, Outputs
+from symgen.run.layout.records import Kept, Observed, Observers, Outputs, RowChunk, Sizes, Span, State, System
 from symgen.run.layout.redundancy import choose_rows
 from symgen.run.loops.frame_parts import store
 from symgen.run.loops.watch import iterations_in
@@ -18,7 +18,7 @@ from symgen.run.single.observe import observe_rates, observe_rows
 _N_PASSAGE, _MAX_PASSAGES = abi.N_PASSAGE, abi.MAX_PASSAGES
 
 
-def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: Any) -> None:
+def pick(sizes: Sizes, picks: Integers, series: Kept, count: int, start: float, values: Array) -> None:
     """Write the requested quantities at the outputs of a run, one after the other; nan at outputs not reached.
 
     Parameters
@@ -60,7 +60,7 @@ def pick(sizes: Any, picks: Any, series: Any, count: int, start: float, values: 
             values[to + k] = math.nan
 
 
-def summarise(code: int, state: Any, row: Any) -> None:
+def summarise(code: int, state: State, row: Array) -> None:
     """Write the summary of a run, in the order of `symgen.run.layout.ensemble_abi.SUMMARY`."""
     w, clock, gauges, control, passages = state.w, state.clock, state.gauges, state.control, state.passages
     narrowest, where = math.nan, math.nan
@@ -98,19 +98,19 @@ def summarise(code: int, state: Any, row: Any) -> None:
 
 
 @called
-def follow_rows(chunk: Any, state: Any, w: Any) -> int:
+def follow_rows(chunk: RowChunk, state: State, w: Array) -> int:
     """Choose independent rows at the position of `w`; return 1 where they have changed."""
     if chunk.dense.shape[0] == 0:
         return 0
     return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
 
 
-def hold(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+def hold(system: System | int, span: Span, chunk: RowChunk, r: int, state: State, times: Array, k: int) -> None:
     """Do nothing: the same parameters hold at all outputs of a run without seams."""
 
 
 def observe_outputs(
-    count: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any
+    count: int, r: int, system: System | int, span: Span, model: Observers, chunk: RowChunk, state: State, series: Kept
 ) -> None:
     """Write the requested quantities of a run with so many outputs; parameters otherwise as for `end_run`."""
     sizes, rates, confirm, accept, observe = model
@@ -139,7 +139,9 @@ def observe_outputs(
             state.room[i] = 0.0
 
 
-def end_run(code: int, r: int, system: Any, span: Any, model: Any, chunk: Any, state: Any, series: Any) -> None:
+def end_run(
+    code: int, r: int, system: System | int, span: Span, model: Observers, chunk: RowChunk, state: State, series: Kept
+) -> None:
     """Write the results of a run.
 
     Parameters

@@ -11,9 +11,22 @@ from typing import Any
 from symgen.compile.loopcode.bare import bare
 from symgen.compile.loopcode.loop_instances import Meanings, compiled_loop, signature_of
 from symgen.compile.native import types
-from symgen.compile.store.jit import jit
+from symgen.compile.native.annotations import Array, type_of
+from symgen.compile.store.jit import RuntimeFunction, jit
 from symgen.run.layout import abi
-from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN
+from symgen.run.layout.records import (
+    CHUNK,
+    KEPT_OF_RUN,
+    SPAN,
+    Kept,
+    Observers,
+    Outputs,
+    RowChunk,
+    Span,
+    State,
+    System,
+)
+from symgen.run.layout.scheme_records import Nodes, TableauRecord
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import parameters_at, select_row, with_seams
 from symgen.run.modes import turn
@@ -23,13 +36,13 @@ from symgen.run.rows.row_results import end_run, follow_rows
 _F8, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
 
-def take(array: Any, first: int, size: int, out: Any) -> None:
+def take(array: Array, first: int, size: int, out: Array) -> None:
     """Set `out` to elements of an array."""
     for i in range(size):
         out[i] = array[first + i]
 
 
-def begin_run(state: Any, limits: Any) -> None:
+def begin_run(state: State, limits: Array) -> None:
     """Reset the state of a run, except for the stop flag."""
     gauges = state.gauges
     for i in range(gauges.shape[0]):
@@ -46,44 +59,46 @@ def begin_run(state: Any, limits: Any) -> None:
         state.iw[i] = 0
 
 
-def forget(model: Any, state: Any) -> None:
+def forget(model: System, state: State) -> None:
     """Do nothing: a run without switching functions has no data of them."""
 
 
-def begin_choice(model: Any, span: Any, state: Any) -> int:
+def begin_choice(model: System, span: Span, state: State) -> int:
     """Return `DONE`: a run without bounded rows has no modes to choose."""
     return int(abi.DONE)
 
 
-def take_change(model: Any, span: Any, state: Any) -> int:
+def take_change(model: System, span: Span, state: State) -> int:
     """Return the end code of a run whose parameters its loop cannot prepare."""
     return int(abi.UNPREPARED)
 
 
-def take_notes(code: int, r: int, model: Any, chunk: Any, state: Any) -> int:
+def take_notes(code: int, r: int, model: System, chunk: RowChunk, state: State) -> int:
     """Return the end code of a run without events."""
     return code
 
 
-def resumed(state: Any) -> int:
+def resumed(state: State) -> int:
     """Return the end code with which a run that was left for an examination goes on, `DONE` for a new run."""
     return int(abi.DONE)
 
 
-def waits(code: int, model: Any, chunk: Any, state: Any) -> bool:
+def waits(code: int, model: System, chunk: RowChunk, state: State) -> bool:
     """Return whether a run has to be left for an examination: none without rows that may jump."""
     return False
 
 
-def store_after(code: int, span: Any, state: Any, outputs: Any) -> None:
+def store_after(code: int, span: Span, state: State, outputs: Outputs) -> None:
     """Do nothing: outputs of a run without events hold its state."""
 
 
-def take_row(system: Any, r: int) -> None:
+def take_row(system: System, r: int) -> None:
     """Do nothing: no row has seams."""
 
 
-def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series: Any) -> int:
+def run_rows(
+    model: System, scheme: Nodes | TableauRecord, span: Span, chunk: RowChunk, state: State, series: Kept
+) -> int:
     """Run the selected rows from the starts of `symgen.run.starts.starting.close_runs`.
 
     Parameters
@@ -156,12 +171,12 @@ def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, series:
 # -- seams -------------------------------------------------------------------------------------------------------------
 
 
-def take_seams(system: Any, r: int) -> None:
+def take_seams(system: System, r: int) -> None:
     """Select the seams of a row."""
     select_row(system[1], r)
 
 
-def hold_between_seams(system: Any, span: Any, chunk: Any, r: int, state: Any, times: Any, k: int) -> None:
+def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, state: State, times: Array, k: int) -> None:
     """Set the parameters to their values at output `k`, from the output before; at a seam, to the values before it."""
     _, seams, _, prepare, prepare_law = system
     control, n_p = state.control, state.p.shape[0]
@@ -175,19 +190,19 @@ def hold_between_seams(system: Any, span: Any, chunk: Any, r: int, state: Any, t
 # -- loops -------------------------------------------------------------------------------------------------------------
 
 
-def integrate(*arguments: Any) -> int:
+def integrate(*arguments: object) -> int:
     """Mark the place of the loop over one run, which `instances` and `on_device` insert."""
     raise NotImplementedError
 
 
-@jit(types.int64(_F8, _A, _A, _A, _A, _A))
-def observe_no_coordinate(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+@jit(entry=True)
+def observe_no_coordinate(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
     return 0
 
 
 #: Sizes of a model, and the functions called at outputs.
-OBSERVERS = types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
+OBSERVERS = type_of(Observers)
 EVENTS = Meanings("sweeps with events", forget=row_events.forget_functions, take_notes=row_events.take_notes_of_events)
 EFFECTS = Meanings(
     "sweeps of which events change the state",
@@ -219,7 +234,7 @@ _loops: dict[Any, Any] = {}
 
 
 def over_rows(
-    loop: Any,
+    loop: RuntimeFunction,
     events: bool = False,
     seams: bool = False,
     effects: bool = False,

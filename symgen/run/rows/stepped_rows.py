@@ -11,41 +11,69 @@ from typing import Any
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import compiled_loop, signature_of
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, record_type
+from symgen.compile.store.jit import RuntimeFunction
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.layout.records import OUTPUTS, SPAN, STATE
-from symgen.run.layout.start_records import record_type
+from symgen.run.layout.records import OUTPUTS, SPAN, STATE, Outputs, Span, State, System
 from symgen.run.loops.seams import is_defined
 from symgen.run.loops.step_control import part_of
 
 _A, _I = types.float64[::1], types.int64[::1]
 
-#: Rows of a step, and where its results go.
-#: - fronts (shape (rows, size), flat): Memory of each run.
-#: - front (shape (size,)): Memory of the run that the loop works on.
-#: - given (shape (rows, inputs), flat): Values of the inputs.
-#: - places: Of the inputs in ``p``.
-#: - moving: 1 for rows that go on; others are measured alone.
-#: - codes: End code of each row, written.
-#: - values (shape (rows, formulas), flat): Written.
-#: - until: Time to reach, of each row [s]; written.
-#: - w, rates, counters: Working memory of formulas.
-#: - dt (shape (1,)): Time of a step [s].
-#: - bounds (shape (2,)): Rows of this call.
-#: - rated, adaptive: 1 where formulas read accelerations or forces of joints; where steps vary.
-STEPPED = record_type(
-    "Stepped",
-    __name__,
-    ("fronts front given", _A),
-    ("places moving codes", _I),
-    ("values until w rates dt", _A),
-    ("counters bounds", _I),
-    ("rated adaptive", types.int64),
-)
-Stepped: Any = STEPPED.constructor
+
+class Stepped(Record):
+    """Rows of a step, and where its results go.
+
+    Attributes
+    ----------
+    fronts : Array, shape (rows, size), flat
+        Memory of each run.
+    front : Array, shape (size,)
+        Memory of the run that the loop works on.
+    given : Array, shape (rows, inputs), flat
+        Values of the inputs.
+    places : Array of int64
+        Of the inputs in ``p``.
+    moving : Array of int64
+        1 for rows that go on; others are measured alone.
+    codes : Array of int64
+        End code of each row, written.
+    values : Array, shape (rows, formulas), flat
+        Written.
+    until : Array
+        Time to reach, of each row [s]; written.
+    w, rates, counters : Array, Array of int64
+        Working memory of formulas.
+    dt : Array, shape (1,)
+        Time of a step [s].
+    bounds : Array of int64, shape (2,)
+        Rows of this call.
+    rated, adaptive : int
+        1 where formulas read accelerations or forces of joints; where steps vary.
+    """
+
+    fronts: Array
+    front: Array
+    given: Array
+    places: Integers
+    moving: Integers
+    codes: Integers
+    values: Array
+    until: Array
+    w: Array
+    rates: Array
+    dt: Array
+    counters: Integers
+    bounds: Integers
+    rated: int
+    adaptive: int
 
 
-def changed_inputs(table: Any, r: int, p: Any) -> bool:
+STEPPED = record_type(Stepped)
+
+
+def changed_inputs(table: Stepped, r: int, p: Array) -> bool:
     """Set the inputs of a row; return whether one has changed."""
     other, count = False, table.places.shape[0]
     for i in range(count):
@@ -55,7 +83,7 @@ def changed_inputs(table: Any, r: int, p: Any) -> bool:
     return other
 
 
-def evaluate(model: Any, table: Any, r: int, state: Any) -> None:
+def evaluate(model: System, table: Stepped, r: int, state: State) -> None:
     """Evaluate the formulas of a row at its state, which stays as it is."""
     rates, confirm, observe, count = model
     t, w, counters = state.clock[abi.TIME], table.w, table.counters
@@ -69,7 +97,7 @@ def evaluate(model: Any, table: Any, r: int, state: Any) -> None:
     observe(t, state.y, state.p, w, table.rates, part(table.values, r * count, count))
 
 
-def step_each(model: Any, scheme: Any, span: Any, table: Any, state: Any, outputs: Any) -> int:
+def step_each(model: System, scheme: Record, span: Span, table: Stepped, state: State, outputs: Outputs) -> int:
     """Take rows on by a time, and evaluate formulas where they stand then.
 
     A row that fails stays where it was. One whose loop has a request (a negative code) is left as it is there.
@@ -122,7 +150,7 @@ _FORMULAS = types.RecordType((abi.RHS, abi.RHS, abi.OBSERVE, types.int64))
 _loops: dict[Any, Any] = {}
 
 
-def over_stepped(loop: Any) -> Any:
+def over_stepped(loop: RuntimeFunction) -> Any:
     """Return the compiled function around the loop of single runs, made at the first use."""
     if loop not in _loops:
         name = f"{loop.__module__.rpartition('.')[2]}_{loop.__name__}_stepped"

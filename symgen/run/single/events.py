@@ -52,7 +52,7 @@ def event_state(watched: Watched, sizes: Sizes, state: State) -> event_loop.Even
     sizes_of_tables = [len(switch.points) for switch in watched.switches]
     columns[searching.POINTS, events:] = sizes_of_tables
     columns[searching.FIRST, events:] = np.cumsum([0, *sizes_of_tables])[:-1]
-    return event_loop.EventState(*state, hunt)
+    return event_loop.EventState._make((*state, hunt))
 
 
 #: Kinds of margins by the last words of their names.
@@ -191,14 +191,16 @@ class Events:
         self._jump = "" if rows is None else rows.sentence(self.compiled, state)
         return bool(self._jump)
 
-    def reason(self, code: int, state: Any, t: float) -> str:
+    def reason(self, code: int, state: State, t: float) -> str:
         """Return the reason for the end of a run at a time [s]: events accumulate, or a condition is undefined."""
         if code == abi.GATHERED:
             return gathered(self._recent, self.accumulation or t)
+        assert isinstance(state, event_loop.EventState), "a run with events"
         return undefined(self.watched.names[event_loop.undefined_event(state)], t)
 
-    def jump(self, state: Any) -> str:
+    def jump(self, state: State) -> str:
         """Return the sentence on a row that jumps or has a kink where a run failed; empty without one."""
+        assert isinstance(state, event_loop.EventState), "a run with events"
         _ = self._jump or self._finds_jump(state)
         return self._jump
 

@@ -120,7 +120,7 @@ class LastState:
         return cls(**fields, windings=tuple(entries["windings"]), arrays=whole)
 
 
-def _word(value: Any) -> str:
+def _word(value: object) -> str:
     return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compile.loopcode.padding import aligned, padded
+from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
 from symgen.run.layout.model_arrays import lengths_of
 from symgen.run.layout.records import Outputs, Sizes, Span, State
@@ -171,7 +172,7 @@ class Snapshot:
         if self.first is None:
             self.first = self.copy.copy()
 
-    def take(self, scheme: Any) -> None:
+    def take(self, scheme: Record) -> None:
         """Copy the state, and the memory in a scheme's record."""
         self.copy[:] = self.front
         self.rows = min(int(self.state.control[abi.PASSAGES]), abi.MAX_PASSAGES) * abi.N_PASSAGE
@@ -185,7 +186,7 @@ class Snapshot:
             else:
                 there[:] = array
 
-    def put_back(self, scheme: Any) -> Any:
+    def put_back(self, scheme: Record) -> Any:
         """Restore the state from the copy, and return the scheme's record with its copied memory."""
         self.front[:] = self.copy
         self.state.passages[: self.rows] = self._passages[: self.rows]
@@ -195,12 +196,12 @@ class Snapshot:
         return scheme
 
 
-def memory_fields(scheme: Any) -> tuple[str, ...]:
+def memory_fields(scheme: Record) -> tuple[str, ...]:
     """Return the fields of a scheme's record that belong to the memory of a run."""
     return tuple(name for name in KEPT if hasattr(scheme, name))
 
 
-def with_memory(scheme: Any, name: str, array: NDArray[Any]) -> Any:
+def with_memory(scheme: Record, name: str, array: NDArray[Any]) -> Any:
     """Return a scheme's record with a saved array, copied into its memory if the shapes are equal."""
     there = getattr(scheme, name)
     if there.shape != array.shape:
@@ -209,7 +210,7 @@ def with_memory(scheme: Any, name: str, array: NDArray[Any]) -> Any:
     return scheme
 
 
-def with_room(scheme: Any) -> Any:
+def with_room(scheme: Record) -> Any:
     """Return a scheme's record with more room for the factors of the matrix that did not fit."""
     from symgen.run.loops.sparse import enlarged
 

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.compile.store.jit import jit
 from symgen.run.layout import abi
-from symgen.run.layout.records import OBSERVED, OUTPUTS, SIZES
+from symgen.run.layout.records import Observed, Outputs, Sizes
 
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M = types.float64[:, ::1]
 
 
 @jit()
-def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
+def output(sizes: Sizes, outputs: Outputs, k: int, y: Array, w: Array) -> None:
     """Set `y` and the angles in `w` to their values at an output."""
     for i in range(sizes.ny):
         y[i] = outputs.states[k, i]
@@ -24,8 +24,17 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
-@jit(_I8(types.RecordType((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
-def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any) -> int:
+@jit(entry=True)
+def observe_rates(
+    model: tuple[Sizes, abi.Rhs, abi.Rhs, abi.Accept],
+    outputs: Outputs,
+    count: int,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    observed: Observed,
+    room: Array,
+) -> int:
     """Evaluate v' and lambda at outputs.
 
     Parameters
@@ -57,8 +66,17 @@ def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any,
     return 0
 
 
-@jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
-def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
+@jit(entry=True)
+def observe_rows(
+    observe: abi.Observe,
+    sizes: Sizes,
+    outputs: Outputs,
+    count: int,
+    p: Array,
+    w: Array,
+    observed: Observed,
+    room: Array,
+) -> int:
     """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or other quantities.
 
     Parameters
@@ -89,8 +107,10 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
     return 0
 
 
-@jit(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
-def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any, w: Any, y: Any) -> int:
+@jit(entry=True)
+def observe_status(
+    geometry: abi.Measure, measure: abi.Measure, sizes: Sizes, outputs: Outputs, p: Array, w: Array, y: Array
+) -> int:
     """Measure states, one after the other: the status and the angles that count turns.
 
     Parameters

@@ -11,14 +11,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.run.breaks.motions import NEAR, jump_at
 from symgen.run.layout import abi
-from symgen.run.loops.event_loop import beginning_of
+from symgen.run.loops.event_loop import EventState, beginning_of
 
 if TYPE_CHECKING:
     from symgen.describe.facts.kinks import ChangingRow
@@ -55,7 +55,7 @@ class RowJumps:
     def _switches(self) -> int:
         return sum(len(row.switches) for row in self.rows)
 
-    def sentence(self, compiled: CompiledModel, state: Any) -> str:
+    def sentence(self, compiled: CompiledModel, state: EventState) -> str:
         """Return the sentence on the row that jumps or has a kink in the last step of a run; empty without one.
 
         Parameters
@@ -91,7 +91,7 @@ class RowJumps:
                     )
         return ""
 
-    def _places(self, at: Any, reach: float) -> list[tuple[float, float]]:
+    def _places(self, at: Callable[[float], Array], reach: float) -> list[tuple[float, float]]:
         """Return where switches pass 0 on the line, in order [s], and the distance of each from its neighbours."""
         low = -0.5 * _LEAST * self.until
         grid = np.linspace(low, reach, _LOOKS)
@@ -113,5 +113,5 @@ class RowJumps:
         return [(s, min(gaps[max(i - 1, 0) : i + 1], default=math.inf)) for i, s in enumerate(places)]
 
 
-def _entry(at: Any, i: int, s: float) -> float:
+def _entry(at: Callable[[float], Array], i: int, s: float) -> float:
     return float(at(s)[i])

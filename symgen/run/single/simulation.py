@@ -110,7 +110,7 @@ class Simulation:
         self._prepared: tuple[Outputs, LoopEntry] | None = None
         self._whole = self._model, self.setup.loop
         self._seams: tuple[Seam, ...] = ()
-        self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
+        self._counts, self._clock = self.state.control.data, self.state.clock.data
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t

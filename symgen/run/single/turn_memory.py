@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from symgen.describe.bounds.modes import HIT, JAM, LEAVE, MODE, REST, REVERSE, S
 from symgen.describe.parts.events import RESET, STOP
 from symgen.run.effects.accumulation import new_past
 from symgen.run.effects.effects import Effects
-from symgen.run.effects.resets import new_effects
+from symgen.run.effects.resets import OfEffects, new_effects
 from symgen.run.layout.probe import rate_functions
 from symgen.run.modes.bounded_rows import first_step, new_choice
 from symgen.run.modes.strikes import new_strikes
@@ -37,8 +37,8 @@ def what_changes(compiled: CompiledModel, watched: Watched) -> Effects:
 
 def effects_of_runs(
     compiled: CompiledModel, watched: Watched, until: float, width: int, nw: int, keeps: bool = False
-) -> Any:
-    """Return the effects of events, as `OF_EFFECTS`.
+) -> OfEffects:
+    """Return the effects of events.
 
     Parameters
     ----------
@@ -68,8 +68,8 @@ def modes_of_runs(
     width: int,
     nw: int,
     keeps: bool = False,
-) -> Any:
-    """Return rows with bounds and their events, as `OF_MODES`; parameters otherwise as for `effects_of_runs`.
+) -> OfModes:
+    """Return rows with bounds and their events; parameters otherwise as for `effects_of_runs`.
 
     Parameters
     ----------
@@ -84,17 +84,24 @@ def modes_of_runs(
     events = {name: k for k, name in enumerate(watched.names)}
     hits = [events[f"{name}.{HIT}"] if i >= rows.dry else -1 for i, name in enumerate(rows.names)]
     losses = [-1] * rows.dry + [-1 if place is None else place for place in rows.losses]
-    places = ({f"{name}.{word}": i for i, name in enumerate(rows.names)} for word in (SLIP, REVERSE, JAM, LEAVE))
+
+    def rows_of(word: str) -> NDArray[np.int64]:
+        places = {f"{name}.{word}": i for i, name in enumerate(rows.names)}
+        return np.array([places.get(name, -1) for name in watched.names], dtype=np.int64)
+
     # a turn of a single run is read whole
     log = new_transitions(len(rows.names), max(OF_LOG, 3 * len(rows.names)) if keeps else OF_LOG)
     return OfModes(
-        model_sizes(compiled),
-        choice,
-        new_strikes(effects, hits, losses, keeps),
-        log,
-        _where(watched, MODE) | effects.resets,
-        *(np.array([at.get(name, -1) for name in watched.names], dtype=np.int64) for at in places),
-        np.zeros(1, dtype=np.int64),
+        sizes=model_sizes(compiled),
+        choice=choice,
+        strikes=new_strikes(effects, hits, losses, keeps),
+        transitions=log,
+        choosing=_where(watched, MODE) | effects.resets,
+        breaks=rows_of(SLIP),
+        reverses=rows_of(REVERSE),
+        jams=rows_of(JAM),
+        leaves=rows_of(LEAVE),
+        renewed=np.zeros(1, dtype=np.int64),
     )
 
 

@@ -20,15 +20,15 @@ from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.native import types
 from symgen.describe.bounds.modes import HIT, MODE, REST
 from symgen.describe.parts.events import RESET, STOP
-from symgen.run.effects.accumulation import add_resets
+from symgen.run.effects.accumulation import Past, add_resets
 from symgen.run.effects.applying import NO_VALUES, NO_VELOCITIES
-from symgen.run.effects.resets import KEEPING
+from symgen.run.effects.resets import KEEPING, KeptEffect, OfEffects
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
-from symgen.run.loops.event_loop import EVENT_STATE
+from symgen.run.loops.event_loop import EVENT_STATE, EventState
 from symgen.run.modes.bounded_rows import NOT_APPLIED, SIGN
 from symgen.run.modes.refusals import names_in, refusal
-from symgen.run.modes.turn import FURTHER, PRESSED, STRIKING, begin_modes, open_rows_of, take_resets, take_turn
+from symgen.run.modes.turn import FURTHER, PRESSED, STRIKING, OfModes, begin_modes, open_rows_of, take_resets, take_turn
 from symgen.run.single.events import Happening
 from symgen.run.single.turn_memory import WORDS, effects_of_runs, modes_of_runs, what_changes
 
@@ -45,7 +45,7 @@ Array = NDArray[np.float64]
 BEGIN, BEGIN_OPEN, MEET = range(3)
 
 
-def serve_modes(doing: float, modes: Any, state: Any) -> int:
+def serve_modes(doing: float, modes: OfModes, state: EventState) -> int:
     """Begin in modes, or do what happens at events; see `take_turn`."""
     if doing == float(MEET):
         return int(take_turn(abi.MET, modes, state))
@@ -54,7 +54,7 @@ def serve_modes(doing: float, modes: Any, state: Any) -> int:
     return int(begin_modes(modes, state))
 
 
-def serve_resets(doing: float, effects: Any, state: Any) -> int:
+def serve_resets(doing: float, effects: OfEffects, state: EventState) -> int:
     """Do what happens at the events of a run without rows with bounds; see `take_resets`."""
     return int(take_resets(abi.MET, effects, state))
 
@@ -252,7 +252,7 @@ class TurnOfRun:
                 event = replace(event, left=float(strikes.left[row]))
             happened.append(event)
 
-    def _impact(self, numbers: Sequence[int], kept: Any) -> Impact:
+    def _impact(self, numbers: Sequence[int], kept: KeptEffect) -> Impact:
         """Return what some events have changed."""
         return self.effects.impact(numbers, kept.v, kept.impulses, float(kept.energy[0]))
 
@@ -293,7 +293,7 @@ class TurnOfRun:
         return direct(function, types.FunctionType(signature), 0.0, self.memory, self.simulation.state)
 
 
-def add_resets_of(past: Any, chosen: NDArray[np.int64], t: float) -> None:
+def add_resets_of(past: Past, chosen: NDArray[np.int64], t: float) -> None:
     """Add a time at which events have reset a run, from Python."""
     from symgen.compile.loopcode.exact import compiled_form
 

@@ -204,11 +204,12 @@ class Assembly:
         plain = whole_plain_function(law.rhs), whole_plain_function(model.geometry)
         machine = Ready(law.rhs, abi.RHS), Ready(model.geometry, abi.MEASURE)
         judge = plain_form(is_light)
+        nothing: list[Any] = [None] * 4  # it calls ``geometry`` alone
         with np.errstate(all="ignore"):
             try:
-                return bool(judge(plain[0], Closing(plain[1], *[None] * 4), self.layout, now, work))
+                return bool(judge(plain[0], Closing(plain[1], *nothing), self.layout, now, work))
             except (ArithmeticError, ValueError):  # undefined numbers are errors where nothing is compiled
-                return bool(judge(machine[0], Closing(machine[1], *[None] * 4), self.layout, now, work))
+                return bool(judge(machine[0], Closing(machine[1], *nothing), self.layout, now, work))
 
     def close_all(self, now: Instant, conditions: StartConditions, selected: Integers, control: Integers) -> int:
         """Make the selected rows consistent.

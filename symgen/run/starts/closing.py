@@ -7,11 +7,11 @@ of joint coordinates after those of the model, if any (`symgen.run.starts.joint_
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.base.ir.numerics import SKIP
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.exact import copy_numbers, exact
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.redundancy import choose_rows, farthest, is_off, weight_in_force
@@ -27,15 +27,15 @@ from symgen.run.layout.scales import (
     square_rows,
     weigh_rows,
 )
-from symgen.run.layout.start_records import Instant
+from symgen.run.layout.start_records import Closing, Instant, Layout, Work
 from symgen.run.starts import decisions
 from symgen.run.starts.decisions import is_dependent, is_poor
-from symgen.run.starts.joint_starts import fill_further
+from symgen.run.starts.joint_starts import Further, fill_further
 from symgen.run.starts.start_solvers import multiply
 
 
 @exact()
-def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> bool:
+def close_positions(closing: Closing, layout: Layout, now: Instant, work: Work, further: Further) -> bool:
     """Close positions by least changes; coordinates with scale 0 stay fixed. Return whether positions are closed.
 
     If so, D, nu and the angles that count turns belong to the closed positions; else Phi belongs to the last ones.
@@ -69,7 +69,7 @@ def close_positions(closing: Any, layout: Any, now: Any, work: Any, further: Any
 
 
 @exact()
-def place_constraints(closing: Any, layout: Any, now: Any, work: Any, further: Any) -> None:
+def place_constraints(closing: Closing, layout: Layout, now: Instant, work: Work, further: Further) -> None:
     """Fill Phi, D and nu at a position, including the rows of held joint coordinates."""
     closing.geometry(layout.t, now.y, now.p, now.w)
     if further.held.shape[0] > 0:
@@ -77,7 +77,7 @@ def place_constraints(closing: Any, layout: Any, now: Any, work: Any, further: A
 
 
 @exact()
-def _shift(closing: Any, layout: Any, y: Any, w: Any, change: Any, factor: float) -> None:
+def _shift(closing: Closing, layout: Layout, y: Array, w: Array, change: Array, factor: float) -> None:
     """Move the coordinates by a multiple of a change of the velocities."""
     if layout.nq == layout.nv:
         for j in range(layout.nv):
@@ -89,7 +89,7 @@ def _shift(closing: Any, layout: Any, y: Any, w: Any, change: Any, factor: float
 
 
 @exact()
-def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, velocities: Any) -> int:
+def complete_velocities(closing: Closing, layout: Layout, now: Instant, work: Work, velocities: Array) -> int:
     """Set the velocities: specified ones are kept, the others are the smallest that satisfy D v = nu.
 
     If the specified ones contradict the constraints, all but the held ones are projected in the metric of the mass
@@ -125,7 +125,7 @@ def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, velociti
 
 
 @exact()
-def _velocity_violation(layout: Any, now: Any, work: Any) -> float:
+def _velocity_violation(layout: Layout, now: Instant, work: Work) -> float:
     """Set `work.right` to nu - D v and return its length."""
     w, right, square = now.w, work.right, 0.0
     multiply(layout, w, part(now.y, layout.nq, layout.nv), right)
@@ -136,7 +136,7 @@ def _velocity_violation(layout: Any, now: Any, work: Any) -> float:
 
 
 @exact()
-def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float:
+def _correct_velocities(closing: Closing, layout: Layout, now: Instant, work: Work) -> float:
     """Add the shortest change for nu - D v in `work.right`; return the norm of the remainder, which replaces it."""
     closing.solve(closing.spread, layout, now, work)
     y, x = now.y, work.x
@@ -146,7 +146,7 @@ def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float
 
 
 @exact()
-def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any) -> int:
+def mask_redundant(closing: Closing, layout: Layout, now: Instant, work: Work, nothing: Further) -> int:
     """Weigh rows; mask as many as depend on others at the start and at closed positions near it; return their number.
 
     Rows that depend on others only at the start do so at a singular position and are kept. The dependent rows may
@@ -185,7 +185,7 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any, nothing: Any)
 
 
 @exact()
-def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
+def _mark(closing: Closing, layout: Layout, now: Instant, work: Work) -> int:
     """Mask the rows in force that depend on others or have vanished at a position; return their number.
 
     Vanished rows take no part in the elimination, where rounding divided by rounding would decide.
@@ -209,7 +209,7 @@ def _mark(closing: Any, layout: Any, now: Any, work: Any) -> int:
 
 
 @exact()
-def _dependent(layout: Any, w: Any, work: Any) -> int:
+def _dependent(layout: Layout, w: Array, work: Work) -> int:
     """Return the number of rows in force that depend on others, where small pivots have amplified rounding."""
     count = -farthest(layout, layout.nv, layout.m, SKIP, 1, w, work.numbers)
     for i in range(layout.m):
@@ -218,7 +218,9 @@ def _dependent(layout: Any, w: Any, work: Any) -> int:
 
 
 @exact()
-def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
+def _masked(
+    closing: Closing, layout: Layout, now: Instant, other: Instant, work: Work, count: int, alone: int, same: bool
+) -> int:
     """Mask `count` rows, chosen from those dependent at the start alone or from all; return their number."""
     m, mask = layout.m, layout.mask
     if count == 0:
@@ -246,7 +248,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
 
 
 @exact()
-def _active_pivot(layout: Any, w: Any) -> float:
+def _active_pivot(layout: Layout, w: Array) -> float:
     """Return the smallest pivot of D D^T among the rows that do not depend on others."""
     smallest = 1.0
     for i in range(layout.m):
@@ -256,7 +258,7 @@ def _active_pivot(layout: Any, w: Any) -> float:
 
 
 @exact()
-def _unseen(closing: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
+def _unseen(closing: Closing, layout: Layout, now: Instant, work: Work, seed: float) -> int:
     """Set `work.direction` to a change of velocities with nonzero scale in the null space of D.
 
     Returns the index of its largest component relative to the scale.
@@ -276,7 +278,7 @@ def _unseen(closing: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
 
 
 @exact()
-def find_undetermined(closing: Any, layout: Any, now: Any, work: Any) -> int:
+def find_undetermined(closing: Closing, layout: Layout, now: Instant, work: Work) -> int:
     """Return a velocity that has neither mass nor a row of D to determine its rate, -1 if all rates are determined.
 
     Accelerations are determined if M + D^T D is regular: no change of massless velocities is in the null space of D.
@@ -293,7 +295,7 @@ def find_undetermined(closing: Any, layout: Any, now: Any, work: Any) -> int:
 
 
 @exact()
-def is_light(rhs: Any, closing: Any, layout: Any, now: Any, work: Any) -> bool:
+def is_light(rhs: abi.Rhs, closing: Closing, layout: Layout, now: Instant, work: Work) -> bool:
     """Whether a pivot of S is suspiciously small although D D^T finds no row dependent; `now` is not changed."""
     other = Instant(work.y, now.p, work.w)
     _copy(layout, now, other)
@@ -309,7 +311,7 @@ def is_light(rhs: Any, closing: Any, layout: Any, now: Any, work: Any) -> bool:
 
 
 @exact()
-def _copy(layout: Any, now: Any, other: Any) -> None:
+def _copy(layout: Layout, now: Instant, other: Instant) -> None:
     """Copy state and scratch."""
     copy_numbers(now.y, other.y, layout.ny)
     copy_numbers(now.w, other.w, now.w.shape[0])

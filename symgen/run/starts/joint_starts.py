@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from symgen.compile.loopcode.exact import copy_numbers, exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Integers, Record
 from symgen.run.layout import abi
 from symgen.run.layout.probe import Ready
-from symgen.run.layout.start_records import LAYOUT, Layout, record_type
+from symgen.run.layout.start_records import Instant, Layout, Work
 
 if TYPE_CHECKING:
     from symgen.run.layout.compiled import CompiledModel, ModelInfo
@@ -41,13 +42,28 @@ def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
     return out[info.m :]
 
 
-#: The joint coordinates held by starts of a model.
-#: - values, rates: Layouts of the model with further rows of held joint coordinates, and of held rates.
-#: - held: These joint coordinates, those of `values` before those of `rates`.
-#: - goals, origins: Intermediate goals of the rows; their values at the described positions.
-#: - w, out: Scratch with room for the further rows; output of ``observe``.
-JOINTS = record_type("Joints", __name__, ("values rates", LAYOUT), ("held", _I), ("goals origins w out", _A))
-Joints: Any = JOINTS.constructor
+class Joints(Record):
+    """The joint coordinates held by starts of a model.
+
+    Attributes
+    ----------
+    values, rates : Layout
+        Layouts of the model with further rows of held joint coordinates, and of held rates.
+    held : Array of int64
+        The joint coordinates with rows of `values`, then the ones with rows of `rates`.
+    goals, origins : Array
+        Intermediate goals of the rows; their values at the described positions.
+    w, out : Array
+        Scratch with room for the further rows; output of ``observe``.
+    """
+
+    values: Layout
+    rates: Layout
+    held: Integers
+    goals: Array
+    origins: Array
+    w: Array
+    out: Array
 
 
 class Further(NamedTuple):
@@ -103,7 +119,7 @@ def _with_rows(info: ModelInfo, base: Layout, chosen: Sequence[int], nw: int) ->
 
 
 @exact()
-def fill_further(layout: Any, now: Any, work: Any, further: Any) -> None:
+def fill_further(layout: Layout, now: Instant, work: Work, further: Further) -> None:
     """Fill Phi, D and nu of all rows; the model's are already in its part of the scratch.
 
     `work.y`, `work.w` and `work.direction` are overwritten.

@@ -112,7 +112,7 @@ class KeptTree:
         return now.y.copy(), now.w.copy(), self._alike
 
 
-def _bound(function: Any, arguments: tuple[Any, ...]) -> Callable[[], int]:
+def _bound(function: object, arguments: tuple[Any, ...]) -> Callable[[], int]:
     """Return a function of `exact` with its arguments, entered by its address where it is compiled."""
     code = compiled_form(function)
     block = ArgumentBlock.of(code, getattr(code, "signature", None), arguments)

@@ -14,19 +14,19 @@ compile.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.exact import exact
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.redundancy import weight_in_force
 from symgen.run.layout.scales import entry_of, free_scale, row_weight
-from symgen.run.layout.start_records import SOLVE, TURNS
+from symgen.run.layout.start_records import Instant, Layout, Work
 from symgen.run.starts import decisions
 
 
-@exact(SOLVE.signature)
-def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
+@exact(entry=True)
+def dense_change(spread: abi.Move, layout: Layout, now: Instant, work: Work) -> int:
     """Set `work.x` by an orthogonal factorisation of the dense D; return its rank. `spread` is not used."""
     m, n, numbers, x, scale = layout.m, layout.nv, work.numbers, work.x, work.scale
     entries, w = layout.entries, now.w
@@ -44,8 +44,8 @@ def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     return int(rank)
 
 
-@exact(SOLVE.signature)
-def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
+@exact(entry=True)
+def sparse_change(spread: abi.Move, layout: Layout, now: Instant, work: Work) -> int:
     """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the gauge, else by iteration."""
     m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
     free = True
@@ -61,8 +61,8 @@ def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     return 0
 
 
-@exact(SOLVE.signature)
-def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
+@exact(entry=True)
+def iterated_change(spread: abi.Move, layout: Layout, now: Instant, work: Work) -> int:
     """Set `work.x` by conjugate gradients on the normal equations (CGLS). `spread` is not used.
 
     The iteration begins at 0 and so never leaves the row space.
@@ -100,7 +100,7 @@ def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
 
 
 @exact()
-def multiply(layout: Any, w: Any, x: Any, result: Any) -> None:
+def multiply(layout: Layout, w: Array, x: Array, result: Array) -> None:
     """Set `result` to D x."""
     for i in range(layout.m):
         result[i] = 0.0
@@ -109,7 +109,7 @@ def multiply(layout: Any, w: Any, x: Any, result: Any) -> None:
 
 
 @exact()
-def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
+def _multiply_transposed(layout: Layout, w: Array, y: Array, result: Array) -> None:
     """Set `result` to D^T y, where y belongs to weighed rows."""
     for j in range(layout.nv):
         result[j] = 0.0
@@ -119,13 +119,15 @@ def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
 
 
 @exact()
-def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any) -> int:
+def least_norm(a: Array, m: int, n: int, right: Array, x: Array, room: Array, order: Integers) -> int:
     """Set `x` to the shortest vector that minimises ``|a x - right|`` at a start; see `least_norm_above`."""
     return int(least_norm_above(a, m, n, right, x, room, order, decisions.RANK_CUTOFF))
 
 
 @exact()
-def least_norm_above(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any, cutoff: float) -> int:
+def least_norm_above(
+    a: Array, m: int, n: int, right: Array, x: Array, room: Array, order: Integers, cutoff: float
+) -> int:
     """Set `x` to the shortest vector that minimises ``|a x - right|``; return the rank of `a`.
 
     Parameters
@@ -220,7 +222,7 @@ def least_norm_above(a: Any, m: int, n: int, right: Any, x: Any, room: Any, orde
 
 
 @exact()
-def _reduce(matrix: Any, at: int, m: int, n: int, right: Any) -> None:
+def _reduce(matrix: Array, at: int, m: int, n: int, right: Array) -> None:
     """Reflect the columns of a matrix of full rank, m x n from index `at` on: leave R and Q^T right."""
     for k in range(n):
         square = 0.0
@@ -250,8 +252,8 @@ def _reduce(matrix: Any, at: int, m: int, n: int, right: Any) -> None:
 # -- whole turns -------------------------------------------------------------------------------------------------------
 
 
-@exact(TURNS.signature)
-def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
+@exact(entry=True)
+def choose_turns(geometry: abi.Measure, measure: abi.Measure, layout: Layout, now: Instant, work: Work) -> int:
     """Shift the section ``winding`` by the whole turns with which the rows on angles are nearest to closed.
 
     Parameters
@@ -290,7 +292,7 @@ def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) 
 
 
 @exact()
-def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None:
+def whole_turns(m: int, count: int, effects: Array, rest: Array, turns: int) -> None:
     """Set the number of turns to add to each angle.
 
     Parameters
@@ -346,7 +348,7 @@ def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None
                 rest[r] += turn_count * effects[r * count + column]
 
 
-@exact(TURNS.signature)
-def choose_no_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
+@exact(entry=True)
+def choose_no_turns(geometry: abi.Measure, measure: abi.Measure, layout: Layout, now: Instant, work: Work) -> int:
     """Replace `choose_turns` where no angle counts turns, so that it is not compiled."""
     return 0

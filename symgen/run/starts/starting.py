@@ -7,23 +7,21 @@ as plain Python (`symgen.compile.loopcode.exact`). A start that cannot be closed
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.exact import copy_numbers, exact
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of
 from symgen.run.layout.start_records import (
-    INSTANT,
-    LAYOUT,
-    MODEL,
-    START_CONDITIONS,
-    WORK,
     Closing,
     Instant,
+    Layout,
     StartConditions,
+    StartModel,
+    Work,
 )
 from symgen.run.starts import decisions
 from symgen.run.starts.closing import (
@@ -34,19 +32,19 @@ from symgen.run.starts.closing import (
     mask_redundant,
     place_constraints,
 )
-from symgen.run.starts.joint_starts import JOINTS, Further, fill_further
+from symgen.run.starts.joint_starts import Further, Joints, fill_further
 
 _A, _I = types.float64[::1], types.int64[::1]
 #: A model, its ``observe``, and the joint coordinates that starts hold.
-_HOLDING = types.RecordType((MODEL, abi.OBSERVE, JOINTS))
+Holding = tuple[StartModel, abi.Observe, Joints]
 
 
 #: Layout, and the numbers of a new scratch array that are not 0: their places, and they themselves.
-_DESCRIBED = types.RecordType((LAYOUT, _I, _A))
+Described = tuple[Layout, Integers, Array]
 
 
-@exact(types.int64(_DESCRIBED, _A, INSTANT, _I, START_CONDITIONS))
-def begin_row(model: Any, state: Any, now: Any, iw: Any, conditions: Any) -> int:
+@exact(entry=True)
+def begin_row(model: Described, state: Array, now: Instant, iw: Integers, conditions: StartConditions) -> int:
     """Set a run to a described state, with new scratch and counters, for `close_row`; velocities become conditions."""
     layout, places, numbers = model
     y, w, first = now.y, now.w, layout.nq
@@ -63,8 +61,8 @@ def begin_row(model: Any, state: Any, now: Any, iw: Any, conditions: Any) -> int
     return 0
 
 
-@exact(types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK))
-def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
+@exact(entry=True)
+def close_row(model: Holding, now: Instant, conditions: StartConditions, work: Work) -> int:
     """Make the start of a run consistent.
 
     Positions are closed by shortest changes from those described, fixed ones staying the same; then the held
@@ -130,7 +128,7 @@ def close_row(model: Any, now: Any, conditions: Any, work: Any) -> int:
 
 
 @exact()
-def check_numbers(layout: Any, now: Any, summary: Any) -> int:
+def check_numbers(layout: Layout, now: Instant, summary: Array) -> int:
     """Return whether numbers are finite and masses positive, except for those described as 0."""
     y, p, w, massless, finite = now.y, now.p, now.w, layout.massless, True
     for i in range(layout.nq):
@@ -145,7 +143,15 @@ def check_numbers(layout: Any, now: Any, summary: Any) -> int:
 
 
 @exact()
-def _reach(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, joints: Any, nothing: Any) -> int:
+def _reach(
+    closing: Closing,
+    layout: Layout,
+    now: Instant,
+    conditions: StartConditions,
+    work: Work,
+    joints: Joints,
+    nothing: Further,
+) -> int:
     """Close the described positions, then positions on the path of held coordinates to their values."""
     y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, conditions.targets
     h, values, strides, nw = layout.held.shape[0] // 2, joints.values.m - layout.m, 0, now.w.shape[0]
@@ -205,7 +211,15 @@ def _reach(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, join
 
 
 @exact()
-def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: Any, joints: Any, observe: Any) -> int:
+def _complete_with_rates(
+    closing: Closing,
+    layout: Layout,
+    now: Instant,
+    goal: StartConditions,
+    work: Work,
+    joints: Joints,
+    observe: abi.Observe,
+) -> int:
     """Complete the velocities of a state in which rates of joint coordinates are held."""
     values, rates = joints.values.m - layout.m, joints.rates.m - layout.m
     of, goals, first = part(joints.held, values, rates), part(joints.goals, values, rates), layout.held.shape[0] // 2
@@ -219,7 +233,9 @@ def _complete_with_rates(closing: Any, layout: Any, now: Any, goal: Any, work: A
 
 
 @exact()
-def _close_at_once(closing: Any, layout: Any, now: Any, conditions: Any, work: Any, nothing: Any) -> bool:
+def _close_at_once(
+    closing: Closing, layout: Layout, now: Instant, conditions: StartConditions, work: Work, nothing: Further
+) -> bool:
     """Set held coordinates to their values at once; return whether all is closed then, with the others as described.
 
     If not, the state is not changed.
@@ -242,11 +258,15 @@ def _close_at_once(closing: Any, layout: Any, now: Any, conditions: Any, work: A
     return False
 
 
-_CLOSE_ROWS = types.int64(_HOLDING, INSTANT, START_CONDITIONS, WORK, _I, _I)
-
-
-@exact(_CLOSE_ROWS)
-def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, selected: Any, control: Any) -> int:
+@exact(entry=True)
+def close_rows(
+    model: Holding,
+    all_of_now: Instant,
+    all_conditions: StartConditions,
+    work: Work,
+    selected: Integers,
+    control: Integers,
+) -> int:
     """Make the starts of many rows consistent.
 
     Parameters
@@ -284,11 +304,20 @@ def close_rows(model: Any, all_of_now: Any, all_conditions: Any, work: Any, sele
 
 
 #: The same for a single start: machine code that is made in less time.
-close_alone = exact(_CLOSE_ROWS, once=True)(getattr(close_rows, "py_func", close_rows))
+close_alone = exact(entry=True, once=True)(getattr(close_rows, "py_func", close_rows))
 
 
-@exact(types.int64(e.PREPARE, e.PREPARE, abi.MOVE, _A, _A, _A, types.int64, _I))
-def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: Any, runs: int, selected: Any) -> int:
+@exact(entry=True)
+def prepare_rows(
+    model: e.Prepare,
+    law: e.Prepare,
+    masses: abi.Move,
+    scratch: Array,
+    ps: Array,
+    ws: Array,
+    runs: int,
+    selected: Integers,
+) -> int:
     """Fill parameters and scratch of the selected ones of `runs` rows.
 
     Parameters
@@ -313,19 +342,19 @@ def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: A
     return 0
 
 
-@exact(types.int64(types.float64, _A, _A, _A, _A, _A))
-def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+@exact(entry=True)
+def observe_nothing(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is held, so that it is not compiled."""
     return 0
 
 
-@exact(types.int64(types.float64, _A, _A, _A))
-def follow_nothing(t: float, y: Any, p: Any, w: Any) -> int:
+@exact(entry=True)
+def follow_nothing(t: float, y: Array, p: Array, w: Array) -> int:
     """Replace the emitted ``measure`` where no angle counts turns, so that it is not compiled."""
     return 0
 
 
-@exact(types.int64(types.float64, _A, _A, _A, _I, _A))
-def rate_nothing(t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
+@exact(entry=True)
+def rate_nothing(t: float, y: Array, p: Array, w: Array, iw: Integers, ydot: Array) -> int:
     """Replace the emitted ``rhs`` where light bodies are not looked for, so that it is not compiled."""
     return 0

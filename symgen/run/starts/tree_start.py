@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.exact import exact, plain_form
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Record
 from symgen.run.layout import abi
 from symgen.run.layout.compiled import CompiledModel
 from symgen.run.layout.probe import Ready
 from symgen.run.layout.scales import mean_mass
-from symgen.run.layout.start_records import INSTANT, MODEL, WORK, Closing, Instant, record_type
+from symgen.run.layout.start_records import Closing, Instant, StartModel, Work
 from symgen.run.starts.assembler import Assembly
 from symgen.run.starts.closing import mask_redundant
 from symgen.run.starts.joint_starts import Further
@@ -31,28 +32,41 @@ _I, _A = types.int64[::1], types.float64[::1]
 TURNED_OVER = 0.5
 
 
-#: Indices in rows of bodies and of a tree.
-#: - work, outs: Elements of a tree's state before the work; numbers that ``observe`` writes.
-#: - places (shape (2 work,)): Of each of these elements: 0 and its index in the state of bodies, or 1 and its index in
-#:   the output of ``observe``.
-#: - windings, gauges, spins: Indices of angles that count turns, and of squares of lengths, in the scratch of bodies;
-#:   -1 where that is 1. First indices of Euler parameters in the coordinates of bodies.
-_CARRYING = record_type("Carrying", __name__, ("work outs", types.int64), ("places windings gauges spins", _I))
-Carrying: Any = _CARRYING.constructor
+class Carrying(Record):
+    """Indices in rows of bodies and of a tree.
+
+    Attributes
+    ----------
+    work, outs : int
+        Elements of a tree's state before the work; numbers that ``observe`` writes.
+    places : Array of int64, shape (2 work,)
+        Of each of these elements: 0 and its index in the state of bodies, or 1 and its index in the output of
+        ``observe``.
+    windings, gauges, spins : Array of int64
+        Indices of angles that count turns, and of squares of lengths, in the scratch of bodies; -1 where that
+        is 1. First indices of Euler parameters in the coordinates of bodies.
+    """
+
+    work: int
+    outs: int
+    places: Integers
+    windings: Integers
+    gauges: Integers
+    spins: Integers
 
 
 #: A tree with the ``observe`` of bodies, the function that maps its motion to bodies, and the indices.
-_TREE = types.RecordType((MODEL, abi.OBSERVE, abi.OBSERVE, _CARRYING))
+Tree = tuple[StartModel, abi.Observe, abi.Observe, Carrying]
 
 
-@exact(types.int64(_TREE, INSTANT, INSTANT, WORK, _A, _A), once=True)
-def settle_row(tree: Any, of_bodies: Any, now: Any, work: Any, room: Any, alike: Any) -> int:
+@exact(entry=True, once=True)
+def settle_row(tree: Tree, of_bodies: Instant, now: Instant, work: Work, room: Array, alike: Array) -> int:
     """Map a start of bodies to the tree; return the number of redundant rows of its loops.
 
     Parameters
     ----------
     tree : tuple
-        As `_TREE`.
+        As `Tree`.
     of_bodies, now : Instant
         The start of bodies, and the tree's, whose parameters and masses are prepared and whose state is set.
     work : Work
@@ -98,9 +112,16 @@ def settle_row(tree: Any, of_bodies: Any, now: Any, work: Any, room: Any, alike:
     return int(dependent)
 
 
-@exact(types.int64(_TREE, INSTANT, INSTANT, WORK, _A, _A, _I, _I))
+@exact(entry=True)
 def settle_rows(
-    tree: Any, of_bodies: Any, of_tree: Any, work: Any, room: Any, alike: Any, selected: Any, control: Any
+    tree: Tree,
+    of_bodies: Instant,
+    of_tree: Instant,
+    work: Work,
+    room: Array,
+    alike: Array,
+    selected: Integers,
+    control: Integers,
 ) -> int:
     """Map the starts of many rows, one after the other, to the tree; return the number of processed rows.
 

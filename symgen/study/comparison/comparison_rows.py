@@ -213,7 +213,7 @@ _NOT_FINITE = ("nan", "inf", "-inf")
 def to_entry(row: Row, trace: Trace) -> dict[str, Any]:
     """Return a row with its curves as JSON values; numbers that are not finite are texts."""
 
-    def expressed(value: Any) -> Any:
+    def expressed(value: object) -> Any:
         if isinstance(value, tuple):
             return [expressed(x) for x in value]
         return str(value) if isinstance(value, float) and not math.isfinite(value) else value
@@ -227,7 +227,7 @@ def to_entry(row: Row, trace: Trace) -> dict[str, Any]:
 def from_entry(entry: Mapping[str, Any]) -> tuple[Row, Trace]:
     """Return the row and the curves of an entry."""
 
-    def plain(value: Any) -> Any:
+    def plain(value: object) -> Any:
         if isinstance(value, list):
             return tuple(plain(x) for x in value)
         return float(value) if value in _NOT_FINITE else value

@@ -87,7 +87,7 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
         self._over &= ~mask
         self._rows.step(0.0, np.zeros(self.num_envs, dtype=np.int64))
 
-    def step(self, actions: Any) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+    def step(self, actions: object) -> tuple[Array, Array, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Hold actions for a time `dt`."""
         task, rows, anew = self.task, self._rows, self._over.copy()
         drives = np.asarray(actions, dtype=np.float64)
@@ -105,7 +105,7 @@ class Environments(VectorEnv):  # type: ignore[misc]  # a class without types
         infos = {"failure": np.array(rows.reasons), "_failure": failed} if failed.any() else {}
         return observations, np.where(anew, 0.0, reward), ended, truncated, infos
 
-    def close_extras(self, **options: Any) -> None:
+    def close_extras(self, **options: object) -> None:
         """End the threads; `options` are Gymnasium's."""
         self._rows.close()
 
@@ -152,7 +152,7 @@ class _Rows:
         at = own.state.clock.ctypes.data - own.snapshot.front.ctypes.data
         self._clock = at // self._first.itemsize + abi.TIME
 
-    def _part(self, function: Any, rated: bool, first: int, last: int) -> _Part:
+    def _part(self, function: object, rated: bool, first: int, last: int) -> _Part:
         """Return the call over some rows, with memory of its own."""
         simulation = self._prepared.simulation()
         state, compiled, setup = simulation.state, simulation.compiled, simulation.setup

@@ -44,7 +44,7 @@ class Environment(gymnasium.Env):  # type: ignore[misc]  # a class without types
         self.run.reset(self.task.start(self.np_random) if not options else options.get("start"))
         return self._meter()[: len(self.task.observe)], {}
 
-    def step(self, action: Any) -> tuple[Array, float, bool, bool, dict[str, Any]]:
+    def step(self, action: object) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """Hold an action for a time `dt`."""
         task, info, event = self.task, dict[str, Any](), None
         action = np.asarray(action, dtype=np.float64)

@@ -90,7 +90,7 @@ class Task:
         ended = np.zeros(observations.shape[:-1], dtype=bool) if self.end is None else values[..., -1] > 0.0
         return observations, reward, ended
 
-    def over(self, t: Any) -> Any:
+    def over(self, t: object) -> Any:
         """Whether episodes have reached their time."""
         return np.asarray(t) >= self.until - _SAME * self.dt
 
@@ -164,7 +164,7 @@ def _of_steps(settings: Settings, dt: float, step: float) -> Settings:
     return settings
 
 
-def _bounds(where: str, pair: Any, limit: float) -> tuple[float, float]:
+def _bounds(where: str, pair: object, limit: float) -> tuple[float, float]:
     """Return two bounds in order, finite or up to a limit."""
     numbers = arguments.listed(where, pair, "a pair of bounds")
     try:
@@ -176,7 +176,7 @@ def _bounds(where: str, pair: Any, limit: float) -> tuple[float, float]:
     return low, high
 
 
-def _value(where: str, x: Any) -> float | tuple[float, float]:
+def _value(where: str, x: object) -> float | tuple[float, float]:
     """Return a number, or bounds of a distribution."""
     if isinstance(x, tuple | list):
         low, high = _bounds(where, x, 0.0)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
+from symgen.compile.native.annotations import Array, Integers
 from symgen.study.references.least_squares import compiled, minimum_norm
 
 #: Steps below this share of the time to the next output count as collapsed.
@@ -16,7 +17,7 @@ COLUMNS = 8
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) -> None:
+def _by_gauss(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array) -> None:
     """Set `acceleration` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
     m, n = d.shape
     root, free = np.empty(n), np.empty(n)
@@ -43,7 +44,7 @@ def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) -> None:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) -> None:
+def _with_multipliers(d: Array, gamma: Array, f: Array, mass: Array, acceleration: Array) -> None:
     """Set `acceleration` to the v' of M v' + D^T l = f and D v' = gamma."""
     m, n = d.shape
     heavy, usual = 0, 0.0
@@ -71,7 +72,17 @@ def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, acceleration: Any) 
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def compute_rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float, y: Any, rate: Any) -> None:
+def compute_rate(
+    function: Callable[..., None],
+    index: Integers,
+    m: int,
+    n: int,
+    mass: Array,
+    p: Array,
+    t: float,
+    y: Array,
+    rate: Array,
+) -> None:
     """Set ``rate`` to (v, v', z').
 
     v' is by least squares in the metric of M, or with multipliers where M has no inverse or is not diagonal. `index`
@@ -104,20 +115,20 @@ def compute_rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
 def extrapolated(
-    function: Any,
-    index: Any,
+    function: Callable[..., None],
+    index: Integers,
     m: int,
     n: int,
-    mass: Any,
-    p: Any,
+    mass: Array,
+    p: Array,
     t: float,
-    y: Any,
+    y: Array,
     until: float,
     rtol: float,
-    scale: Any,
-    state: Any,
+    scale: Array,
+    state: Array,
     budget: int,
-    used: Any,
+    used: Integers,
 ) -> int:
     """Integrate y to ``until``; return 0, 1 (budget used up) or 2 (the step collapses)."""
     size = y.shape[0]

@@ -7,11 +7,11 @@ References are compiled by Numba, not by the compiler of the runs that they judg
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numba
 import numpy as np
 
+from symgen.compile.native.annotations import Array
 from symgen.study.references.independent import CUTOFF
 
 #: Decorator of functions of references.
@@ -21,7 +21,7 @@ DEPENDENT = 1e-7
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _reflect(a: Any, k: int, length: float, diagonal: Any, factors: Any) -> None:
+def _reflect(a: Array, k: int, length: float, diagonal: Array, factors: Array) -> None:
     """Reflect the rows of A from the k-th on, of which columns from k on are left, so that the k-th has one entry."""
     m, n = a.shape
     diagonal[k] = -length if a[k, k] > 0.0 else length
@@ -37,7 +37,7 @@ def _reflect(a: Any, k: int, length: float, diagonal: Any, factors: Any) -> None
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _turn_back(a: Any, factors: Any, rank: int, x: Any) -> None:
+def _turn_back(a: Array, factors: Array, rank: int, x: Array) -> None:
     """Take x back through the reflections in the rows of A; entries from the rank on are set to 0 before."""
     n = a.shape[1]
     for j in range(rank, n):
@@ -52,7 +52,7 @@ def _turn_back(a: Any, factors: Any, rank: int, x: Any) -> None:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _square(a: Any, i: int, k: int) -> float:
+def _square(a: Array, i: int, k: int) -> float:
     """Return the sum of squares of a row from column k on."""
     square = 0.0
     for j in range(k, a.shape[1]):
@@ -61,7 +61,7 @@ def _square(a: Any, i: int, k: int) -> float:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _independent(a: Any, b: Any, x: Any) -> bool:
+def _independent(a: Array, b: Array, x: Array) -> bool:
     """Set x to the minimum-norm solution of A x = b by Householder reflections of the rows of A; overwrites A.
 
     Returns
@@ -90,7 +90,7 @@ def _independent(a: Any, b: Any, x: Any) -> bool:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def _dependent(a: Any, b: Any, x: Any) -> None:
+def _dependent(a: Array, b: Array, x: Array) -> None:
     """Set x to the minimum-norm least-squares solution of A x = b, rows of any rank; overwrites A and b.
 
     The longest row that is left is reflected next, until `CUTOFF` times the first one is longer than all: A = L Q with
@@ -137,7 +137,7 @@ def _dependent(a: Any, b: Any, x: Any) -> None:
 
 
 @compiled  # type: ignore[untyped-decorator]  # Numba is untyped
-def minimum_norm(a: Any, b: Any, x: Any) -> None:
+def minimum_norm(a: Array, b: Array, x: Array) -> None:
     """Set x to the minimum-norm least-squares solution of A x = b.
 
     Parameters

@@ -119,7 +119,7 @@ class CompiledEquations(IndependentEquations):
         return np.concatenate([[len(self._entries)], *places]).astype(np.int64)
 
     def advance(
-        self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: Any, most: int
+        self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: object, most: int
     ) -> Array:
         """Integrate to `until` by extrapolation.
 

@@ -25,7 +25,7 @@ from symgen.compile.store.upkeep import NATIVE
 SOURCES = ("study/references/motion.py", "study/references/numba_code.py")
 
 
-def machine_code(name: str, signature: Any, identity: str, make: Callable[[], Any]) -> Any:
+def machine_code(name: str, signature: object, identity: str, make: Callable[[], Any]) -> Any:
     """Return the result of a compilation by Numba, from the cache or made anew.
 
     Parameters

@@ -144,7 +144,7 @@ class ReferenceFormulas:
         rotors = self.mechanism.rotors
         return [self._expression(x.inertia) * self._along(self._measure(x.angle)) ** 2 / 2 for x in rotors]
 
-    def _expression(self, e: Expr, **placeholders: Any) -> Any:
+    def _expression(self, e: Expr, **placeholders: object) -> Any:
         measured = {r.name: self._reading(r) for r in readings(e)}
         return to_sympy(e, {**self._symbols, **measured, **placeholders})
 
@@ -184,7 +184,7 @@ class ReferenceFormulas:
         entries = {i: sp.diff(speed, v) for i, v in enumerate(self.v) if v in free}
         return {i: e for i, e in entries.items() if e != 0}
 
-    def _along(self, e: Any) -> Any:
+    def _along(self, e: object) -> Any:
         """Return the derivative of a function of q along the motion."""
         return sum((d * self.v[i] for i, d in self._gradient(e).items()), sp.S.Zero)
 
@@ -304,7 +304,7 @@ class ReferenceFormulas:
         return along.dot(self._velocity(speed.centre) + self._omega(speed.centre.body).cross(arm))
 
 
-def _turns_in_space(body: Any) -> bool:
+def _turns_in_space(body: object) -> bool:
     return isinstance(body, SpatialBody) and not body.is_point
 
 

@@ -138,7 +138,7 @@ def _pixels(figure: Figure) -> bytes:
     return stream.getvalue()
 
 
-def below(figure: Figure, entries: int, columns: int = 2, handles: Any = None) -> None:
+def below(figure: Figure, entries: int, columns: int = 2, handles: object = None) -> None:
     """Put the legend below the axes, and make the figure taller by its height."""
     if entries < 1:
         return

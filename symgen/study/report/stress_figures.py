@@ -163,7 +163,7 @@ def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:
     ax.tick_params(which="both", length=0)
 
 
-def _legend(figure: Figure, ax: Any, rows: Sequence[StressRow]) -> None:
+def _legend(figure: Figure, ax: object, rows: Sequence[StressRow]) -> None:
     from matplotlib.patches import Patch
 
     names = [name for name in OUTCOMES if any(row.outcome == name for row in rows)]

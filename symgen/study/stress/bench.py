@@ -177,7 +177,7 @@ class Base:
         names = [body.name for body in self.mechanism.bodies]
         return names[len(names) // 2]
 
-    def level(self, label: str, *values: float, **changes: Any) -> Level:
+    def level(self, label: str, *values: float, **changes: object) -> Level:
         """Return a case: the stressed mechanism, nominal length and step, but for `changes`."""
         settings: dict[str, Any] = {"mechanism": self.stressed, "until": self.nominal, "step": self.step} | changes
         return Level(label, values, **settings)

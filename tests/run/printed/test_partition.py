@@ -13,6 +13,7 @@ from symgen.run.planning.prepare import prepare
 from symgen.run.printed import exchanged_steps as steps
 from symgen.run.printed import partition
 from symgen.run.printed.exchanged_run import ASK, COMPLETE, HANDLE, HAPPENED, OVER, QUIET
+from symgen.run.printed.partition_tables import count_states, new_partition, tables_of
 from symgen.run.starts.assembler import layout_of
 
 
@@ -20,8 +21,8 @@ def partitioned(mechanism):
     """Return a prepared mechanism, its partition, and the arguments of its functions before and behind a state."""
     run = prepare(mechanism, Settings(shape="straight"), Purpose.STATE)
     compiled, start = run.compiled, run.start
-    layout, tables = layout_of(compiled), partition.tables_of(compiled, start.w, False)
-    part = partition.new_partition(layout, tables)
+    layout, tables = layout_of(compiled), tables_of(compiled, start.w, False)
+    part = new_partition(layout, tables)
     return run, tables, (layout, compiled_form(compiled.model.geometry), tables), (start.p, start.w.copy(), part)
 
 
@@ -32,7 +33,7 @@ def test_dependent_coordinates_follow_from_the_independent_ones(name):
     y = start.y.copy()
     compiled_form(partition.choose_states)(model, 0.0, y, *behind)
     assert compiled_form(partition.quality_of_choice)(model, 0.0, y, *behind) == 1.0
-    count = partition.count_states(model[0], tables)
+    count = count_states(model[0], tables)
     states, other = np.zeros(count), np.zeros(count)
     compiled_form(partition.read_states)(model, y, part, states)
     moved = y + 1e-3 * np.cos(np.arange(len(y)))

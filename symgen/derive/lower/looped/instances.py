@@ -200,7 +200,7 @@ class _Rewriting:
         angles = turns(measure.source for measure in readings(state.rate))
         return replace(instance, abstract=abstract, key=instance.key + msgspec.json.encode(rate), angles=angles)
 
-    def massless(self, kind: str, name: str, label: str, content: Any = None) -> Instance:
+    def massless(self, kind: str, name: str, label: str, content: object = None) -> Instance:
         """Return an instance without inertia of its own, on bodies as mere frames."""
         frames = tuple(self.frame(self.bodies[body], alias) for body, alias in self.frames.items())
         return self.instance(kind, name, label, (ZERO,) * len(self.mechanism.gravity), frames, content)
@@ -237,7 +237,7 @@ class _Rewriting:
 
     # -- rewriting ---------------------------------------------------------------------------------------------------
 
-    def walk(self, value: Any, field: str = "") -> Any:
+    def walk(self, value: object, field: str = "") -> Any:
         """Return a value of the vocabulary with bodies and numbers replaced."""
         if isinstance(value, Number | Name | Call | Reading):
             return self.formula(value)

@@ -200,7 +200,7 @@ class Loops(Replay):
     def _on_power(self, operation: FormulaStep) -> int:
         return self.graph.input(STATE, STATUS.index("power"))
 
-    def _nothing(self, operation: FormulaStep, *operands: Any) -> None:
+    def _nothing(self, operation: FormulaStep, *operands: object) -> None:
         """Do nothing: D and its factorisation are in their places when a function begins."""
 
     _on_flag = _on_rank = _on_constraints = _on_stored_constraints = _on_keep_constraints = _nothing

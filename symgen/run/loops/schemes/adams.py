@@ -17,9 +17,11 @@ from typing import Any
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import combine, copied, weigh
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
+from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scales import weights_of, with_work
-from symgen.run.layout.scheme_records import MULTISTEP
+from symgen.run.layout.scheme_records import MULTISTEP, Multistep
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import evaluate
 
@@ -30,7 +32,9 @@ ADAPTIVE = False
 
 
 @called
-def lagrange_integrals(count: int, times: Any, low: float, high: float, nodes: Any, factors: Any, out: Any) -> None:
+def lagrange_integrals(
+    count: int, times: Array, low: float, high: float, nodes: Array, factors: Array, out: Array
+) -> None:
     """Set `out` to integrals from `low` to `high` of the Lagrange polynomials on the first `count` of `times`."""
     for i in range(count):
         out[i] = 0.0
@@ -46,7 +50,7 @@ def lagrange_integrals(count: int, times: Any, low: float, high: float, nodes: A
 
 
 @called
-def classical(system: Any, run: Any, t: float, h: float, stage: Any, rate: Any) -> int:
+def classical(system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array) -> int:
     """Set ``run.trial`` by one step of the classical Runge-Kutta scheme; return its evaluations."""
     width, y, out = system.sizes.width, run.y, run.trial
     for i in range(width):  # the newest derivative stands first
@@ -64,7 +68,9 @@ def classical(system: Any, run: Any, t: float, h: float, stage: Any, rate: Any) 
 
 
 @called
-def extrapolated_step(system: Any, run: Any, t: float, h: float, stage: Any, rate: Any, before: Any) -> int:
+def extrapolated_step(
+    system: ModelSystem, run: Run, t: float, h: float, stage: Array, rate: Array, before: Array
+) -> int:
     """Set ``run.trial`` by one step of order 8; return its evaluations.
 
     Modified midpoint rules with 2, 4, 6 and 8 parts are extrapolated (Gragg, Bulirsch, Stoer).
@@ -95,7 +101,7 @@ def extrapolated_step(system: Any, run: Any, t: float, h: float, stage: Any, rat
 
 
 @called
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: Multistep, span: Span, run: Run) -> None:
     """Initialise the history: derivatives, newest first, then their times."""
     evaluate(system, run, run.clock[abi.TIME], run.y, part(run.memory, 0, system.sizes.width))
     run.control[abi.EVALUATIONS] += 1
@@ -105,7 +111,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Multistep, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step by predictor, evaluation and corrector; the error is their difference."""
     width, count = system.sizes.width, run.control[abi.POINTS]
@@ -145,13 +151,13 @@ def attempt(
     return 0.1 * with_work(system.sizes, span, run, predicted[work], math.sqrt(total / system.sizes.controlled))
 
 
-def refuse(run: Any) -> None:
+def refuse(run: Run) -> None:
     """Clear the history where two attempts in a row were refused: it is misleading."""
     if run.control[abi.REFUSED] == 1:
         run.control[abi.POINTS] = 1
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Multistep, span: Span, run: Run, t: float, changed: bool) -> None:
     """Put the derivative at the accepted state in front of the history."""
     width, count, history = system.sizes.width, run.control[abi.POINTS], run.memory
     past = part(history, DEPTH * width, DEPTH)

@@ -7,7 +7,7 @@ it begins: it has no stages. With these the states at stages are sums, so the ad
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 
@@ -15,8 +15,10 @@ from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import compiled_loop
 from symgen.compile.loopcode.vectors import copied, follow, total
 from symgen.compile.native import types
+from symgen.compile.native.annotations import Array, Integers, Record, function_type, signature_from
 from symgen.run.layout import abi
-from symgen.run.layout.scheme_records import TABLEAU
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops.frame import loop
 from symgen.run.loops.schemes.explicit import ADAPTIVE_PARTS, CONSTANT_PARTS
 from symgen.run.loops.schemes.explicit import attempt as adaptive_step
@@ -30,25 +32,23 @@ RECORDS, ROUNDS, KEPT_STEPS, TURNING, HEAD = 0, 1, 2, 3, 8
 #: Positions in a record: time [s], step [s], rounds of corrections, angles that count turns; the state stands behind a
 #: multiple of so many numbers, which vectors are.
 TIME, STEP, CORRECTIONS, ANGLES, _ALIGNED = 0, 1, 2, 3, 8
-_F, _I = types.float64, types.int64
-_A, _K = types.float64[::1], types.int64[::1]
 #: Adjoint of ``rhs``: adjoints of y, p, w and ydot follow its arguments.
-RATES = types.FunctionType(types.int64(_F, _A, _A, _A, _K, _A, _A, _A, _A, _A))
-
+Rates = Callable[[float, Array, Array, Array, Integers, Array, Array, Array, Array, Array], int]
 #: Adjoint of ``accept`` with some rounds: adjoints of y, p and w follow its arguments.
-CORRECTION = types.FunctionType(types.int64(_F, _A, _A, _A, _K, _A, _A, _A))
+Correction = Callable[[float, Array, Array, Array, Integers, Array, Array, Array], int]
+RATES, CORRECTION = function_type(Rates), function_type(Correction)
 
 
-class Corrections(NamedTuple):
+class Corrections(Record):
     """Adjoints of ``accept`` with some rounds before its last one."""
 
-    none: Any
-    one: Any
-    two: Any
-    three: Any
+    none: Correction
+    one: Correction
+    two: Correction
+    three: Correction
 
 
-class Transposed(NamedTuple):
+class Transposed(Record):
     """Coefficients of a scheme by columns, as the adjoint takes them.
 
     Attributes
@@ -58,12 +58,12 @@ class Transposed(NamedTuple):
         then a row of ones for all stages.
     """
 
-    start: Any
-    column: Any
-    value: Any
+    start: Integers
+    column: Integers
+    value: Array
 
 
-def transposed(scheme: Any) -> Transposed:
+def transposed(scheme: TableauRecord) -> Transposed:
     """Return the coefficients of a tableau by columns."""
     stages, start, column, value = int(scheme.stages), [0], list[int](), list[float]()
     first, columns, values = (x.tolist() for x in (scheme.start, scheme.column, scheme.value))
@@ -90,7 +90,7 @@ def record_size(width: int, stages: int, angles: int) -> int:
     return state_at(angles) + (1 + stages) * width
 
 
-def keep_forward(system: Any, scheme: Any, run: Any, t: float, memory: int, stages: Any) -> None:
+def keep_forward(system: ModelSystem, scheme: TableauRecord, run: Run, t: float, memory: int, stages: Array) -> None:
     """Keep an accepted step."""
     width, count, angles = system.sizes.width, int(run.memory[memory + RECORDS]), int(run.memory[memory + TURNING])
     head = state_at(angles)
@@ -107,7 +107,14 @@ def keep_forward(system: Any, scheme: Any, run: Any, t: float, memory: int, stag
 
 
 def attempt_constant(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: TableauRecord,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a constant step; note how many rounds of corrections there were before."""
     run.memory[ROUNDS] = run.iw[abi.ITERATIONS]
@@ -115,25 +122,32 @@ def attempt_constant(
 
 
 def attempt_adaptive(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: TableauRecord,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try an adaptive step; note how many rounds of corrections there were before."""
     run.memory[scheme.nodes.shape[0] * system.sizes.width + ROUNDS] = run.iw[abi.ITERATIONS]
     return float(adaptive_step(system, scheme, span, run, t, following, h, between))
 
 
-def renew_constant(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew_constant(system: ModelSystem, scheme: TableauRecord, span: Span, run: Run, t: float, changed: bool) -> None:
     """Keep a constant step."""
     keep_forward(system, scheme, run, t, 0, run.room)
 
 
-def renew_adaptive(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew_adaptive(system: ModelSystem, scheme: TableauRecord, span: Span, run: Run, t: float, changed: bool) -> None:
     """Keep an adaptive step, and set the first stage of the next one."""
     keep_forward(system, scheme, run, t, scheme.nodes.shape[0] * system.sizes.width, run.memory)
     set_first_stage(system, scheme, span, run, t, changed)
 
 
-def prepare_adaptive(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare_adaptive(system: ModelSystem, scheme: TableauRecord, span: Span, run: Run) -> None:
     """Keep a step that ends where rates have a kink, and set the first stage of the next one."""
     memory = scheme.nodes.shape[0] * system.sizes.width
     if run.control[abi.STEPS] > run.memory[memory + KEPT_STEPS]:
@@ -153,13 +167,31 @@ adaptive = loop(
 
 
 def undo(
-    corrections: Any, rounds: int, t: float, y: Any, p: Any, w: Any, iw: Any, y_bar: Any, p_bar: Any, w_bar: Any
+    corrections: Corrections,
+    rounds: int,
+    t: float,
+    y: Array,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    y_bar: Array,
+    p_bar: Array,
+    w_bar: Array,
 ) -> None:
     """Do nothing: accepted states are those at the ends of steps."""
 
 
 def undo_rounds(
-    corrections: Any, rounds: int, t: float, y: Any, p: Any, w: Any, iw: Any, y_bar: Any, p_bar: Any, w_bar: Any
+    corrections: Corrections,
+    rounds: int,
+    t: float,
+    y: Array,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    y_bar: Array,
+    p_bar: Array,
+    w_bar: Array,
 ) -> None:
     """Take back a correction: the adjoint of the corrected state becomes the adjoint of the state `y` before."""
     if rounds == 0:
@@ -173,18 +205,18 @@ def undo_rounds(
 
 
 def backward(
-    rates: Any,
-    corrections: Any,
-    scheme: Any,
-    table: Any,
+    rates: Rates,
+    corrections: Corrections,
+    scheme: TableauRecord,
+    table: Transposed,
     width: int,
     angles: int,
-    records: Any,
-    p: Any,
-    w: Any,
-    iw: Any,
-    bars: Any,
-    room: Any,
+    records: Array,
+    p: Array,
+    w: Array,
+    iw: Integers,
+    bars: Array,
+    room: Array,
 ) -> int:
     """Turn the adjoint of the state at the end of a run into adjoints of start, parameters and scratch.
 
@@ -271,13 +303,8 @@ def backward(
     return 0
 
 
-_TABLE = types.RecordType((_K, _K, _A), Transposed)
-_ARGUMENTS = TABLEAU, _TABLE, types.int64, types.int64, _A, _A, _A, _K, _A, _A
-back_through = compiled_loop(__name__, "back_through", backward, types.int64(RATES, types.int64, *_ARGUMENTS))
-back_through_corrected = compiled_loop(
-    __name__,
-    "back_through_corrected",
-    backward,
-    types.int64(RATES, types.RecordType((CORRECTION,) * len(Corrections._fields), Corrections), *_ARGUMENTS),
-    undo=undo_rounds,
-)
+_SIGNATURE = signature_from(backward)
+#: Without corrections their place is that of an unused number.
+_UNCORRECTED = types.int64(RATES, types.int64, *_SIGNATURE.arguments[2:])
+back_through = compiled_loop(__name__, "back_through", backward, _UNCORRECTED)
+back_through_corrected = compiled_loop(__name__, "back_through_corrected", backward, _SIGNATURE, undo=undo_rounds)

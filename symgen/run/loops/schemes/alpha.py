@@ -29,11 +29,13 @@ from typing import Any
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import weigh
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
+from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
 from symgen.run.layout.redundancy import leave_out_rest
 from symgen.run.layout.scales import weights_of
-from symgen.run.layout.scheme_records import ALPHA
+from symgen.run.layout.scheme_records import ALPHA, Alpha
 from symgen.run.loops import sparse
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
@@ -45,18 +47,18 @@ _MOST_ITERATIONS = 20
 ADAPTIVE = False
 
 
-def in_state(sizes: Any, i: int) -> Any:
+def in_state(sizes: Sizes, i: int) -> int:
     """Return the index in the state of the element with rate i: velocities, then the states behind the work."""
     return sizes.nq + i if i < sizes.nv else sizes.nq + i + 1
 
 
-def in_unknowns(sizes: Any, i: int) -> Any:
+def in_unknowns(sizes: Sizes, i: int) -> int:
     """Return the index in k of rate i of v and z."""
     return sizes.nq + i if i < sizes.nv else sizes.unknowns - sizes.states - sizes.nv + i
 
 
 @called
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: Alpha, span: Span, run: Run) -> None:
     """Set ``a0 = v0' + (alpha_m - alpha_f) h v0''``.
 
     With a0 = v0' multipliers would start with an error of order 1. v'' comes from two evaluations; its error enters
@@ -85,7 +87,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 @called
-def move(system: Any, scheme: Any, run: Any, h: float, k: Any, a1: Any, change: Any) -> None:
+def move(system: ModelSystem, scheme: Alpha, run: Run, h: float, k: Array, a1: Array, change: Array) -> None:
     """Set ``run.trial`` and a1 from v1' and z1' in `k`, and `change` to the displacements.
 
     With adaptive steps a0 for this step follows a1.
@@ -111,7 +113,7 @@ def move(system: Any, scheme: Any, run: Any, h: float, k: Any, a1: Any, change: 
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Alpha, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Solve for v1', the multipliers and z1' at the end of the step."""
     sizes = system.sizes
@@ -180,7 +182,7 @@ def attempt(
 
 
 @called
-def alpha_step_error(system: Any, scheme: Any, span: Any, run: Any, following: float, h: float) -> float:
+def alpha_step_error(system: ModelSystem, scheme: Alpha, span: Span, run: Run, following: float, h: float) -> float:
     """Return the error estimate over the tolerance of a step just solved."""
     sizes = system.sizes
     nq, nv, n, width, count = sizes.nq, sizes.nv, sizes.unknowns, sizes.width, sizes.nv + sizes.states
@@ -216,7 +218,7 @@ def alpha_step_error(system: Any, scheme: Any, span: Any, run: Any, following: f
 
 
 @called
-def filtered(system: Any, scheme: Any, run: Any, following: float) -> None:
+def filtered(system: ModelSystem, scheme: Alpha, run: Run, following: float) -> None:
     """Replace a change of v' and z' by J^-1 M times it: residuals, 0 at the end of a step, are linear in both."""
     sizes, nq, n = system.sizes, system.sizes.nq, system.sizes.unknowns
     k, right, change = part(run.room, 0, n), part(run.room, n, n), part(run.room, 2 * n, n)
@@ -234,7 +236,7 @@ def filtered(system: Any, scheme: Any, run: Any, following: float) -> None:
 
 
 @called
-def shift_positions(system: Any, scheme: Any, run: Any, h: float, off: Any, moved: Any) -> None:
+def shift_positions(system: ModelSystem, scheme: Alpha, run: Run, h: float, off: Array, moved: Array) -> None:
     """Set the positions of `moved`: the step just solved, with a displacement `off` longer."""
     nv, n, count = system.sizes.nv, system.sizes.unknowns, system.sizes.nv + system.sizes.states
     a1, a0 = part(run.room, 3 * n, nv), part(run.room, 3 * n + count, nv)
@@ -243,7 +245,7 @@ def shift_positions(system: Any, scheme: Any, run: Any, h: float, off: Any, move
     advance(system, run, off, moved)
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Alpha, span: Span, run: Run, t: float, changed: bool) -> None:
     """Keep the accelerations, the multipliers and the rates at the end of the step."""
     sizes = system.sizes
     nq, n, first, count = sizes.nq, sizes.unknowns, sizes.nq + sizes.nv, sizes.nv + sizes.states

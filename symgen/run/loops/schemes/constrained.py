@@ -5,30 +5,43 @@ from __future__ import annotations
 from typing import Any
 
 from symgen.compile.loopcode.bare import part
+from symgen.compile.native.annotations import Array
+from symgen.run.layout.records import ModelSystem, Run, Sizes
+from symgen.run.layout.scheme_records import ConstrainedStages, PartitionedStages
 from symgen.run.loops import sparse
 from symgen.run.loops.sparse import solve
 
 
-def slopes_at(system: Any, scheme: Any, run: Any, t: float, y: Any, k: Any, place: int) -> None:
+def slopes_at(
+    system: ModelSystem,
+    scheme: ConstrainedStages | PartitionedStages,
+    run: Run,
+    t: float,
+    y: Array,
+    k: Array,
+    place: int,
+) -> None:
     """Write M and D at a state to the first (0) or the second (1) half of the sources of the plan."""
     count = scheme.slopes.shape[0] // 2
     system.tangent(t, y, k, run.p, run.w, part(scheme.slopes, place * count, count))
 
 
-def carry_slopes(scheme: Any) -> None:
+def carry_slopes(scheme: ConstrainedStages | PartitionedStages) -> None:
     """Copy M and D of the second half to the first one."""
     count = scheme.slopes.shape[0] // 2
     for i in range(count):
         scheme.slopes[i] = scheme.slopes[count + i]
 
 
-def factorised(scheme: Any, factors: Any) -> bool:
+def factorised(scheme: ConstrainedStages | PartitionedStages, factors: Array) -> bool:
     """Factorise ``[M D^T; E 0]``; return whether its factors had room."""
     factors[0] = 1.0
     return sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) >= 0
 
 
-def solved(system: Any, scheme: Any, run: Any, right: Any, x: Any) -> None:
+def solved(
+    system: ModelSystem, scheme: ConstrainedStages | PartitionedStages, run: Run, right: Array, x: Array
+) -> None:
     """Solve for accelerations and multipliers x; multipliers of redundant rows are 0."""
     sizes = system.sizes
     for c in range(sizes.m):
@@ -37,7 +50,7 @@ def solved(system: Any, scheme: Any, run: Any, right: Any, x: Any) -> None:
     solve(scheme.plan, scheme.numbers, right, x)
 
 
-def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
+def auxiliary_rates(system: ModelSystem, run: Run, rest: Array, rates: Array) -> None:
     """Write the rates of auxiliary states to `rates`; `rest` are the residuals with rates of 0 of the file's states."""
     sizes = system.sizes
     for i in range(rates.shape[0]):
@@ -47,7 +60,7 @@ def auxiliary_rates(system: Any, run: Any, rest: Any, rates: Any) -> None:
             rates[i] = run.w[sizes.auxiliary + (i - sizes.states if i > 0 else 0)]
 
 
-def step_parts(sizes: Any, room: Any) -> Any:
+def step_parts(sizes: Sizes, room: Array) -> Any:
     """Return the working memory of a step in parts.
 
     Parameters

@@ -9,13 +9,14 @@ coordinates, velocities and auxiliary states.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import total
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.scheme_records import MULTISTEP, TABLEAU
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import MULTISTEP, TABLEAU, Multistep, TableauRecord
 from symgen.run.loops.frame import loop
 from symgen.run.loops.schemes.adams import ADAPTIVE_PARTS as ADAMS_PARTS
 from symgen.run.loops.schemes.adams import DEPTH
@@ -30,7 +31,7 @@ SIZE, ERROR, MOMENT, NUMBERS, PARTS = 0, 1, 2, 3, 3
 
 
 @called
-def keep_errors(system: Any, run: Any, t: float, memory: int, error: Any, other: Any, both: int) -> None:
+def keep_errors(system: ModelSystem, run: Run, t: float, memory: int, error: Array, other: Array, both: int) -> None:
     """Keep the largest errors of directions; with `both`, two estimates are combined as in the error of the state."""
     sizes = system.sizes
     own, lanes = int(run.memory[memory + OWN]), int(run.memory[memory + LANES])
@@ -51,9 +52,10 @@ def keep_errors(system: Any, run: Any, t: float, memory: int, error: Any, other:
                 record[ERROR], record[MOMENT] = largest, t
 
 
-def renew_explicit(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew_explicit(system: ModelSystem, scheme: TableauRecord, span: Span, run: Run, t: float, changed: bool) -> None:
     """Keep the errors of directions, and set the first stage of the next step."""
-    width, row, start = system.sizes.width, scheme.nodes.shape[0], scheme.start
+    row: int = scheme.nodes.shape[0]
+    width, start = system.sizes.width, scheme.start
     error, other = part(run.room, 0, width), part(run.room, width, width)
     h, last = run.clock[abi.STEP], row + scheme.estimates
     total(width, h, start[row], start[row + 1], scheme.column, scheme.value, run.memory, error)
@@ -62,7 +64,7 @@ def renew_explicit(system: Any, scheme: Any, span: Any, run: Any, t: float, chan
     set_first_stage(system, scheme, span, run, t, changed)
 
 
-def renew_adams(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew_adams(system: ModelSystem, scheme: Multistep, span: Span, run: Run, t: float, changed: bool) -> None:
     """Keep the errors of directions, and put the derivative at the accepted state in front of the history."""
     width = system.sizes.width
     error = part(run.room, 0, width)

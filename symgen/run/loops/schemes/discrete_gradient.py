@@ -17,14 +17,15 @@ The memory of a run holds A and lambda, with which the next iteration begins.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import CONSTRAINED
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import CONSTRAINED, ConstrainedStages
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE
 from symgen.run.loops.schemes.constrained import auxiliary_rates, factorised, slopes_at, solved, step_parts
@@ -37,19 +38,19 @@ _MIDDLE_WEIGHT, _INNER_WEIGHT, _OUTER_WEIGHT = 0.28444444444444444, 0.2393143352
 _NODES = 5
 
 
-def gauss_node(g: int) -> Any:
+def gauss_node(g: int) -> float:
     """Return node `g` of the five on the path from 0 to 1."""
     distance = _INNER if g == 1 or g == 3 else _OUTER
     return 0.5 if g == 2 else (0.5 - distance if g < 2 else 0.5 + distance)
 
 
-def gauss_weight(g: int) -> Any:
+def gauss_weight(g: int) -> float:
     """Return the weight of node `g`."""
     return _MIDDLE_WEIGHT if g == 2 else (_INNER_WEIGHT if g == 1 or g == 3 else _OUTER_WEIGHT)
 
 
 @called
-def follow_path(system: Any, run: Any, share: float, h: float, moved: Any, rates: Any, y: Any) -> None:
+def follow_path(system: ModelSystem, run: Run, share: float, h: float, moved: Array, rates: Array, y: Array) -> None:
     """Move positions and auxiliary states of `y` by a share of the step, whose mean velocity `y` has."""
     sizes = system.sizes
     first = sizes.nq + sizes.nv
@@ -62,7 +63,14 @@ def follow_path(system: Any, run: Any, share: float, h: float, moved: Any, rates
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: ConstrainedStages,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Solve for the accelerations and the multipliers of a step."""
     sizes = system.sizes

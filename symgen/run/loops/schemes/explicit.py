@@ -8,14 +8,16 @@ live in one flat buffer: views of rows cost more than a stage.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import combine, copied, follow, total, weigh
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
+from symgen.run.layout.records import ModelSystem, Outputs, Run, Span
 from symgen.run.layout.scales import weights_of, with_work
-from symgen.run.layout.scheme_records import TABLEAU
+from symgen.run.layout.scheme_records import TABLEAU, PartitionedStages, TableauRecord
+from symgen.run.loops.event_loop import EventRun, EventSystem
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import correct, evaluate, store
 from symgen.run.loops.search_records import N_INSIDE
@@ -30,7 +32,14 @@ _SHORTEST = 1e-10
 
 
 def attempt_constant(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: TableauRecord,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a step without an error estimate."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
@@ -46,7 +55,7 @@ def attempt_constant(
 
 
 @called
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: PartitionedStages | TableauRecord, span: Span, run: Run) -> None:
     """Evaluate the first stage; choose a first step as Hairer, Norsett, Wanner, Solving ODEs I, section II.4, do."""
     t, y, width = run.clock[abi.TIME], run.y, system.sizes.width
     first, rate = part(run.memory, 0, width), part(run.memory, width, width)
@@ -76,7 +85,14 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: TableauRecord,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a step; return its error over the tolerance. The unprojected end is kept in working memory."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
@@ -114,7 +130,9 @@ def attempt(
     return size
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(
+    system: ModelSystem, scheme: PartitionedStages | TableauRecord, span: Span, run: Run, t: float, changed: bool
+) -> None:
     """Set the first stage of the next step: the last of this one, unless a correction has changed the state."""
     width, first = system.sizes.width, part(run.memory, 0, system.sizes.width)
     if changed or run.control[abi.KNOWN] == 0:
@@ -126,7 +144,14 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
 
 @called
 def interpolate(
-    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+    system: ModelSystem,
+    scheme: TableauRecord,
+    span: Span,
+    run: Run,
+    outputs: Outputs,
+    t: float,
+    following: float,
+    h: float,
 ) -> None:
     """Write the outputs inside a step, each projected; the status at the end of the step is restored."""
     scheme, run, outputs = bare(scheme), bare(run), bare(outputs)
@@ -156,7 +181,9 @@ def interpolate(
 
 
 @called
-def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+def inside(
+    system: EventSystem, scheme: TableauRecord, run: EventRun, t: float, following: float, h: float, i: int, y: Array
+) -> float:
     """Set `y` to the state at inner point i of a good attempt by its dense output; return its part of the step."""
     width, lanes = system.sizes.width, scheme.dense.shape[0] // scheme.degree
     if i == 0:
@@ -171,7 +198,14 @@ def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: fl
 
 @called
 def complete_stages(
-    system: Any, scheme: Any, run: Any, stages: Any, new: Any, t: float, following: float, h: float
+    system: ModelSystem,
+    scheme: TableauRecord,
+    run: Run,
+    stages: Array,
+    new: Array,
+    t: float,
+    following: float,
+    h: float,
 ) -> None:
     """Evaluate the further stages that outputs need; `new` has the unprojected end, and changes."""
     width, start, last = system.sizes.width, scheme.start, scheme.stages
@@ -183,7 +217,9 @@ def complete_stages(
     run.control[abi.KNOWN] = 1
 
 
-def read_stages(width: int, scheme: Any, x: float, h: float, y: Any, stages: Any, tables: Any, new: Any) -> None:
+def read_stages(
+    width: int, scheme: TableauRecord, x: float, h: float, y: Array, stages: Array, tables: Array, new: Array
+) -> None:
     """Set `new` to the state at the part `x` of a step, from all its stages; `tables` has room for their weights."""
     lanes = scheme.dense.shape[0] // scheme.degree
     powers, weights, power = part(tables, 0, lanes), part(tables, lanes, lanes), 1.0
@@ -194,7 +230,7 @@ def read_stages(width: int, scheme: Any, x: float, h: float, y: Any, stages: Any
     combine(width, h, 0, scheme.nodes.shape[0], scheme.count, weights, stages, y, new)
 
 
-def room(width: int, scheme: Any, windings: int) -> int:
+def room(width: int, scheme: TableauRecord, windings: int) -> int:
     """Return the working memory of a step behind the trial state; `windings` angles count turns."""
     if not scheme.degree:
         return int(scheme.stages) * width

@@ -8,14 +8,13 @@ stages meet the constraints of the state.
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import CONSTRAINED
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import CONSTRAINED, ConstrainedStages
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import TOO_LARGE
 from symgen.run.loops.schemes.constrained import (
@@ -31,7 +30,14 @@ from symgen.run.loops.schemes.lie import exponential_rate
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: ConstrainedStages,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a step, stage by stage."""
     sizes, s_count = system.sizes, scheme.stages

@@ -15,10 +15,12 @@ from typing import Any
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied, weigh
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
+from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.redundancy import leave_out_rest
 from symgen.run.layout.scales import weights_of, with_work
-from symgen.run.layout.scheme_records import STAGES
+from symgen.run.layout.scheme_records import STAGES, Stages
 from symgen.run.loops import sparse
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
@@ -34,7 +36,7 @@ ADAPTIVE = False
 
 
 @called
-def begin_step(system: Any, run: Any, t: float) -> None:
+def begin_step(system: ModelSystem, run: Run, t: float) -> None:
     """Write the unknowns k and the rates of auxiliary states at the beginning of the step to the memory of the run."""
     sizes = system.sizes
     first, n, m = sizes.nq + sizes.nv, sizes.unknowns, sizes.m
@@ -55,7 +57,7 @@ def begin_step(system: Any, run: Any, t: float) -> None:
 
 
 @called
-def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any, rates: Any) -> None:
+def stage_state(system: ModelSystem, scheme: Stages, run: Run, h: float, stage: int, k: Array, rates: Array) -> None:
     """Set ``run.trial`` to y + h sum_j a[stage, j] y'_j; `rates` holds auxiliary states' rates, stage by stage."""
     first, n, ny = system.sizes.nq + system.sizes.nv, system.sizes.unknowns, system.sizes.ny
     copied(system.sizes.width, run.y, run.trial)
@@ -89,7 +91,16 @@ def newton_verdict(moved: float, last: float, least: float, poor: float, at_floo
 
 @called
 def is_rounding(
-    system: Any, scheme: Any, run: Any, h: float, low: int, high: int, k: Any, rates: Any, right: Any, terms: Any
+    system: ModelSystem,
+    scheme: Stages,
+    run: Run,
+    h: float,
+    low: int,
+    high: int,
+    k: Array,
+    rates: Array,
+    right: Array,
+    terms: Array,
 ) -> bool:
     """Return whether the residuals `right` of some stages are rounding of their terms, as with stiff forces."""
     n, count = system.sizes.unknowns, scheme.entries.shape[0] // 2
@@ -110,7 +121,7 @@ def is_rounding(
     return True
 
 
-def is_settled(multipliers: Any, change: Any) -> bool:
+def is_settled(multipliers: Array, change: Array) -> bool:
     """Return whether the last correction of the multipliers, `change`, is rounding."""
     largest = moved = 0.0
     for c in range(multipliers.shape[0]):
@@ -119,7 +130,16 @@ def is_settled(multipliers: Any, change: Any) -> bool:
 
 
 def factorise_stages(
-    system: Any, scheme: Any, run: Any, t: float, h: float, low: int, high: int, k: Any, rates: Any, factors: Any
+    system: ModelSystem,
+    scheme: Stages,
+    run: Run,
+    t: float,
+    h: float,
+    low: int,
+    high: int,
+    k: Array,
+    rates: Array,
+    factors: Array,
 ) -> bool:
     """Factorise the Newton matrix of the stages from `low` to `high` (exclusive); return whether it has room."""
     n, s_count, count = system.sizes.unknowns, scheme.stages, scheme.entries.shape[0] // 2
@@ -135,7 +155,9 @@ def factorise_stages(
     return True
 
 
-def renew_rates(system: Any, scheme: Any, run: Any, t: float, h: float, s: int, k: Any, rates: Any, rest: Any) -> None:
+def renew_rates(
+    system: ModelSystem, scheme: Stages, run: Run, t: float, h: float, s: int, k: Array, rates: Array, rest: Array
+) -> None:
     """Set the rates of auxiliary states at a stage from its present unknowns."""
     sizes = system.sizes
     n, more, states = sizes.unknowns, sizes.ny - sizes.nq - sizes.nv, sizes.states
@@ -147,7 +169,9 @@ def renew_rates(system: Any, scheme: Any, run: Any, t: float, h: float, s: int, 
             rates[s * more + i] = run.w[sizes.auxiliary + (i - states if i > 0 else 0)]
 
 
-def take_rates_of_law(system: Any, scheme: Any, run: Any, t: float, h: float, k: Any, rates: Any) -> None:
+def take_rates_of_law(
+    system: ModelSystem, scheme: Stages, run: Run, t: float, h: float, k: Array, rates: Array
+) -> None:
     """Have auxiliary states follow the law: multipliers of index 2 are of lower order than the state."""
     sizes = system.sizes
     first, of_law = sizes.nq + sizes.nv, part(run.room, 0, sizes.width)
@@ -162,7 +186,7 @@ def take_rates_of_law(system: Any, scheme: Any, run: Any, t: float, h: float, k:
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Stages, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Solve the stages of a step."""
     sizes, s_count = system.sizes, scheme.stages
@@ -253,7 +277,9 @@ def attempt(
 
 
 @called
-def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float, k: Any, rates: Any) -> float:
+def step_error(
+    system: ModelSystem, scheme: Stages, span: Span, run: Run, t: float, h: float, k: Array, rates: Array
+) -> float:
     """Return the error estimate over the tolerance, filtered; `k` and `rates` belong to the stages."""
     sizes, s_count, errors = system.sizes, scheme.stages, scheme.errors
     first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
@@ -301,7 +327,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
     return with_work(system.sizes, span, run, change[first], error)
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Stages, span: Span, run: Run, t: float, changed: bool) -> None:
     """Make the next step evaluate its beginning."""
     run.control[abi.KNOWN] = 0
 

@@ -8,14 +8,14 @@ Geometric Numerical Integration, IV.8). Other coordinates have u' = v.
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.padding import padded
 from symgen.compile.loopcode.vectors import total
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import ROTATIONS
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import ROTATIONS, Rotations
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import evaluate
 
@@ -23,7 +23,7 @@ from symgen.run.loops.frame_parts import evaluate
 FOURTH = 1.0 / 720.0
 
 
-def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, fourth: float, rate: Any) -> None:
+def exponential_rate(v: Array, at: int, u: Array, spins: Integers, nv: int, fourth: float, rate: Array) -> None:
     """Write u' for velocities that begin at index `at` of `v` to `rate`, with `fourth` of four products or 0."""
     for i in range(nv):
         rate[i] = v[at + i]
@@ -39,7 +39,7 @@ def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, fourth: float
 
 
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Rotations, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step of u, v and the auxiliary states, from 0 on."""
     tableau, sizes, y, trial = scheme.tableau, system.sizes, run.y, run.trial

@@ -13,10 +13,12 @@ from typing import Any
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import weigh
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
+from symgen.run.layout.records import ModelSystem, Run, Span
 from symgen.run.layout.scales import weights_of, with_work
-from symgen.run.layout.scheme_records import PARTITIONED
+from symgen.run.layout.scheme_records import PARTITIONED, PartitionedStages
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import TOO_LARGE, evaluate
 from symgen.run.loops.schemes.constrained import (
@@ -31,7 +33,9 @@ from symgen.run.loops.schemes.explicit import prepare, renew
 from symgen.run.loops.schemes.lie import FOURTH, exponential_rate
 
 
-def combine_stages(system: Any, run: Any, h: float, weights: Any, count: int, turning: Any, moved: Any, y: Any) -> None:
+def combine_stages(
+    system: ModelSystem, run: Run, h: float, weights: Array, count: int, turning: Array, moved: Array, y: Array
+) -> None:
     """Set `y` to the state at the beginning moved by `count` stages with these weights; `moved` gets its turn."""
     sizes = system.sizes
     nq, nv, width = sizes.nq, sizes.nv, sizes.width
@@ -49,7 +53,9 @@ def combine_stages(system: Any, run: Any, h: float, weights: Any, count: int, tu
 
 
 @called
-def follow_stages(system: Any, scheme: Any, run: Any, t: float, following: float, h: float) -> bool:
+def follow_stages(
+    system: ModelSystem, scheme: PartitionedStages, run: Run, t: float, following: float, h: float
+) -> bool:
     """Set the trial state to the end of a step; return whether its factors had room."""
     sizes, s_count = system.sizes, scheme.stages
     nq, nv, m, n, first, width = sizes.nq, sizes.nv, sizes.m, sizes.unknowns, sizes.nq + sizes.nv, sizes.width
@@ -101,7 +107,14 @@ def follow_stages(system: Any, scheme: Any, run: Any, t: float, following: float
 
 @called
 def attempt_constant(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: PartitionedStages,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a step without an error estimate."""
     return 0.0 if follow_stages(system, scheme, run, t, following, h) else TOO_LARGE
@@ -109,7 +122,14 @@ def attempt_constant(
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: PartitionedStages,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a step; return its error over the tolerance, by the embedded scheme, whose velocities are projected."""
     if not follow_stages(system, scheme, run, t, following, h):

@@ -19,10 +19,13 @@ from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.nodes import PLACES, distance, expand, extrapolate, place
 from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.annotations import Array
 from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
+from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
 from symgen.run.layout.scales import still, weights_of
 from symgen.run.layout.scheme_records import NODES as SCHEME
+from symgen.run.layout.scheme_records import Nodes
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, evaluate
 from symgen.run.loops.schemes.explicit import attempt as one_step
@@ -67,7 +70,9 @@ STRICT = 10.0
 _LEFT_OUT = 12.0
 
 
-def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: Any, weights: Any) -> None:
+def weigh_rates(
+    system: ModelSystem, scheme: Nodes, span: Span, run: Run, h: float, ends: Array, weights: Array
+) -> None:
     """Set `weights` to factors that turn squares of rates into squares of errors over tolerances in a step of `h` [s].
 
     `ends` are states at the nodes, of which the last is the end of the step. Errors of accelerations count as errors of
@@ -96,7 +101,7 @@ def weigh_rates(system: Any, scheme: Any, span: Any, run: Any, h: float, ends: A
             weights[rows[c]] += 0.25 * h * h * weights[rows[c + count]]
 
 
-def step_rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
+def step_rests(sizes: Sizes, span: Span, run: Run, ends: Array) -> bool:
     """Return whether no velocity is more than its tolerance at the beginning and at the end of a step."""
     share, largest = weights_of(span, run), 0.0
     for i in range(sizes.nq, sizes.nq + sizes.nv):
@@ -105,7 +110,7 @@ def step_rests(sizes: Any, span: Any, run: Any, ends: Any) -> bool:
 
 
 def begin_nodes(
-    system: Any, scheme: Any, run: Any, t: float, following: float, h: float, times: Any, rates: Any
+    system: ModelSystem, scheme: Nodes, run: Run, t: float, following: float, h: float, times: Array, rates: Array
 ) -> None:
     """Set the times of nodes, and their first rates: by the polynomial of the step before, or those at the start."""
     rows, table, width = scheme.rows, scheme.table, system.sizes.width
@@ -139,7 +144,7 @@ def ratio_at_aim(change: float, fall: float, iterations: int) -> float:
     return ratio
 
 
-def set_end(sizes: Any, run: Any, states: Any) -> None:
+def set_end(sizes: Sizes, run: Run, states: Array) -> None:
     """Set the trial state to the one at the last node."""
     copied(sizes.width, run.y, run.trial)
     for i in range(sizes.ny):
@@ -147,7 +152,7 @@ def set_end(sizes: Any, run: Any, states: Any) -> None:
 
 
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Nodes, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step; rates, their Legendre coefficients and the next step over this one are kept in working memory."""
     sizes, rows, table = system.sizes, scheme.rows, scheme.table
@@ -239,7 +244,9 @@ def attempt(
 
 
 @called
-def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> float:
+def step_across(
+    system: ModelSystem, scheme: Nodes, span: Span, run: Run, t: float, following: float, h: float
+) -> float:
     """Try a step across a singular position, where iterations diverge, by `dop853`; return its error."""
     width, tableau = system.sizes.width, scheme.tableau
     begin_polynomial(system, run, t)
@@ -251,24 +258,24 @@ def step_across(system: Any, scheme: Any, span: Any, run: Any, t: float, followi
     return max(2.0, error)
 
 
-def refuse(run: Any) -> None:
+def refuse(run: Run) -> None:
     """Restart where two attempts in a row were refused: the polynomial of the step before is misleading."""
     if run.control[abi.REFUSED] == 1:
         run.memory[STALE] = 1.0
 
 
-def shrunk(span: Any, run: Any, error: float) -> float:
+def shrunk(span: Span, run: Run, error: float) -> float:
     """Return the next step over a refused one."""
     return float(run.room[RATIO])
 
 
-def grown(span: Any, run: Any, h: float, error: float) -> float:
+def grown(span: Span, run: Run, h: float, error: float) -> float:
     """Return the next step over an accepted one."""
     return float(run.room[RATIO])
 
 
 @called
-def begin_polynomial(system: Any, run: Any, t: float) -> None:
+def begin_polynomial(system: ModelSystem, run: Run, t: float) -> None:
     """Clear the polynomial; evaluate the rates at the start of a step."""
     evaluate(system, run, t, run.y, part(run.memory, NODES, system.sizes.width))
     run.control[abi.EVALUATIONS] += 1
@@ -276,7 +283,7 @@ def begin_polynomial(system: Any, run: Any, t: float) -> None:
 
 
 @called
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: Nodes, span: Span, run: Run) -> None:
     """Initialise the memory, and choose a first step."""
     sizes, first, t = system.sizes, part(run.memory, NODES, system.sizes.width), run.clock[abi.TIME]
     begin_polynomial(system, run, t)
@@ -294,7 +301,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     run.clock[abi.NEXT] = min(step, span.until - t)
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Nodes, span: Span, run: Run, t: float, changed: bool) -> None:
     """Store the rates at the end of the step, and its polynomial, where the iteration has converged."""
     if run.room[ADRIFT] != 0.0:
         begin_polynomial(system, run, t)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called, viewing
 from symgen.compile.loopcode.nodes import PLACES, POINTS, TERMS, integrate_legendre, place, refine, sum_up
 from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.annotations import Array
 from symgen.compile.native.types import NODES
 from symgen.run.layout import abi
-from symgen.run.layout.records import Run
+from symgen.run.layout.records import ModelSystem, Outputs, Run, Span
+from symgen.run.layout.scheme_records import Nodes, TableauRecord
+from symgen.run.loops.event_loop import EventRun, EventSystem
 from symgen.run.loops.frame_parts import correct, evaluate, store
 from symgen.run.loops.schemes.explicit import complete_stages, read_stages
 from symgen.run.loops.schemes.picard_memory import (
@@ -37,7 +38,7 @@ from symgen.run.loops.watch import keep_maxima
 
 
 @called
-def one_by_one(system: Any, run: Any, times: Any, states: Any, rates: Any) -> None:
+def one_by_one(system: ModelSystem, run: Run, times: Array, states: Array, rates: Array) -> None:
     """Evaluate the right-hand side at one node after another."""
     n, width = system.sizes.ny, system.sizes.width
     y, rate = part(run.room, WIDE + STATE * width, width), part(run.room, WIDE + RATE * width, width)
@@ -52,7 +53,7 @@ def one_by_one(system: Any, run: Any, times: Any, states: Any, rates: Any) -> No
 
 
 @viewing
-def as_one_step(system: Any, tableau: Any, run: Any) -> Any:
+def as_one_step(system: ModelSystem, tableau: TableauRecord, run: Run) -> Run:
     """Return the run with the stages of a step across a singular position for its memory."""
     width = system.sizes.width
     stages = part(run.room, WIDE + STATES * width, tableau.nodes.shape[0] * width)
@@ -63,7 +64,7 @@ def as_one_step(system: Any, tableau: Any, run: Any) -> Any:
 
 @called
 def interpolate(
-    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+    system: ModelSystem, scheme: Nodes, span: Span, run: Run, outputs: Outputs, t: float, following: float, h: float
 ) -> None:
     """Write the outputs inside a step, each corrected; the status at the end of the step is restored.
 
@@ -116,7 +117,9 @@ def interpolate(
         run.w[abi.WINDING + i] = angles[i]
 
 
-def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: float, i: int, y: Any) -> float:
+def inside(
+    system: EventSystem, scheme: Nodes, run: EventRun, t: float, following: float, h: float, i: int, y: Array
+) -> float:
     """Set `y` to the state at a node inside a good attempt, and return its part of the step; 0 without nodes."""
     if run.room[ADRIFT] != 0.0:
         return 0.0
@@ -127,7 +130,7 @@ def inside(system: Any, scheme: Any, run: Any, t: float, following: float, h: fl
 
 
 @called
-def refine_rates(system: Any, scheme: Any, run: Any, t: float, h: float) -> None:
+def refine_rates(system: ModelSystem, scheme: Nodes, run: Run, t: float, h: float) -> None:
     """Evaluate rates between the nodes; set Legendre coefficients that they correct."""
     rows, width, size = scheme.rows, system.sizes.width, NODES * system.sizes.width
     states, more = part(run.room, WIDE + STATES * width, size), part(run.room, WIDE + MORE * width, size)

@@ -15,13 +15,14 @@ The memory of a run holds the rates of the state, the multipliers, and the large
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
+from symgen.compile.native.annotations import Array, Integers
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import PROJECTION
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import PROJECTION, Projection
 from symgen.run.loops import sparse
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE, evaluate
@@ -33,7 +34,9 @@ _LEAST_PENALTY = 1e3
 
 
 @called
-def lead(system: Any, scheme: Any, run: Any, t: float, h: float, penalty: float, k: Any, shift: Any) -> bool:
+def lead(
+    system: ModelSystem, scheme: Projection, run: Run, t: float, h: float, penalty: float, k: Array, shift: Array
+) -> bool:
     """Factorise W at the trial state; return whether its factors had room."""
     quarter, factors = 0.25 * h * h, part(run.room, 0, 5)
     system.tangent(t, run.trial, k, run.p, run.w, scheme.slopes)
@@ -44,7 +47,7 @@ def lead(system: Any, scheme: Any, run: Any, t: float, h: float, penalty: float,
 
 
 @called
-def pull_back(factor: float, nv: int, forces: Any, slopes: Any, rest: Any, at: int, right: Any) -> None:
+def pull_back(factor: float, nv: int, forces: Integers, slopes: Array, rest: Array, at: int, right: Array) -> None:
     """Set right = factor D^T times the residuals from index `at` of `rest`."""
     for i in range(nv):
         right[i] = 0.0
@@ -53,7 +56,7 @@ def pull_back(factor: float, nv: int, forces: Any, slopes: Any, rest: Any, at: i
 
 
 @called
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: Projection, span: Span, run: Run) -> None:
     """Store rates and multipliers at the start, and the largest mass."""
     sizes, t = system.sizes, run.clock[abi.TIME]
     width, n = sizes.width, sizes.unknowns
@@ -71,7 +74,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 @called
-def complete_trial(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
+def complete_trial(system: ModelSystem, run: Run, h: float, shift: Array, k: Array) -> None:
     """Set velocities and accelerations, states and their rates, from the changes of positions and states."""
     nq, nv, states, first = system.sizes.nq, system.sizes.nv, system.sizes.states, system.sizes.unknowns
     for i in range(nv):
@@ -84,16 +87,16 @@ def complete_trial(system: Any, run: Any, h: float, shift: Any, k: Any) -> None:
 
 
 def project(
-    system: Any,
-    scheme: Any,
-    run: Any,
+    system: ModelSystem,
+    scheme: Projection,
+    run: Run,
     following: float,
     h: float,
     penalty: float,
-    k: Any,
-    rest: Any,
-    right: Any,
-    change: Any,
+    k: Array,
+    rest: Array,
+    right: Array,
+    change: Array,
 ) -> None:
     """Project velocities, then accelerations, on the constraints; `rest`, `right` and `change` are working memory."""
     sizes = system.sizes
@@ -126,7 +129,7 @@ def project(
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Projection, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Solve for positions and multipliers, then project velocities and accelerations."""
     sizes = system.sizes
@@ -205,7 +208,7 @@ def attempt(
     return 0.0
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Projection, span: Span, run: Run, t: float, changed: bool) -> None:
     """Store rates and multipliers at the end of the step."""
     sizes = system.sizes
     nq, m, width = sizes.nq, sizes.m, sizes.width

@@ -15,14 +15,15 @@ The memory of a run holds B and mu, with which the next iteration begins.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import CONSTRAINED
+from symgen.run.layout.records import ModelSystem, Run, Sizes, Span
+from symgen.run.layout.scheme_records import CONSTRAINED, ConstrainedStages
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, TOO_LARGE
 from symgen.run.loops.schemes.constrained import (
@@ -38,13 +39,13 @@ _MOST_ITERATIONS = 50
 
 
 @called
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: ConstrainedStages, span: Span, run: Run) -> None:
     """Set the stored accelerations and multipliers to 0."""
     for i in range(system.sizes.nv + system.sizes.m):
         run.memory[i] = 0.0
 
 
-def relative_change(sizes: Any, run: Any, change: Any, h: float) -> float:
+def relative_change(sizes: Sizes, run: Run, change: Array, h: float) -> float:
     """Return the change of positions in a step of `h` seconds by one of accelerations, over the size of positions."""
     size, total = 0.0, 0.0
     for i in range(sizes.nv):
@@ -56,7 +57,14 @@ def relative_change(sizes: Any, run: Any, change: Any, h: float) -> float:
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: ConstrainedStages,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Solve for the multipliers of both halves of a step."""
     sizes = system.sizes
@@ -144,7 +152,7 @@ def attempt(
 
 
 @called
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: ConstrainedStages, span: Span, run: Run, t: float, changed: bool) -> None:
     """Store accelerations and multipliers at the end of the step."""
     for i in range(system.sizes.nv + system.sizes.m):
         run.memory[i] = run.room[i]

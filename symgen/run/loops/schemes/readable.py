@@ -7,14 +7,13 @@ are copies, as the run may have changed its modes or inputs since, and no readin
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.records import ModelSystem, Run
-from symgen.run.layout.scheme_records import TABLEAU
+from symgen.run.layout.records import ModelSystem, Outputs, Run, Span, State, System
+from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import correct as correct_plainly
 from symgen.run.loops.frame_parts import interpolate as write_nothing
@@ -29,18 +28,18 @@ from symgen.run.loops.schemes.explicit import renew as set_first_stage
 BEGIN, END, LENGTH, COMPLETE, HEAD = range(5)
 
 
-def memory_of(width: int, scheme: Any, parameters: int, scratch: int) -> int:
+def memory_of(width: int, scheme: TableauRecord, parameters: int, scratch: int) -> int:
     """Return the count of numbers that a run keeps: the memory of the scheme, and its last step."""
     return int(HEAD + 2 * (1 + len(scheme.nodes)) * width + parameters + scratch)
 
 
-def forget_step(width: int, scheme: Any, memory: Any) -> None:
+def forget_step(width: int, scheme: TableauRecord, memory: Array) -> None:
     """Forget the last step: the run goes on from another state."""
     head = scheme.nodes.shape[0] * width
     memory[head + END] = memory[head + BEGIN]
 
 
-def keep_step(width: int, scheme: Any, run: Any, t: float) -> None:
+def keep_step(width: int, scheme: TableauRecord, run: Run, t: float) -> None:
     """Keep an accepted step that ends at a time [s]."""
     memory, stages = run.memory, scheme.nodes.shape[0] * width
     n_p, nw, at = run.p.shape[0], run.w.shape[0], stages + HEAD + width
@@ -52,7 +51,14 @@ def keep_step(width: int, scheme: Any, run: Any, t: float) -> None:
 
 
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem,
+    scheme: TableauRecord,
+    span: Span,
+    run: Run,
+    t: float,
+    following: float,
+    h: float,
+    between: bool,
 ) -> float:
     """Try a step, and keep where it begins: nothing of the step before is read any more."""
     width, memory = system.sizes.width, run.memory
@@ -63,13 +69,13 @@ def attempt(
     return float(try_step(system, scheme, span, run, t, following, h, between))
 
 
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: TableauRecord, span: Span, run: Run, t: float, changed: bool) -> None:
     """Keep an accepted step, and set the first stage of the next one."""
     keep_step(system.sizes.width, scheme, run, t)
     set_first_stage(system, scheme, span, run, t, changed)
 
 
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: TableauRecord, span: Span, run: Run) -> None:
     """Set the first stage, and keep the step before it where it has ended at a kink of rates."""
     if run.control[abi.BEGUN] == 1:
         keep_step(system.sizes.width, scheme, run, run.clock[abi.TIME])
@@ -77,7 +83,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 
 @called
-def read_within_step(model: Any, scheme: Any, state: Any, outputs: Any) -> int:
+def read_within_step(model: System, scheme: TableauRecord, state: State, outputs: Outputs) -> int:
     """Write the first output where it lies inside the last step; return 1, or 0 where it does not."""
     system = ModelSystem(*model)
     sizes, memory, n = system.sizes, state.memory, scheme.nodes.shape[0]

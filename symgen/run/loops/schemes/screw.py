@@ -12,21 +12,22 @@ constraints to rounding. Coordinates that belong to no free body are integrated 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import total
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import SCREWS
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import SCREWS, Screws
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import evaluate
 from symgen.run.loops.schemes.lie import exponential_rate
 
 
 @called
-def rotate_vector(q: Any, e: int, x: Any, at: int, sign: float, result: Any, to: int) -> None:
+def rotate_vector(q: Array, e: int, x: Array, at: int, sign: float, result: Array, to: int) -> None:
     """Write R x to index `to` of `result`, or R^T x for a sign of -1; Euler parameters begin at `e` of `q`."""
     s, a, b, c = q[e], sign * q[e + 1], sign * q[e + 2], sign * q[e + 3]
     x0, x1, x2 = x[at], x[at + 1], x[at + 2]
@@ -37,7 +38,7 @@ def rotate_vector(q: Any, e: int, x: Any, at: int, sign: float, result: Any, to:
 
 
 @called
-def displaced(u: Any, j: int, result: Any) -> None:
+def displaced(u: Array, j: int, result: Array) -> None:
     """Write V(theta) rho, the displacement along a screw, to `result`; theta is at index j of `u`, rho before it."""
     a, b, c = u[j], u[j + 1], u[j + 2]
     x, y, z = u[j - 3], u[j - 2], u[j - 1]
@@ -55,7 +56,7 @@ def displaced(u: Any, j: int, result: Any) -> None:
 
 
 @called
-def screw_rate(twist: Any, j: int, u: Any, rate: Any) -> None:
+def screw_rate(twist: Array, j: int, u: Array, rate: Array) -> None:
     """Write rho' of a body to the place of rho in `rate`; its theta begins at index j."""
     tx, ty, tz, rx, ry, rz = u[j], u[j + 1], u[j + 2], u[j - 3], u[j - 2], u[j - 1]
     wx, wy, wz, lx, ly, lz = twist[j], twist[j + 1], twist[j + 2], twist[j - 3], twist[j - 2], twist[j - 1]
@@ -70,7 +71,7 @@ def screw_rate(twist: Any, j: int, u: Any, rate: Any) -> None:
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Screws, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step of u, the twists, other velocities and the auxiliary states, from 0 on."""
     tableau, sizes, y, trial = scheme.tableau, system.sizes, run.y, run.trial

@@ -16,13 +16,14 @@ sign, is then what is left. The memory of a run holds the last step and its solu
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from symgen.compile.loopcode.bare import part
 from symgen.compile.loopcode.loop_instances import called
 from symgen.compile.loopcode.vectors import copied
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
-from symgen.run.layout.scheme_records import SYMMETRIC
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import SYMMETRIC, Symmetric
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import DIVERGED, evaluate
 
@@ -35,7 +36,7 @@ _AWAY = 0.28867513459481287
 
 
 @called
-def moved(system: Any, run: Any, y: Any) -> None:
+def moved(system: ModelSystem, run: Run, y: Array) -> None:
     """Apply the section ``change`` to the positions of a state."""
     sizes = system.sizes
     if sizes.nq == sizes.nv:
@@ -46,14 +47,14 @@ def moved(system: Any, run: Any, y: Any) -> None:
 
 
 @called
-def set_change(system: Any, scheme: Any, run: Any, share: float, rows: Any) -> None:
+def set_change(system: ModelSystem, scheme: Symmetric, run: Run, share: float, rows: Array) -> None:
     """Set the section ``change`` to ``-D^+`` times a share of `rows`, with D where ``geometry`` was evaluated last."""
     for c in range(system.sizes.m):
         run.w[scheme.residual + c] = share * rows[c]
     scheme.spread(run.p, run.w)
 
 
-def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+def prepare(system: ModelSystem, scheme: Symmetric, span: Span, run: Run) -> None:
     """Forget the last step."""
     for i in range(run.memory.shape[0]):
         run.memory[i] = 0.0
@@ -61,7 +62,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
 
 @called
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Symmetric, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Solve for the rates at both nodes and the moves at both ends."""
     sizes, length, w = system.sizes, run.memory.shape[0], run.w
@@ -144,7 +145,7 @@ def attempt(
 
 
 @called
-def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+def renew(system: ModelSystem, scheme: Symmetric, span: Span, run: Run, t: float, changed: bool) -> None:
     """Store the solution of the step."""
     for i in range(run.memory.shape[0]):
         run.memory[i] = run.room[i]

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from symgen.compile.loopcode.bare import part
 from symgen.run.layout import abi
 from symgen.run.layout.manifold import advance
-from symgen.run.layout.scheme_records import ROTATIONS
+from symgen.run.layout.records import ModelSystem, Run, Span
+from symgen.run.layout.scheme_records import ROTATIONS, Rotations
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import evaluate
 
 
 def attempt(
-    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+    system: ModelSystem, scheme: Rotations, span: Span, run: Run, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step."""
     sizes = system.sizes
