@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from string import Formatter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.bounds.advice import JUMPING
-from symgen.describe.bounds.keys import nouns
 from symgen.describe.bounds.modes import MODE
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
+from symgen.run.modes.refusals import SENTENCES, fixed_words
 from symgen.run.planning.dead_centre import ENDS
 from symgen.run.printed.kept_run import END_CODE, END_TIME
 from symgen.run.single.run import STIFF
 
 if TYPE_CHECKING:
     from symgen.run.compiling.printed_run import PrintedRun
-    from symgen.run.loops.run_spec import RunSpec
+    from symgen.run.loops.run_spec import BoundedRows, RunSpec
 
 _AT = " at t = %.6g s"
 
@@ -43,14 +44,23 @@ def values_of_ends(run: PrintedRun) -> dict[str, Any]:
         "reasons": reasons_of(run),
         "watched": ", ".join(map(c_text, names)),
         "gathers": watched is not None and watched.effects is not None,
+        "bounded_words": None if watched is None or watched.bounded is None else _words(watched.bounded, run),
         "own_events": sum(action != MODE for action in (() if watched is None else watched.actions)),
         "codes": {
             **{"place": END_CODE, "event": e.IMPOSSIBLE_EVENT, "which": e.GATHERING, "accumulation": e.ACCUMULATION},
             **{"sine": abi.LAST_SINE, "fall": abi.FALL, "zone": abi.IN_ZONE, "step": abi.STEP},
             "locking": " || ".join(f"code == {code}" for code in ENDS),
             **{"impossible": e.IMPOSSIBLE, "unprepared": abi.UNPREPARED, "gathered": abi.GATHERED},
+            **{"no_modes": e.NO_MODES, "failure": e.FAILURE, "rows": e.WHICH},
         },
     }
+
+
+def _words(rows: BoundedRows, run: PrintedRun) -> dict[str, str]:
+    """Return the words of the rows with bounds, and the names of all rows, as texts of C."""
+    every = [row.name for row in run.compiled.info.rows]
+    lists = {"bounded": rows.names, "kinds": rows.kinds, "all": rows.nouns, "rows": every or [""]}
+    return {name: ", ".join(map(c_text, words)) for name, words in lists.items()} | {"count": str(len(rows.names))}
 
 
 def c_text(text: str) -> str:
@@ -85,7 +95,31 @@ def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
         yield abi.UNDEFINED, f"the condition of the event '%s' is undefined{_AT}", "event, t"
         reset = "reset: expected velocities that the joints and each other allow, got others"
         yield e.IMPOSSIBLE, f"event '%s': {reset}{_AT}", "event, t"
-        yield e.NO_MODES, f"{nouns('fact')}: expected modes that are determined, got none{_AT}", "t"
+    if run.watched is not None and run.watched.bounded is not None:
+        yield from _faults(run.watched.bounded)
+
+
+def _faults(rows: BoundedRows) -> Iterator[tuple[int, str, str]]:
+    """Yield the faults of modes with the sentences of runs; their codes are negative, as those of ends are positive."""
+    fixed, of_row = (
+        fixed_words(rows),
+        {"kind": "kinds[at]", "kinds": "all[at]", "name": "bounded[at]", "row": "rows[at]"},
+    )
+    of_row |= {"names": "names", "hits": "hits", "t": "t"}
+    of_row |= {"first": f"(double)model->run_events[{e.FIRST_NUMBER}]"}
+    of_row |= {"second": f"(double)model->run_events[{e.SECOND_NUMBER}]"}
+    for fault, sentence in SENTENCES.items():
+        where, expected, got, hint = sentence
+        text = f"{where}: expected {expected}, got {got}" + (f"; {hint}" if hint else "")
+        format_, arguments = "", list[str]()
+        for literal, field, spec, _ in Formatter().parse(text):
+            format_ += literal.replace("%", "%%")
+            if field in fixed:
+                format_ += fixed[field].replace("%", "%%")
+            elif field:
+                format_ += f"%{spec or 's'}"
+                arguments.append(of_row[field])
+        yield -fault, format_, ", ".join(arguments)
 
 
 def _numbers(*places: int) -> str:

@@ -96,9 +96,16 @@ def test_c_says_what_a_run_says(fault: str, integrator: str, tmp_path: Path) -> 
     model = symgen.Model(validate(raw, "file.toml"))
     with pytest.raises(InputError) as refused:
         model.simulate(parameters={"P": wrong}, until=0.2, integrator=integrator, coordinates="absolute")
-    raw["parameters"]["P"] = wrong
     folder = tmp_path / "c"
-    symgen.Model(validate(raw, "file.toml")).generate(folder, target="c", integrator=integrator)
+    if fault == "shared":  # of many parameters
+        raw["parameters"]["P"] = wrong
+        model = symgen.Model(validate(raw, "file.toml"))
+    model.generate(folder, target="c", integrator=integrator)
+    if fault != "shared":  # a file is refused with the wrong value: it is given afterwards
+        main = folder / "main.c"
+        text = main.read_text(encoding="utf-8")
+        assert "press_init(&model);" in text
+        main.write_text(text.replace("press_init(&model);", f"press_init(&model); press_set(&model, 0, {wrong!r});"))
     command = ["cc", "-std=c99", "-O1", *map(str, sorted(folder.glob("*.c"))), "-lm", "-o", str(tmp_path / "run")]
     subprocess.run(command, check=True, timeout=300)
     done = subprocess.run([tmp_path / "run", "0.2"], capture_output=True, text=True, timeout=60, check=False)
