@@ -132,6 +132,14 @@ def _meaning(binder: str, value: Any) -> Meaning:
     return Meaning(binder, getattr(value, "__name__", repr(value)), binder.partition(" ")[0])
 
 
+def schemes() -> list[tuple[str, dict[str, Any]]]:
+    """Return modules of schemes with the names that each of their loops binds; loops of plugins are left out."""
+    modules()
+    found = ((recipe[0], names) for recipe, names in frame.RECIPES.values())
+    own = (scheme for scheme in found if scheme[0].startswith("symgen.run."))
+    return sorted(own, key=lambda scheme: scheme[0])
+
+
 @cache
 def meanings() -> dict[str, list[Meaning]]:
     """Return all meanings of each name besides the one by default."""
@@ -139,9 +147,8 @@ def meanings() -> dict[str, list[Meaning]]:
     for binder, names in dictionaries().items():
         for name, value in names.items():
             found.setdefault(name, []).append(_meaning(binder, value))
-    schemes = [(recipe[0], names) for recipe, names in frame.RECIPES.values()]
-    for module, own in sorted(schemes, key=lambda scheme: scheme[0]):
-        for name, value in own.items():
+    for module, parts in schemes():
+        for name, value in parts.items():
             meaning = _meaning(file_of(module), value)
             if meaning not in found.setdefault(name, []):
                 found[name].append(meaning)
@@ -161,7 +168,7 @@ def _callees(function: Any, bound: dict[str, list[Any]]) -> Iterator[Any]:
 def users() -> dict[str, list[types.FunctionType]]:
     """Return the functions that use each name, of those that are copied with other meanings."""
     bound = dict[str, list[Any]]()
-    for names in (*dictionaries().values(), *(names for _, names in frame.RECIPES.values())):
+    for names in (*map(dict, dictionaries().values()), *(parts for _, parts in schemes())):
         for name, value in names.items():
             bound.setdefault(name, []).append(value)
     waiting: list[Any] = [getattr(root, "py_func", root) for root in ROOTS]
