@@ -37,9 +37,9 @@ _HEAD = """# Names that are bound late
 
 All loops share one source, and so do all turns of events. They call functions by global names, and `Instances` in
 `symgen/compile/loopcode/loop_instances.py` makes copies in which some names mean something else: the step of a scheme,
-the search for events, vector lanes. The function that a name means by default often does nothing. This page, which
-`python -m benchmarks.late_names` makes from the code, says what each name means, and when. Files are those of
-`symgen/run`.
+the search for events, vector lanes. By default most names mean functions of `loops/unbound.py`, which do
+nothing. This page, which `python -m benchmarks.late_names` makes from the code, says what each name means, and when.
+Files are those of `symgen/run`.
 
 ## Who binds names
 
@@ -48,7 +48,7 @@ the search for events, vector lanes. The function that a name means by default o
 """
 _SCHEMES = """
 A scheme, in `loops/schemes`, binds names in the calls of `loop` at the end of its file. `over_rows` inserts the
-compiled loop of one run for `integrate` in `rows/rows.py`. [One frame](internals.md#one-frame) says what differs
+compiled loop of one run for `integrate`. [One frame](internals.md#one-frame) says what differs
 between loops.
 """
 _NAMES = """| name | by default | otherwise |
@@ -132,6 +132,14 @@ def _meaning(binder: str, value: Any) -> Meaning:
     return Meaning(binder, getattr(value, "__name__", repr(value)), binder.partition(" ")[0])
 
 
+def schemes() -> list[tuple[str, dict[str, Any]]]:
+    """Return modules of schemes with the names that each of their loops binds; loops of plugins are left out."""
+    modules()
+    found = ((recipe[0], names) for recipe, names in frame.RECIPES.values())
+    own = (scheme for scheme in found if scheme[0].startswith("symgen.run."))
+    return sorted(own, key=lambda scheme: scheme[0])
+
+
 @cache
 def meanings() -> dict[str, list[Meaning]]:
     """Return all meanings of each name besides the one by default."""
@@ -139,9 +147,8 @@ def meanings() -> dict[str, list[Meaning]]:
     for binder, names in dictionaries().items():
         for name, value in names.items():
             found.setdefault(name, []).append(_meaning(binder, value))
-    schemes = [(recipe[0], names) for recipe, names in frame.RECIPES.values()]
-    for module, own in sorted(schemes, key=lambda scheme: scheme[0]):
-        for name, value in own.items():
+    for module, parts in schemes():
+        for name, value in parts.items():
             meaning = _meaning(file_of(module), value)
             if meaning not in found.setdefault(name, []):
                 found[name].append(meaning)
@@ -161,7 +168,7 @@ def _callees(function: Any, bound: dict[str, list[Any]]) -> Iterator[Any]:
 def users() -> dict[str, list[types.FunctionType]]:
     """Return the functions that use each name, of those that are copied with other meanings."""
     bound = dict[str, list[Any]]()
-    for names in (*dictionaries().values(), *(names for _, names in frame.RECIPES.values())):
+    for names in (*map(dict, dictionaries().values()), *(parts for _, parts in schemes())):
         for name, value in names.items():
             bound.setdefault(name, []).append(value)
     waiting: list[Any] = [getattr(root, "py_func", root) for root in ROOTS]
@@ -177,6 +184,7 @@ def users() -> dict[str, list[types.FunctionType]]:
     return found
 
 
+@cache
 def defaults() -> dict[str, list[tuple[str, str]]]:
     """Return file and name of what each name means by default: where it is used, and no dictionary binds it."""
     found = dict[str, list[tuple[str, str]]]()
@@ -188,14 +196,23 @@ def defaults() -> dict[str, list[tuple[str, str]]]:
     return found
 
 
-#: Parts of the page, by the rooms of what names mean by default.
+#: Parts of the page, by the rooms of the functions that use a name.
 PARTS = {
     "The frame of loops": ("layout/", "loops/"),
     "The turn of events": ("effects/", "modes/"),
     "Rows of sweeps": ("rows/",),
     "Printed runs": ("printed/",),
-    "Arrays and vectors": ("symgen/compile/",),
 }
+#: The last part, of names that functions of the compiler mean by default.
+_VECTORS = "Arrays and vectors"
+
+
+def part_of(name: str) -> str:
+    """Return the part of the page that a name belongs to: that of the lowest room in which it is used."""
+    if all(file.startswith("symgen/compile/") for file, _ in defaults()[name]):
+        return _VECTORS
+    files = [file_of(function.__module__) for function in users()[name]]
+    return next(part for part, rooms in PARTS.items() if any(file.startswith(rooms) for file in files))
 
 
 def said(meaning: Meaning) -> str:
@@ -226,10 +243,10 @@ def page() -> str:
     """Return the page."""
     binders = [f"| `{binder}` | {names.when} |\n" for binder, names in dictionaries().items()]
     text, found, known = [_HEAD, *binders, _SCHEMES], meanings(), defaults()
-    for part, rooms in PARTS.items():
+    for part in (*PARTS, _VECTORS):
         text += [f"\n## {part}\n\n", _NAMES]
         for name, others in found.items():
-            if known[name][0][0].startswith(rooms):
+            if part_of(name) == part:
                 usual = ", ".join(f"`{file}`" for file, _ in known[name])
                 text.append(f"| `{name}` | {usual} | {_otherwise(others)} |\n")
     return "".join(text)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from benchmarks import late_names
 from symgen.compile.loopcode.loop_instances import Meanings
+from symgen.run.loops import unbound
 
 
 def test_the_page_is_made_from_the_code() -> None:
@@ -25,9 +26,19 @@ def test_a_bound_name_is_used_by_a_copied_function() -> None:
 
 def test_a_name_means_one_function_by_default() -> None:
     """Else a scheme that binds it would replace the other one as well; constants may have copies."""
-    found = {name: {file for file, _ in places} for name, places in late_names.defaults().items() if name.islower()}
-    assert found.pop("integrate") == {"printed/kept_run.py", "rows/rows.py"}, "the place of the loop"
-    assert {name: files for name, files in found.items() if len(files) != 1} == {}
+    found = {name: places for name, places in late_names.defaults().items() if name.islower()}
+    assert {name: places for name, places in found.items() if len(places) != 1} == {}
+
+
+def test_functions_that_do_nothing_are_in_one_file_and_name_the_page() -> None:
+    """A jump to the definition of a name ends there."""
+    own = {name: f for name, f in vars(unbound).items() if getattr(f, "__module__", "") == unbound.__name__}
+    functions = {name: f for name, f in own.items() if isinstance(f, types.FunctionType)}
+    assert set(functions) <= {name for name in late_names.meanings()} and len(functions) > 30
+    for name, function in functions.items():
+        assert "``docs/late-names.md`` says who means it when." in str(function.__doc__), name
+    by_default = {name for name, places in late_names.defaults().items() if ("loops/unbound.py", name) in places}
+    assert by_default == set(functions)
 
 
 def tables_of_functions() -> Iterator[str]:

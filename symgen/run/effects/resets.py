@@ -18,6 +18,7 @@ from symgen.run.layout.start_records import Instant, Layout
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState, notes_at
+from symgen.run.loops.unbound import keep_after, keep_before
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -111,14 +112,6 @@ def new_effects(
     chosen, kept = np.zeros(len(effects.names), dtype=np.int64), new_kept_effect(effects.model[0], memory[0], keeps)
     ends = np.full(e.HEAD_OF_EVENTS, math.nan)
     return OfEffects(*functions, effects.model, *actions, chosen, *memory, ends, kept)
-
-
-def keep_before(kept: KeptEffect, y: Array) -> None:
-    """Do nothing: nobody reads the effects of this run."""
-
-
-def keep_after(kept: KeptEffect, now: Instant, first: int, work: EffectWork) -> None:
-    """Do nothing: nobody reads the effects of this run."""
 
 
 def store_before(kept: KeptEffect, y: Array) -> None:

@@ -23,12 +23,13 @@ from symgen.run.layout import abi
 from symgen.run.layout.records import OUTPUTS, SPAN, ModelSystem, Run, Sizes, Span, State
 from symgen.run.loops import frame
 from symgen.run.loops import search_records as searching
-from symgen.run.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate, inside
+from symgen.run.loops.frame_parts import DOUBT, LOOK, NOTHING, REMEMBER, TRY, evaluate
 from symgen.run.loops.frame_parts import correct as plain_correct
 from symgen.run.loops.frame_parts import opened as plain_opened
 from symgen.run.loops.inside import enter_point, stays_away
 from symgen.run.loops.searching import remember
 from symgen.run.loops.switching import cubic
+from symgen.run.loops.unbound import inside
 
 #: Largest correction of an accepted state in units of the tolerance of its step (over the catalogue they are below 1);
 #: and one that is always allowed to a constant step, of angles and of coordinates over the length of the mechanism.

@@ -33,23 +33,17 @@ from symgen.run.loops.frame_parts import (
     ROUGH,
     SEEK,
     TRY,
-    attempt,
     correct,
-    interpolate,
-    is_astray,
     note_step,
     opened,
-    prepare,
-    prepare_search,
     refused,
-    renew,
-    step_to_point,
     store,
     store_between,
     taken_back,
 )
 from symgen.run.loops.judgement import AGAIN, REFUSE, judge_attempt, judge_state
 from symgen.run.loops.step_control import grown, part_of
+from symgen.run.loops.unbound import attempt, interpolate, is_astray, prepare, prepare_search, renew, step_to_point
 from symgen.run.loops.watch import approach, begin, remember_rank, stuck, watch
 
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, the error of n steps of a

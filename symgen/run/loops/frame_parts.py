@@ -1,28 +1,13 @@
-"""Parts of the frame that schemes and targets replace: their plain forms, and the codes that they return.
+"""Parts of the frame that targets replace, the constants that schemes set, and the codes that parts return.
 
-| name | takes | does |
-| --- | --- | --- |
-| `prepare` | system, scheme, span, run | initial data of the scheme |
-| `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
-| `renew` | system, scheme, span, run, t, changed | updates the scheme's memory after the state at `t` was accepted |
-| `shrunk`, `grown` | span, run, [h,] error | ratio of the next step to a refused or accepted one |
-| `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
-| `inside` | system, scheme, run, t, following, h, i, y | a state inside a good attempt |
-| `located` | system, scheme, run, following, h, search | tests whether an event lies inside an acceptable step |
-| `prepare_search` | system, run, doing | other work of `symgen.run.loops.event_loop`: `LOOK`, `REMEMBER`, `RECALL` |
-| `step_to_point` | system, run, h | the step to try: `h`, or one that ends where a point of a table is passed |
-| `is_astray` | span, run, adaptive | whether an accepted state was corrected by more than its error explains |
-
-`attempt` returns its error estimate over the tolerance, 0 without an estimate, and changes no data of the run: it may
-be repeated with a shorter step. All data for the next step are in the arrays of `symgen.run.layout.records.State`, so a
-loop can be left and entered again, in another process too.
+Parts that do nothing by default are in `symgen.run.loops.unbound`.
 """
 
 from __future__ import annotations
 
 from symgen.compile.loopcode.bare import bare, part
 from symgen.compile.loopcode.loop_instances import viewing
-from symgen.compile.native.annotations import Array, Record
+from symgen.compile.native.annotations import Array
 from symgen.run.layout import abi
 from symgen.run.layout.records import ModelSystem, Outputs, Run, Sizes, Span, State
 from symgen.run.loops.watch import keep_maxima
@@ -52,61 +37,6 @@ DOUBT = FAIL + 1
 #: Other work for events: find the side of each on which a run begins; save the memory of emitted functions at the
 #: beginning of a step; restore it.
 LOOK, REMEMBER, RECALL = range(DOUBT + 1, DOUBT + 4)
-
-
-def prepare(system: ModelSystem, scheme: Record, span: Span, run: Run) -> None:
-    """Do nothing: a scheme without memory needs nothing at the start."""
-
-
-def attempt(
-    system: ModelSystem, scheme: Record, span: Span, run: Run, t: float, following: float, h: float, between: bool
-) -> float:
-    """Stand for the step of a scheme."""
-    return DIVERGED
-
-
-def renew(system: ModelSystem, scheme: Record, span: Span, run: Run, t: float, changed: bool) -> None:
-    """Do nothing: a scheme without memory keeps nothing of a step."""
-
-
-def refuse(run: Run) -> None:
-    """Do nothing: the memory of a scheme is valid for another attempt as well."""
-
-
-def interpolate(
-    system: ModelSystem, scheme: Record, span: Span, run: Run, outputs: Outputs, t: float, following: float, h: float
-) -> None:
-    """Stand for the dense output of a scheme."""
-
-
-def inside(
-    system: ModelSystem, scheme: Record, run: Run, t: float, following: float, h: float, i: int, y: Array
-) -> float:
-    """Set `y` to the state at inner point i of a good attempt, before its correction; return its part of the step.
-
-    0 where the scheme has none: then states are those of a cubic through both ends and their rates.
-    """
-    return 0.0
-
-
-def located(system: ModelSystem, scheme: Record, run: Run, following: float, h: float, search: int) -> int:
-    """Return `NOTHING`: placeholder for events, between a good attempt and its acceptance."""
-    return NOTHING
-
-
-def prepare_search(system: ModelSystem, run: Run, doing: int) -> int:
-    """Do nothing: placeholder for the initial sides of events (`LOOK`), `REMEMBER` and `RECALL`."""
-    return NOTHING
-
-
-def step_to_point(system: ModelSystem, run: Run, h: float) -> float:
-    """Return the step to try in place of one of `h` seconds, proposed by the error estimate."""
-    return h
-
-
-def is_astray(span: Span, run: Run, adaptive: bool) -> bool:
-    """Return False: only rows that may jump are examined."""
-    return False
 
 
 # -- parts that depend on the target -----------------------------------------------------------------------------------

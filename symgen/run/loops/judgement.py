@@ -21,10 +21,9 @@ from symgen.run.loops.frame_parts import (
     TOO_LARGE,
     TRY,
     largest_turn,
-    located,
-    refuse,
 )
 from symgen.run.loops.step_control import shrunk
+from symgen.run.loops.unbound import located, refuse
 from symgen.run.loops.watch import meets
 
 #: A step across a singular position is refused only above this multiple of the tolerance, or, if that is tighter, an

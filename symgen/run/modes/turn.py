@@ -13,16 +13,7 @@ from symgen.base.ir.program import MODE_NUMBERS
 from symgen.compile.loopcode.loop_instances import Meanings, called
 from symgen.compile.native import types
 from symgen.compile.native.annotations import Array, Integers, Record, record_type
-from symgen.run.effects.resets import (
-    OfEffects,
-    apply_resets,
-    change_nothing,
-    choose_resets,
-    first_note,
-    forget_resets,
-    keep_after,
-    keep_before,
-)
+from symgen.run.effects.resets import OfEffects, apply_resets, change_nothing, choose_resets, first_note, forget_resets
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Sizes
@@ -30,6 +21,7 @@ from symgen.run.layout.start_records import Instant
 from symgen.run.loops import search_records as records
 from symgen.run.loops.afresh import begin_afresh
 from symgen.run.loops.event_loop import EventState
+from symgen.run.loops.unbound import gather_impacts, keep_after, keep_before, meet_impacts
 from symgen.run.loops.watch import remember_rank
 from symgen.run.modes.agreement import choose_pressed
 from symgen.run.modes.bounded_rows import (
@@ -140,16 +132,6 @@ def refuse_modes(code: int, modes: OfModes, state: EventState) -> int:
 
 
 # -- impacts -----------------------------------------------------------------------------------------------------------
-
-
-def meet_impacts(t: float, modes: OfModes, state: EventState) -> int:
-    """Return `SAME`: a run without gaps has no impacts."""
-    return SAME
-
-
-def gather_impacts(t: float, modes: OfModes, state: EventState) -> int:
-    """Return `SAME`: a run without gaps has no impacts that accumulate."""
-    return SAME
 
 
 def strike_gaps(t: float, modes: OfModes, state: EventState) -> int:

@@ -20,14 +20,24 @@ from symgen.run.layout import abi
 from symgen.run.layout.records import CHUNK, SPAN, RowChunk, Span, System
 from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import EVENT_STATE, EventRun, EventState, EventSystem, decided, evaluate_events, opened
-from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct, prepare_search
+from symgen.run.loops.frame_parts import DOUBT, FAIL, LOOK, TAKE, correct
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
 from symgen.run.loops.switching import is_sought, taken_for
+from symgen.run.loops.unbound import (
+    forget_rests,
+    next_rest,
+    next_time,
+    note_rests,
+    pass_seams,
+    prepare_search,
+    rest_lost_gaps,
+    system_of_steps,
+)
 from symgen.run.modes.bounded_rows import OTHERS, OUT_OF_RANGE, SAME, put_off
 from symgen.run.modes.choice import read_rows
 from symgen.run.modes.strikes import end_flights, end_lost_flights
 from symgen.run.modes.turn import OfModes, rest_gaps
-from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet, recipe_of, system_of_steps
+from symgen.run.printed.kept_run import CHANGED, ENDING, VISIBLE, Traits, Visible, meet, recipe_of
 from symgen.run.rows.row_events import ModelWithModes, begin_row_in_modes
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64
@@ -58,20 +68,10 @@ EXCHANGE = record_type(Exchange)
 # -- seams -------------------------------------------------------------------------------------------------------------
 
 
-def next_time(model: System, state: EventState) -> float:
-    """Return infinity: formulas of a run without seams neither jump nor have kinks over time."""
-    return math.inf
-
-
 def next_seam(model: System, state: EventState) -> float:
     """Return the time of the next seam [s]."""
     _, seams, _, _, _ = model
     return float(due(seams, state.control[abi.PASSED]))
-
-
-def pass_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
-    """Return `QUIET`: a run without seams passes none."""
-    return QUIET
 
 
 @called
@@ -97,24 +97,6 @@ def pass_due_seams(model: ModelWithModes, span: Span, state: EventState) -> int:
 
 
 # -- rests -------------------------------------------------------------------------------------------------------------
-
-
-def forget_rests(modes: OfModes, times: Array, is_begun: bool) -> None:
-    """Do nothing: no gap of a run without gaps comes to rest."""
-
-
-def rest_lost_gaps(t: float, modes: OfModes, state: EventState) -> int:
-    """Return `SAME`: a run without gaps has no flights."""
-    return SAME
-
-
-def note_rests(t: float, modes: OfModes, times: Array) -> None:
-    """Do nothing: no gap of a run without gaps comes to rest."""
-
-
-def next_rest(t: float, modes: OfModes, times: Array) -> float:
-    """Return infinity: no gap of a run without gaps comes to rest."""
-    return math.inf
 
 
 def forget_rests_of_gaps(modes: OfModes, times: Array, is_begun: bool) -> None:
@@ -340,7 +322,7 @@ _RESTING = Meanings(
     next_rest=next_rest_of_gaps,
     rest_lost_gaps=rest_gaps_in_flight,
 )
-_SEAMED = Meanings("FMUs for model exchange with inputs that jump", next_time=next_seam, pass_seams=pass_due_seams)
+_SEAMED = Meanings("FMUs for model exchange with seams", next_time=next_seam, pass_seams=pass_due_seams)
 
 
 def exchanged_run(loop: RuntimeFunction, traits: Traits) -> tuple[Any, Any]:

@@ -15,6 +15,7 @@ from symgen.run.effects.applying import APPLIED, apply_effects
 from symgen.run.effects.resets import OfEffects
 from symgen.run.layout.records import State
 from symgen.run.layout.start_records import Instant
+from symgen.run.loops.unbound import effects_alone, leave_alone
 from symgen.run.modes.bounded_rows import open_rows
 from symgen.run.modes.turn import OfModes
 from symgen.run.printed.kept_run import Traits, recipe_of
@@ -24,19 +25,9 @@ _F, _A, _K = types.float64, types.float64[::1], types.int64
 
 
 @viewing
-def effects_alone(further: OfEffects) -> OfEffects:
-    """Return the effects of events in a run without rows with bounds."""
-    return further
-
-
-@viewing
 def effects_beside_modes(further: OfModes) -> OfEffects:
     """Return the effects of events in a run with rows with bounds."""
     return further.strikes.effects
-
-
-def leave_alone(further: OfEffects, w: Array) -> None:
-    """Do nothing: a run without rows with bounds has no modes."""
 
 
 def open_chosen(further: OfModes, w: Array) -> None:

@@ -25,12 +25,24 @@ from symgen.run.loops.event_loop import EVENT_STATE, MEANINGS, EventState
 from symgen.run.loops.frame_parts import ADAPTIVE
 from symgen.run.loops.schemes.readable import forget_step
 from symgen.run.loops.seams import SEAMS, between_seams, due
+from symgen.run.loops.unbound import (
+    assume_step,
+    begin_choice,
+    forget,
+    integrate,
+    let_go,
+    read_step,
+    return_before_seams,
+    system_of_steps,
+    take_change,
+    take_notes,
+)
 from symgen.run.modes import turn
 from symgen.run.modes.bounded_rows import first_step
 from symgen.run.modes.turn import open_rows_of
 from symgen.run.rows import row_events, rows
 from symgen.run.rows.row_results import follow_rows
-from symgen.run.rows.rows import OBSERVERS, begin_choice, begin_run, forget, take_change, take_notes
+from symgen.run.rows.rows import OBSERVERS, begin_run
 
 _F, _A, _K = types.float64, types.float64[::1], types.int64[::1]
 
@@ -89,11 +101,6 @@ def show(sizes: Sizes, w: Array, outputs: KeptOutput, k: int, y: Array) -> None:
         outputs.status[i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
-def read_step(system: System, scheme: TableauRecord, state: State, outputs: KeptOutput) -> int:
-    """Return 0: nothing can be read of a constant step."""
-    return 0
-
-
 def return_to_shown(
     until: float, scheme: TableauRecord, visible: Visible, state: EventState, outputs: KeptOutput
 ) -> int:
@@ -122,26 +129,12 @@ def return_to_shown(
     return 0 if unchanged or control[abi.BEGUN] == 0 else 1
 
 
-def let_go(model: System, state: State) -> None:
-    """Do nothing: a run without rows with bounds has none in force."""
-
-
 # -- seams -------------------------------------------------------------------------------------------------------------
 
 
 def begin_at_seams(model: System, span: Span, state: EventState) -> int:
     """Choose modes where a run without seams begins; return `DONE` or the code of an end."""
     return int(begin_choice(model, span, state))
-
-
-def return_before_seams(system: System, state: EventState) -> None:
-    """Do nothing: a run without seams has passed none."""
-
-
-@viewing
-def system_of_steps(system: System) -> Any:
-    """Return the first argument of the loop over steps."""
-    return system
 
 
 @viewing
@@ -158,10 +151,6 @@ def forget_later_seams(system: System, state: State) -> None:
 
 
 # -- the run -----------------------------------------------------------------------------------------------------------
-
-
-def assume_step(model: System, span: Span) -> None:
-    """Do nothing: no modes depend on the step that is assumed before the first one."""
 
 
 def assume_first_step(model: System, span: Span) -> None:
@@ -332,21 +321,16 @@ def advance_run(
     return FAILED if code != abi.DONE else ENDED if ended else REACHED
 
 
-def integrate(*arguments: object) -> int:
-    """Mark the place of the loop, which `kept_run` inserts: it is never called."""
-    raise NotImplementedError
-
-
 _loops: dict[Any, KeptLoops] = {}
 _KEPT = Meanings("printed runs", store=show, _MAX_PASSAGES=1, integrate=frame.integrate)
 _OF_ROWS = Meanings("printed runs with bounded rows", assume_step=assume_first_step, let_go=let_rows_go)
 _OF_ROWS_BETWEEN_SEAMS = Meanings(
-    "printed runs with bounded rows and inputs that jump",
+    "printed runs with bounded rows and seams",
     begin_at_seams=row_events.begin_row_between_seams,
     take_change=row_events.choose_after_change,
 )
 _SEAMED = Meanings(
-    "printed runs with inputs that jump",
+    "printed runs with seams",
     return_before_seams=forget_later_seams,
     system_of_steps=system_between_seams,
     integrate=between_seams,

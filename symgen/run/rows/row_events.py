@@ -15,6 +15,7 @@ from symgen.run.loops import search_records as records
 from symgen.run.loops.event_loop import EventState
 from symgen.run.loops.frame_parts import store_behind
 from symgen.run.loops.seams import change, due, go_over, has_gap, has_struck, is_defined, same
+from symgen.run.loops.unbound import keep_ends
 from symgen.run.modes.turn import OfModes, begin_modes, forget_modes, open_rows_of, take_resets, take_turn
 
 #: What a loop over rows takes first where events change runs, or rows have bounds: the first argument of the loop over
@@ -69,10 +70,6 @@ def happen(code: int, model: System, state: EventState) -> int:
         leaves = k < n and hunt[records.N_HEAD + records.ACTION * n + k] == float(records.LEAVE)
         stops = stops or (at == t and leaves)
     return int(abi.DONE) if stops and code == abi.MET else code
-
-
-def keep_ends(model: System, count: int, row: Array) -> None:
-    """Do nothing: events end no run but by their time."""
 
 
 def happen_with_resets(code: int, model: ModelWithEffects, state: EventState) -> int:

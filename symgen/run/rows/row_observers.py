@@ -13,8 +13,9 @@ from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import CHUNK, KEPT_OF_RUN, SPAN, STATE, Kept, RowChunk, Span, State, System
 from symgen.run.loops.seams import SEAMS
+from symgen.run.loops.unbound import take_row
 from symgen.run.rows.row_results import observe_outputs
-from symgen.run.rows.rows import OBSERVERS, SEAMED, take, take_row
+from symgen.run.rows.rows import OBSERVERS, SEAMED, take
 
 
 def observe_left(model: System, span: Span, chunk: RowChunk, state: State, series: Kept, left: Cube) -> int:

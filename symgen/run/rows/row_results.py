@@ -12,6 +12,7 @@ from symgen.run.layout import ensemble_abi as e
 from symgen.run.layout.records import Kept, Observed, Observers, Outputs, RowChunk, Sizes, Span, State, System
 from symgen.run.layout.redundancy import choose_rows
 from symgen.run.loops.frame_parts import store
+from symgen.run.loops.unbound import hold
 from symgen.run.loops.watch import iterations_in
 from symgen.run.single.observe import observe_rates, observe_rows
 
@@ -103,10 +104,6 @@ def follow_rows(chunk: RowChunk, state: State, w: Array) -> int:
     if chunk.dense.shape[0] == 0:
         return 0
     return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
-
-
-def hold(system: System | int, span: Span, chunk: RowChunk, r: int, state: State, times: Array, k: int) -> None:
-    """Do nothing: the same parameters hold at all outputs of a run without seams."""
 
 
 def observe_outputs(

@@ -20,7 +20,6 @@ from symgen.run.layout.records import (
     SPAN,
     Kept,
     Observers,
-    Outputs,
     RowChunk,
     Span,
     State,
@@ -29,6 +28,17 @@ from symgen.run.layout.records import (
 from symgen.run.layout.scheme_records import Nodes, TableauRecord
 from symgen.run.loops.event_loop import with_events
 from symgen.run.loops.seams import parameters_at, select_row, with_seams
+from symgen.run.loops.unbound import (
+    begin_choice,
+    forget,
+    integrate,
+    resumed,
+    store_after,
+    take_change,
+    take_notes,
+    take_row,
+    waits,
+)
 from symgen.run.modes import turn
 from symgen.run.rows import row_events
 from symgen.run.rows.row_results import end_run, follow_rows
@@ -57,43 +67,6 @@ def begin_run(state: State, limits: Array) -> None:
             state.control[i] = 0
     for i in range(state.iw.shape[0]):
         state.iw[i] = 0
-
-
-def forget(model: System, state: State) -> None:
-    """Do nothing: a run without switching functions has no data of them."""
-
-
-def begin_choice(model: System, span: Span, state: State) -> int:
-    """Return `DONE`: a run without bounded rows has no modes to choose."""
-    return int(abi.DONE)
-
-
-def take_change(model: System, span: Span, state: State) -> int:
-    """Return the end code of a run whose parameters its loop cannot prepare."""
-    return int(abi.UNPREPARED)
-
-
-def take_notes(code: int, r: int, model: System, chunk: RowChunk, state: State) -> int:
-    """Return the end code of a run without events."""
-    return code
-
-
-def resumed(state: State) -> int:
-    """Return the end code with which a run that was left for an examination goes on, `DONE` for a new run."""
-    return int(abi.DONE)
-
-
-def waits(code: int, model: System, chunk: RowChunk, state: State) -> bool:
-    """Return whether a run has to be left for an examination: none without rows that may jump."""
-    return False
-
-
-def store_after(code: int, span: Span, state: State, outputs: Outputs) -> None:
-    """Do nothing: outputs of a run without events hold its state."""
-
-
-def take_row(system: System, r: int) -> None:
-    """Do nothing: no row has seams."""
 
 
 def run_rows(
@@ -190,11 +163,6 @@ def hold_between_seams(system: System, span: Span, chunk: RowChunk, r: int, stat
 # -- loops -------------------------------------------------------------------------------------------------------------
 
 
-def integrate(*arguments: object) -> int:
-    """Mark the place of the loop over one run, which `instances` and `on_device` insert."""
-    raise NotImplementedError
-
-
 @jit(entry=True)
 def observe_no_coordinate(t: float, y: Array, p: Array, w: Array, ydot: Array, out: Array) -> int:
     """Replace the emitted ``observe`` where no joint coordinate is requested, so that it is not compiled."""
@@ -220,7 +188,7 @@ MODES = Meanings(
     store_after=row_events.store_after_effects,
 )
 MODES_BETWEEN_SEAMS = Meanings(
-    "sweeps with bounded rows and inputs that jump",
+    "sweeps with bounded rows and seams",
     begin_choice=row_events.begin_row_between_seams,
     take_change=row_events.choose_after_change,
 )
@@ -229,7 +197,7 @@ _EXAMINED = Meanings(
     resumed=row_events.resumed_after_examination,
     waits=row_events.waits_for_examination,
 )
-SEAMED = Meanings("sweeps with inputs that jump", take_row=take_seams, hold=hold_between_seams)
+SEAMED = Meanings("sweeps with seams", take_row=take_seams, hold=hold_between_seams)
 _loops: dict[Any, Any] = {}
 
 

@@ -16,12 +16,12 @@ from symgen.run.layout.records import ModelSystem, Outputs, Run, Span, State, Sy
 from symgen.run.layout.scheme_records import TABLEAU, TableauRecord
 from symgen.run.loops.frame import loop
 from symgen.run.loops.frame_parts import correct as correct_plainly
-from symgen.run.loops.frame_parts import interpolate as write_nothing
 from symgen.run.loops.frame_parts import store
 from symgen.run.loops.schemes.explicit import ADAPTIVE_PARTS, complete_stages, read_stages
 from symgen.run.loops.schemes.explicit import attempt as try_step
 from symgen.run.loops.schemes.explicit import prepare as begin_scheme
 from symgen.run.loops.schemes.explicit import renew as set_first_stage
+from symgen.run.loops.unbound import interpolate as write_nothing
 
 #: Head of the last step: its beginning and end, equal where there is none to read, its length [s], and 1 once all its
 #: stages are known. The state before it, its end before a correction, stages, parameters and scratch follow.
