@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from symgen.describe.bounds.advice import JUMPING
-from symgen.describe.bounds.keys import nouns
-from symgen.describe.bounds.modes import MODE
+from symgen.describe.bounds.bounded_modes import MODE
+from symgen.describe.bounds.keys import nouns_of_families
 from symgen.run.layout import abi
 from symgen.run.layout import ensemble_abi as e
 from symgen.run.planning.dead_centre import ENDS
@@ -59,7 +59,7 @@ def c_text(text: str) -> str:
 
 
 def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
-    """Yield codes, formats and what stands in them."""
+    """Yield codes, formats and their content."""
     spec, words = run.spec, {code: text.replace("%", "%%") for code, text in abi.REASONS.items()}
     jumps = run.watched is not None and run.watched.jumps
     jumping = f"{JUMPING}; {spec.in_place}".replace("%", "%%")
@@ -85,7 +85,7 @@ def _reasons(run: PrintedRun) -> Iterator[tuple[int, str, str]]:
         yield abi.UNDEFINED, f"the condition of the event '%s' is undefined{_AT}", "event, t"
         reset = "reset: expected velocities that the joints and each other allow, got others"
         yield e.IMPOSSIBLE, f"event '%s': {reset}{_AT}", "event, t"
-        yield e.NO_MODES, f"{nouns('fact')}: expected modes that are determined, got none{_AT}", "t"
+        yield e.NO_MODES, f"{nouns_of_families('fact')}: expected modes that are determined, got none{_AT}", "t"
 
 
 def _numbers(*places: int) -> str:
